@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+#include "samples/actuator.hpp"
+#include "samples/depth.hpp"
+#include "samples/dvl.hpp"
+#include "samples/gps.hpp"
+#include "samples/heading.hpp"
+#include "samples/imu.hpp"
+#include "samples/usbl.hpp"
+
+namespace fathom::codec {
+
+using AnySample = std::variant<ImuSample, DvlSample, GpsSample, DepthSample, HeadingSample, UsblSample,
+                               PropulsionSample, FinsSample>;
+
+/// What a frame says about its instant of validity. The bridge turns it into stamp_ns
+/// (runtime/device_time.hpp); codecs leave the stamps of the header at 0.
+struct DeviceTime {
+  /// UTC that the device itself gives (GPS, a disciplined clock).
+  std::optional<TimeNs> utc_ns;
+  /// A free-running clock of the device (since start, or a calendar clock nobody sets): only differences
+  /// count.
+  std::optional<TimeNs> clock_ns;
+  /// UTC time of day without a date (NMEA); the date is completed from the arrival.
+  std::optional<DurationNs> time_of_day_ns;
+  /// How long before the end of transmission the sample was valid, where the frame says so.
+  std::optional<DurationNs> age_ns;
+};
+
+/// Why a frame was refused. Exactly one per refused frame.
+enum class RejectReason : std::uint8_t {
+  checksum = 0,
+  length = 1,     ///< declared length impossible, frame longer than the limit, or cut short
+  structure = 2,  ///< framed and summed correctly, but its inside contradicts itself (offsets, field count)
+  field = 3,      ///< a field is not a number, or not one of its words
+  out_of_range = 4,  ///< a number that no instrument of this kind can mean
+  no_checksum = 5,   ///< the protocol wants one and the configuration insists
+  truncated = 6,     ///< the stream ended inside the frame
+};
+[[nodiscard]] std::string_view to_string(RejectReason reason);
+
+struct Decoded {
+  AnySample sample;
+  DeviceTime time;
+  std::uint64_t offset = 0;  ///< of the frame's first byte in the stream
+  std::uint64_t length = 0;
+};
+
+struct Rejected {
+  RejectReason reason = RejectReason::checksum;
+  std::uint64_t offset = 0;
+  std::uint64_t length = 0;
+};
+
+/// Receives what a codec finds, in stream order.
+class Sink {
+ public:
+  virtual ~Sink() = default;
+  virtual void on_sample(const Decoded& decoded) = 0;
+  virtual void on_rejected(const Rejected& rejected) = 0;
+};
+
+/// bytes = inside good frames (whether or not they carried a sample) + rejected frames + skipped_bytes.
+struct Totals {
+  std::uint64_t bytes = 0;
+  std::uint64_t samples = 0;
+  std::uint64_t frames_ignored = 0;  ///< good frames of kinds that carry no sample
+  std::uint64_t rejected = 0;
+  std::uint64_t skipped_bytes = 0;  ///< between frames
+};
+
+/// Incremental decoder of one byte stream. The result does not depend on how the bytes are cut; memory is
+/// bounded whatever arrives; after garbage it finds the next good frame, including one that starts inside a
+/// refused one.
+class Codec {
+ public:
+  virtual ~Codec() = default;
+  virtual void feed(std::span<const std::uint8_t> bytes, Sink& sink) = 0;
+  /// The stream has ended: what is complete is delivered, what is cut is rejected.
+  virtual void finish(Sink& sink) = 0;
+  [[nodiscard]] virtual Totals totals() const = 0;
+};
+
+}  // namespace fathom::codec

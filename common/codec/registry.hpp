@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "codec/codec.hpp"
+
+namespace fathom::codec {
+
+/// What a codec needs to be told because the bytes do not say it. Each protocol reads the fields it knows.
+struct CodecOptions {
+  bool require_checksum = true;         ///< NMEA 0183
+  double latitude_rad = 0.0;            ///< pressure to depth
+  double atmosphere_Pa = 101'325.0;     ///< pressure to depth
+  double pressure_unit_Pa = 6'894.757;  ///< of one unit of a Paroscientific value (psi)
+  bool value_is_depth = false;          ///< the value is metres of depth already
+  /// ASCII depth line: text before the number, the number's factor to metres (or to pascal) and its offset.
+  std::string_view ascii_prefix;
+  double ascii_scale = 1.0;
+  double ascii_offset = 0.0;
+  /// Rotation of the recorded instrument axes about down onto the vehicle, for DVLs in instrument axes.
+  double dvl_heading_alignment_rad = 0.0;
+  double usbl_sigma_floor_m = 0.0;
+};
+
+/// One protocol that this build decodes.
+struct Protocol {
+  std::string_view name;                      ///< e.g. "pd0"
+  std::span<const std::string_view> aliases;  ///< e.g. "teledyne_pd0"
+  std::string_view description;
+  std::unique_ptr<Codec> (*make)(const CodecOptions& options);
+};
+
+/// Every protocol, in the order of the documentation. A new protocol is one file and one line in
+/// registry.cpp.
+[[nodiscard]] std::span<const Protocol> protocols();
+
+/// By name or alias; case and '-' versus '_' do not matter. Null when there is none.
+[[nodiscard]] const Protocol* find_protocol(std::string_view name);
+
+}  // namespace fathom::codec

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "base/unknown.hpp"
+#include "samples/header.hpp"
+
+namespace fathom {
+
+struct AirspeedSample {
+  SampleHeader header;
+  double airspeed_m_s = kUnknown;     ///< indicated
+  double baro_altitude_m = kUnknown;  ///< up
+  double sigma_m_s = kUnknown;
+};
+
+}  // namespace fathom
