@@ -1,0 +1,35 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "base/exit_code.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace fathom::cli {
+
+/// Ends a sub-command that cannot do its work. main() prints `fathom: MESSAGE` as one line on stderr and ends
+/// with the code. The message reads `FILE: key or line: what is wrong, what was expected`.
+class Failure : public std::runtime_error {
+ public:
+  Failure(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  [[nodiscard]] ExitCode code() const { return code_; }
+
+ private:
+  ExitCode code_;
+};
+
+// A sub-command is one file NAME.cpp with one function
+//
+//   void add_NAME(CLI::App& app, ExitCode& exit_code);
+//
+// declared below and called in main.cpp. It adds the sub-command with its options and a callback that does
+// the work. Option values live in a std::shared_ptr that the callback holds. The callback throws Failure, or
+// sets `exit_code` where the answer is not plain success ("no", "unhealthy").
+
+void add_decode(CLI::App& app, ExitCode& exit_code);
+
+}  // namespace fathom::cli

@@ -1,0 +1,42 @@
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "base/exit_code.hpp"
+#include "cli/command.hpp"
+
+namespace {
+
+int fail(fathom::ExitCode code, std::string message) {
+  for (char& c : message) {
+    if (c == '\n') c = ' ';
+  }
+  std::fprintf(stderr, "fathom: %s\n", message.c_str());
+  return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using fathom::ExitCode;
+  CLI::App app{"Navigation as services on a vehicle network.", "fathom"};
+  app.require_subcommand(1);
+  ExitCode exit_code = ExitCode::done;
+
+  fathom::cli::add_decode(app, exit_code);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return fail(ExitCode::bad_configuration, std::string(error.what()) + "; see --help");
+  } catch (const fathom::cli::Failure& failure) {
+    return fail(failure.code(), failure.what());
+  } catch (const std::exception& error) {
+    return fail(ExitCode::runtime_failure, error.what());
+  }
+  return static_cast<int>(exit_code);
+}
