@@ -1,0 +1,122 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/name.hpp"
+#include "base/time.hpp"
+#include "samples/actuator.hpp"
+#include "samples/airspeed.hpp"
+#include "samples/depth.hpp"
+#include "samples/dvl.hpp"
+#include "samples/gps.hpp"
+#include "samples/heading.hpp"
+#include "samples/imu.hpp"
+#include "samples/truth.hpp"
+#include "samples/usbl.hpp"
+#include "samples/verdict.hpp"
+
+/// A recorded or simulated vehicle as a folder of CSV files, one per sensor, each plain or .gz.
+///
+/// | file | required columns | optional columns |
+/// |---|---|---|
+/// | imu.csv | t_s, g{x,y,z}_rad_s, a{x,y,z}_m_s2 | |
+/// | gps.csv | t_s, lat_deg, lon_deg, alt_m, sigma_{n,e,d}_m, v{n,e,d}_m_s, fix | sigma_v{n,e,d}_m_s,
+/// satellites | | dvl.csv | t_s, v{x,y,z}_m_s | b1..b4_m_s, valid (0 or 1), sigma_m_s, altitude_m, mode
+/// (bottom or water) | | depth.csv | t_s, depth_m | sigma_m | | heading.csv | t_s, heading_deg | sigma_deg,
+/// north (true or magnetic) | | usbl.csv | t_s, lat_deg, lon_deg, depth_m, sigma_m | | | airspeed.csv | t_s,
+/// airspeed_m_s | baro_alt_m | | propulsion.csv | t_s, rpm | | | fins.csv | t_s, rudder_rad, stern_rad | | |
+/// reference.csv | t_s, lat_deg, lon_deg, alt_m, v{n,e,d}_m_s, {roll,pitch,yaw}_deg | |
+///
+/// Any file may have t_received_s, the instant of arrival; without it a measurement arrives when it is valid.
+/// A missing file is a missing sensor. Other columns are ignored. A blank field or "nan" is unknown, except
+/// in t_s. Rows are sorted by t_s, or by t_received_s where that column exists; equal times are allowed (they
+/// are duplicates for the estimator to judge). `fix`: 0 none, 1 RTK fixed, 2 RTK float, 3 or 4 differential,
+/// 5 single, 6 precise point positioning.
+namespace fathom::dataset {
+
+/// The folder or a file in it cannot be used. what() is "FILE:LINE: what is wrong, what was expected", or
+/// "FILE: ..." where no line is to blame.
+class DatasetError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Sensor streams in the order of their files. header.sensor is the name of the kind ("imu", "gps", "dvl",
+/// "depth", "heading", "usbl", "airspeed", "propulsion", "fins", "reference"), header.sequence counts from 0.
+struct Dataset {
+  std::vector<ImuSample> imu;
+  std::vector<GpsSample> gps;
+  std::vector<DvlSample> dvl;
+  std::vector<DepthSample> depth;
+  std::vector<HeadingSample> heading;
+  std::vector<UsblSample> usbl;
+  std::vector<AirspeedSample> airspeed;
+  std::vector<PropulsionSample> propulsion;
+  std::vector<FinsSample> fins;
+  std::vector<Truth> reference;
+};
+
+/// The instant that t_s = 0 means where nothing else is said: 2020-01-01T00:00:00Z.
+inline constexpr TimeNs kDefaultEpochNs = 1'577'836'800 * kNsPerSecond;
+
+struct ReadOptions {
+  TimeNs epoch_ns = kDefaultEpochNs;  ///< UTC of t_s = 0
+  Name vehicle = "auv";
+};
+
+/// Throws DatasetError.
+[[nodiscard]] Dataset read(const std::filesystem::path& directory, const ReadOptions& options = {});
+
+struct WriteOptions {
+  TimeNs epoch_ns = kDefaultEpochNs;  ///< subtracted from every stamp to give t_s
+  bool gzip = false;                  ///< NAME.csv.gz instead of NAME.csv
+};
+
+/// Writes one file per stream that is not empty into `directory`, which is created when absent. Numbers are
+/// written so that reading gives the same value back; optional columns only where some row knows them;
+/// t_received_s only where some sample did not arrive at its stamp. Throws DatasetError.
+void write(const std::filesystem::path& directory, const Dataset& data, const WriteOptions& options = {});
+
+/// One sample of a Dataset in the order of arrival: the element `index` of the stream `source`.
+struct Arrival {
+  TimeNs received_ns = 0;
+  SourceKind source = SourceKind::imu;
+  std::uint32_t index = 0;
+};
+
+/// All sensor samples (not the reference) by received_ns; at equal instants in the order of SourceKind (the
+/// inertial sample first), then of the file.
+[[nodiscard]] std::vector<Arrival> arrivals(const Dataset& data);
+
+/// Calls `consumer` with the sample that `arrival` names.
+template <class Consumer>
+void visit(const Dataset& data, const Arrival& arrival, Consumer&& consumer) {
+  const auto index = static_cast<std::size_t>(arrival.index);
+  switch (arrival.source) {
+    case SourceKind::imu:
+      return consumer(data.imu[index]);
+    case SourceKind::gps:
+      return consumer(data.gps[index]);
+    case SourceKind::dvl:
+      return consumer(data.dvl[index]);
+    case SourceKind::depth:
+      return consumer(data.depth[index]);
+    case SourceKind::heading:
+      return consumer(data.heading[index]);
+    case SourceKind::usbl:
+      return consumer(data.usbl[index]);
+    case SourceKind::airspeed:
+      return consumer(data.airspeed[index]);
+    case SourceKind::propulsion:
+      return consumer(data.propulsion[index]);
+    case SourceKind::fins:
+      return consumer(data.fins[index]);
+  }
+}
+
+}  // namespace fathom::dataset
