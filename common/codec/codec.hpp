@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <variant>
 
+#include "base/device_time.hpp"
 #include "samples/actuator.hpp"
 #include "samples/depth.hpp"
 #include "samples/dvl.hpp"
@@ -20,19 +20,8 @@ namespace fathom::codec {
 using AnySample = std::variant<ImuSample, DvlSample, GpsSample, DepthSample, HeadingSample, UsblSample,
                                PropulsionSample, FinsSample>;
 
-/// What a frame says about its instant of validity. The bridge turns it into stamp_ns
-/// (runtime/device_time.hpp); codecs leave the stamps of the header at 0.
-struct DeviceTime {
-  /// UTC that the device itself gives (GPS, a disciplined clock).
-  std::optional<TimeNs> utc_ns;
-  /// A free-running clock of the device (since start, or a calendar clock nobody sets): only differences
-  /// count.
-  std::optional<TimeNs> clock_ns;
-  /// UTC time of day without a date (NMEA); the date is completed from the arrival.
-  std::optional<DurationNs> time_of_day_ns;
-  /// How long before the end of transmission the sample was valid, where the frame says so.
-  std::optional<DurationNs> age_ns;
-};
+/// The bridge turns it into stamp_ns (runtime/device_time.hpp); codecs leave the stamps of the header at 0.
+using DeviceTime = fathom::DeviceTime;
 
 /// Why a frame was refused. Exactly one per refused frame.
 enum class RejectReason : std::uint8_t {
