@@ -1,0 +1,207 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "samples/verdict.hpp"
+
+namespace fathom::estimation {
+
+/// What an IMU sample without increments means.
+enum class RateConvention : std::uint8_t {
+  interval_mean = 0,  ///< rates averaged over the interval that ends at the stamp
+  point = 1,          ///< rates at the stamp: integrated by the trapezoidal rule
+};
+
+/// Error model of the inertial unit. All sigmas are one standard deviation of one axis.
+struct ImuConfig {
+  RateConvention rate_convention = RateConvention::interval_mean;
+  std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< attitude of the unit's axes in the body frame B
+  double nominal_rate_hz = 100.0;                   ///< sizes the history
+  double angle_random_walk_rad_sqrt_s = 2.9e-5;     ///< 0.1 deg/sqrt(h)
+  double velocity_random_walk_m_s_sqrt_s = 5.0e-4;  ///< 50 ug/sqrt(Hz)
+  double gyro_bias_sigma_rad_s = 4.85e-6;           ///< turn-on, 1 deg/h
+  double gyro_bias_instability_rad_s = 1.45e-6;     ///< in-run, steady state of its Gauss-Markov process
+  double gyro_bias_time_constant_s = 3600.0;
+  double accel_bias_sigma_m_s2 = 9.8e-3;  ///< turn-on, 1 mg
+  double accel_bias_instability_m_s2 = 2.9e-3;
+  double accel_bias_time_constant_s = 3600.0;
+  double gyro_scale_sigma = 300e-6;            ///< used where the state group is on, else as equivalent noise
+  double accel_scale_sigma = 300e-6;           ///< likewise
+  double gyro_misalignment_sigma_rad = 3e-4;   ///< likewise
+  double accel_misalignment_sigma_rad = 3e-4;  ///< likewise
+  double equivalent_noise_time_s = 1.0;      ///< correlation time of unmodelled scale and misalignment error
+  double max_rate_rad_s = 35.0;              ///< larger readings are out of range
+  double max_specific_force_m_s2 = 400.0;    ///< likewise
+  double max_gap_s = 0.25;                   ///< longer gaps widen the uncertainty
+  double lost_gap_s = 10.0;                  ///< after longer gaps the attitude is lost
+  double gap_rate_sigma_rad_s = 0.05;        ///< motion assumed possible in a gap
+  double gap_acceleration_sigma_m_s2 = 1.0;  ///< likewise
+};
+
+/// Which error states are estimated. The named configurations fill it; single groups may then be switched.
+struct StateGroups {
+  bool accel_scale = false;         ///< 3
+  bool gyro_scale = false;          ///< 3
+  bool accel_misalignment = false;  ///< 6
+  bool gyro_misalignment = false;   ///< 6
+  bool dvl_scale = false;           ///< 1, common to all axes
+  bool dvl_scale_xyz = false;       ///< 3, excludes dvl_scale
+  bool dvl_misalignment = false;    ///< 3
+  bool dvl_bias = false;            ///< 3
+  bool current = false;             ///< 2, north and east velocity of the medium (water, or air for airspeed)
+  bool depth_bias = false;          ///< 1
+  bool surface_altitude = false;    ///< 1, ellipsoidal height of the water surface
+  bool heading_bias = false;        ///< 1
+  bool heading_deviation = false;   ///< 4, B to E of the deviation curve
+  bool usbl_bias = false;           ///< 2, north and east
+  bool gps_position_bias = false;   ///< 3, Gauss-Markov
+  bool log_scale = false;           ///< 1, of the speed log made from propulsor speed
+};
+
+/// The groups of a named configuration: "gps_ins15", "standard", "hybrid25", "full".
+/// False when there is no such name.
+[[nodiscard]] bool named_state_groups(const std::string& name, StateGroups& groups);
+
+/// Initial sigmas and drift of the states beyond the core.
+struct StateModelConfig {
+  double dvl_scale_sigma = 0.004;
+  double dvl_misalignment_sigma_rad = 0.0087;  ///< 0.5 deg
+  double dvl_bias_sigma_m_s = 0.004;
+  double current_sigma_m_s = 0.5;
+  double current_time_constant_s = 1800.0;
+  double depth_bias_sigma_m = 0.1;
+  double surface_altitude_m = 0.0;  ///< value when the state group is off
+  double surface_altitude_sigma_m = 100.0;
+  double surface_altitude_walk_m_sqrt_s = 1e-3;  ///< tide: 6 cm in an hour
+  double heading_bias_sigma_rad = 0.0175;
+  double heading_bias_time_constant_s = 1800.0;  ///< deviation changes with course; 0 for a constant
+  double heading_deviation_sigma_rad = 0.035;
+  double usbl_bias_sigma_m = 2.0;
+  double gps_bias_sigma_m = 1.5;  ///< horizontal; vertical is twice it
+  double gps_bias_time_constant_s = 300.0;
+  double log_scale_sigma = 0.02;
+};
+
+enum class GateMode : std::uint8_t { whole = 0, per_component = 1 };
+enum class RobustKind : std::uint8_t { none = 0, huber = 1, student_t = 2 };
+
+/// One instrument that may aid, keyed by the sensor name in its samples. A sensor that is not listed is never
+/// used: its samples get the verdict source_disabled.
+struct SensorConfig {
+  std::string sensor;  ///< e.g. "dvl0"
+  SourceKind kind = SourceKind::gps;
+  bool enabled = true;
+  std::array<double, 3> lever_B_m{0, 0, 0};         ///< from the IMU to the instrument, along B
+  std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< attitude of the instrument's axes in B
+  double latency_s = 0.0;                           ///< subtracted from the stamp
+  /// Noise of each component: GPS position and USBL m (N, E, D), DVL m/s (x, y, z), speed log m/s (x, y, z),
+  /// depth m, heading rad, airspeed m/s in the first. A figure carried by the sample counts when larger.
+  std::array<double, 3> sigma{1.0, 1.0, 1.0};
+  std::array<double, 3> velocity_sigma_m_s{0.1, 0.1, 0.1};  ///< GPS velocity (N, E, D)
+  double proportional_sigma = 0.0;                          ///< added to sigma times the magnitude measured
+  bool use_sample_sigma = true;
+  bool use_position = true;         ///< GPS
+  bool use_velocity = true;         ///< GPS
+  std::uint8_t min_fix = 4;         ///< GPS: lowest GpsFix that counts (4: fix_3d)
+  double gate_probability = 0.999;  ///< share of good measurements that pass
+  GateMode gate_mode = GateMode::whole;
+  RobustKind robust = RobustKind::none;
+  double robust_parameter = 5.0;  ///< student_t: degrees of freedom; huber: threshold in sigmas
+  double reacquire_s = 10.0;      ///< consistent rejections for this long are believed
+  double frozen_change = 0.0;  ///< the same reading while the prediction moves by this much is frozen; 0: off
+  double scale_m_s_per_rpm = 0.0;  ///< propulsion: water speed per shaft rpm; 0: not used
+  double min_depth_m = 0.0;        ///< propulsion: shaft speed means nothing above it
+};
+
+/// A sensor with the defaults that suit its kind.
+[[nodiscard]] SensorConfig default_sensor(SourceKind kind, const std::string& name);
+
+enum class StartMode : std::uint8_t {
+  at_rest = 0,    ///< level, then take a heading, where the vehicle lies
+  in_motion = 1,  ///< from GPS velocity
+  given = 2,      ///< start_from() or the configured state
+  automatic = 3,  ///< at rest or in motion, whichever the instruments show first
+};
+enum class HeadingSource : std::uint8_t {
+  automatic = 0,  ///< compass, else gyrocompass where the gyro allows
+  compass = 1,
+  given = 2,  ///< given_heading_rad
+  gyrocompass = 3,
+};
+
+struct AlignmentConfig {
+  StartMode mode = StartMode::automatic;
+  HeadingSource heading_source = HeadingSource::automatic;
+  double given_heading_rad = 0.0;
+  double given_heading_sigma_rad = 0.0175;
+  double averaging_s = 8.0;         ///< window of levelling
+  double rate_spread_rad_s = 0.05;  ///< at rest: standard deviation of each rate in the window below this
+  double force_spread_m_s2 = 0.5;   ///< likewise of the specific force
+  double max_speed_m_s = 0.7;       ///< at rest: GPS speed below this
+  double rest_velocity_sigma_m_s = 0.3;  ///< of the velocity zero taken at the end
+  double tilt_sigma_floor_rad = 2e-3;
+  double compass_sigma_rad = 0.026;     ///< of the heading taken from a compass, deviation included
+  double gyrocompass_limit_rad = 0.09;  ///< coarsest gyrocompass heading that is accepted
+  double in_motion_speed_m_s = 3.0;     ///< course is a heading above this
+  double in_motion_heading_sigma_rad = 0.17;
+  double in_motion_tilt_sigma_rad = 0.09;
+  double in_motion_averaging_s = 2.0;
+  double aligned_tilt_sigma_rad = 5e-3;
+  double aligned_heading_sigma_rad = 0.044;
+  double aligned_hold_s = 1.0;
+  double timeout_s = 600.0;       ///< waiting and averaging longer than this is reported as timed_out
+  double position_sigma_m = 3.0;  ///< floor of the start position taken from GPS
+};
+
+/// A limit that the forecast watches.
+struct ForecastLimitConfig {
+  std::string name;      ///< e.g. "horizontal_100m"
+  double limit = 100.0;  ///< m; rad when name begins with "heading"
+};
+
+struct EngineConfig {
+  std::string vehicle = "auv";
+  std::string sensor = "fusion";           ///< header.sensor of what the engine says
+  std::string configuration = "standard";  ///< name that goes into NavDetail
+  StateGroups groups;                      ///< the default is that of "standard", see EngineConfig()
+  ImuConfig imu;
+  StateModelConfig states;
+  std::vector<SensorConfig> sensors;
+  AlignmentConfig alignment;
+  double horizon_s = 5.0;            ///< measurements up to this late give the same bits as punctual ones
+  double snapshot_interval_s = 0.2;  ///< a roll-back repeats at most this much more than it must
+  double future_tolerance_s = 0.5;   ///< stamps further ahead of the newest inertial sample are refused
+  std::uint32_t measurement_capacity = 2048;  ///< measurements remembered; more within the horizon shorten it
+  bool magnetic_variation_known = false;
+  double magnetic_variation_rad = 0.0;  ///< east positive; used when the compass does not report its own
+  double gps_timeout_s = 3.0;           ///< mode leaves gps_aided after this
+  double usbl_timeout_s = 15.0;
+  double velocity_timeout_s = 3.0;                  ///< mode leaves dead_reckoning after this
+  double zero_velocity_sigma_m_s = 0.02;            ///< while marked at rest
+  std::array<double, 3> output_lever_B_m{0, 0, 0};  ///< the point whose position and velocity NavState tells
+  double forecast_span_s = 600.0;
+  std::vector<ForecastLimitConfig> forecast_limits;
+
+  EngineConfig();
+  /// Empty when everything is inside its range, else one line "key: value: what was expected".
+  [[nodiscard]] std::string validate() const;
+};
+
+/// A state given from outside, e.g. by a reference, another vehicle or an operator.
+struct InitialState {
+  std::int64_t stamp_ns = 0;
+  double latitude_rad = 0.0;
+  double longitude_rad = 0.0;
+  double altitude_m = 0.0;  ///< above the ellipsoid
+  std::array<double, 3> velocity_N_m_s{0, 0, 0};
+  std::array<double, 3> rpy_rad{0, 0, 0};
+  std::array<double, 3> position_sigma_N_m{1, 1, 1};
+  std::array<double, 3> velocity_sigma_N_m_s{0.1, 0.1, 0.1};
+  std::array<double, 3> attitude_sigma_rad{0.01, 0.01, 0.02};  ///< about N, E, D
+  bool at_output_point = true;  ///< position and velocity are those of the output point, not of the IMU
+};
+
+}  // namespace fathom::estimation

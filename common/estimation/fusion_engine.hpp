@@ -1,0 +1,88 @@
+#pragma once
+
+#include <memory>
+
+#include "estimation/engine_config.hpp"
+#include "samples/actuator.hpp"
+#include "samples/airspeed.hpp"
+#include "samples/alignment_status.hpp"
+#include "samples/command.hpp"
+#include "samples/depth.hpp"
+#include "samples/dvl.hpp"
+#include "samples/forecast.hpp"
+#include "samples/gps.hpp"
+#include "samples/heading.hpp"
+#include "samples/imu.hpp"
+#include "samples/nav_detail.hpp"
+#include "samples/nav_state.hpp"
+#include "samples/usbl.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::estimation {
+
+/// Inertial navigation aided by whatever the vehicle carries: alignment, strapdown mechanisation, error-state
+/// filter, gates, and a history that puts late measurements where they belong.
+///
+/// Pure: no clock, thread, file or logger; time comes from the stamps. Not thread-safe: one owner, or a mutex
+/// around it. Nothing is allocated after construction.
+///
+/// Order. Inertial samples must come in order (others are refused with a verdict). Aiding samples may come in
+/// any order: as long as each arrives within `horizon_s` of the newest inertial sample, the state after the
+/// next inertial sample is the same to the last bit whatever the order was. Aiding samples are taken in at
+/// once and judged with the next inertial sample at or after their stamp.
+///
+/// Bounded work. An inertial sample costs one step, or, when older measurements came in since the last one,
+/// one repetition of at most horizon_s + snapshot_interval_s of steps and measurements.
+///
+/// Verdicts. Every aiding sample leads to exactly one; an inertial sample only when it is refused. A verdict
+/// is given when a measurement is first judged; should a late neighbour change the judgement afterwards, the
+/// state follows and the verdict stands.
+class FusionEngine {
+ public:
+  /// Throws std::invalid_argument with the text of EngineConfig::validate() when that is not empty.
+  explicit FusionEngine(const EngineConfig& config);
+  ~FusionEngine();
+  FusionEngine(FusionEngine&&) noexcept;
+  FusionEngine& operator=(FusionEngine&&) noexcept;
+  FusionEngine(const FusionEngine&) = delete;
+  FusionEngine& operator=(const FusionEngine&) = delete;
+
+  /// True when nav_state() is new: the sample was accepted. NavState is given from the first accepted sample
+  /// on; its mode says what it is worth.
+  bool add(const ImuSample& sample);
+  void add(const GpsSample& sample);
+  void add(const DvlSample& sample);
+  void add(const DepthSample& sample);
+  void add(const HeadingSample& sample);
+  void add(const UsblSample& sample);
+  void add(const AirspeedSample& sample);
+  void add(const PropulsionSample& sample);
+  void add(const FinsSample& sample);
+
+  /// set_position, realign, enable_source, disable_source, mark_at_rest; others are ignored. Takes effect
+  /// with the next inertial sample. False when the command names nothing the engine has, or lacks a number.
+  bool apply(const Command& command);
+
+  /// Forgets everything and starts from a given state with the first inertial sample at or after its stamp.
+  void start_from(const InitialState& state);
+
+  /// At the newest accepted inertial sample. header.sequence counts navigation states.
+  [[nodiscard]] const NavState& nav_state() const;
+
+  /// The oldest verdict not yet taken. Drain after each call: when more than 4096 wait, the oldest is dropped
+  /// and counted.
+  bool next_verdict(Verdict& verdict);
+  [[nodiscard]] std::uint64_t verdicts_dropped() const;
+
+  void fill(NavDetail& detail) const;
+  void fill(AlignmentStatus& status) const;
+  /// Growth of the uncertainty if position fixes stop now and velocity aiding goes on as it is (not at all in
+  /// NavMode::inertial), by propagating the covariance. A few milliseconds of work.
+  void fill(Forecast& forecast);
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fathom::estimation
