@@ -1,0 +1,180 @@
+#include "runtime/byte_source.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+#include <arpa/inet.h>
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/use_awaitable.hpp>
+
+#include "runtime/byte_source_impl.hpp"
+
+namespace fathom::runtime {
+
+std::string_view to_string(SourceState state) {
+  static constexpr std::array<std::string_view, 4> kWords{"lost", "connected", "silent", "finished"};
+  const auto index = static_cast<std::size_t>(state);
+  return index < kWords.size() ? kWords[index] : std::string_view("unknown");
+}
+
+std::string describe_source(const ByteSourceConfig& config) {
+  const std::string endpoint = config.address + ":" + std::to_string(config.port);
+  switch (config.type) {
+    case SourceType::serial:
+      return "serial " + config.path;
+    case SourceType::tcp_client:
+      return "tcp " + endpoint;
+    case SourceType::tcp_server:
+      return "tcp server " + endpoint;
+    case SourceType::udp:
+      return "udp " + endpoint + (config.multicast.empty() ? "" : " group " + config.multicast);
+    case SourceType::file:
+      break;
+  }
+  return "file " + config.path;
+}
+
+bool is_numeric_address(const std::string& text) {
+  std::array<unsigned char, sizeof(in6_addr)> out{};
+  return inet_pton(AF_INET, text.c_str(), out.data()) == 1 ||
+         inet_pton(AF_INET6, text.c_str(), out.data()) == 1;
+}
+
+ByteSource::Impl::Impl(ByteSourceConfig config_in, const Clock& clock_in, BytesHandler on_bytes_in,
+                       EventHandler on_event_in)
+    : config(std::move(config_in)),
+      clock(clock_in),
+      on_bytes(std::move(on_bytes_in)),
+      on_event(std::move(on_event_in)),
+      backoff(config.backoff_first_s, config.backoff_most_s) {}
+
+void ByteSource::Impl::deliver(std::size_t size) {
+  const Arrival arrival{clock.utc_ns(), clock.monotonic_ns()};
+  last_byte_ns = arrival.monotonic_ns;
+  backoff.reset();
+  bool was_silent = false;
+  {
+    const std::lock_guard lock(mutex);
+    status.bytes += size;
+    was_silent = status.state == SourceState::silent;
+  }
+  if (was_silent) change(SourceState::connected, describe_source(config) + ": bytes again");
+  on_bytes(std::span(buffer.data(), size), arrival);
+}
+
+void ByteSource::Impl::change(SourceState state, std::string detail) {
+  {
+    const std::lock_guard lock(mutex);
+    const bool fresh = !reported || status.state != state;
+    if (state == SourceState::connected && status.state != SourceState::silent) ++status.connects;
+    status.state = state;
+    status.detail = detail;
+    reported = true;
+    if (!fresh) return;
+  }
+  if (on_event) on_event(SourceEvent{state, std::move(detail)});
+}
+
+void ByteSource::Impl::fail(const std::string& reason) {
+  {
+    const std::lock_guard lock(mutex);
+    ++status.errors;
+  }
+  change(SourceState::lost, describe_source(config) + ": " + reason);
+}
+
+asio::awaitable<void> ByteSource::Impl::wait(double vehicle_s) {
+  asio::steady_timer timer(io);
+  timer.expires_after(std::chrono::nanoseconds(from_seconds(vehicle_s / clock.rate())));
+  co_await timer.async_wait(asio::use_awaitable);
+}
+
+asio::awaitable<void> ByteSource::Impl::run() {
+  for (;;) {
+    std::string reason = "closed by the other side";
+    try {
+      switch (config.type) {
+        case SourceType::serial:
+          co_await serve_serial();
+          break;
+        case SourceType::tcp_client:
+          co_await serve_tcp_client();
+          break;
+        case SourceType::tcp_server:
+          co_await serve_tcp_server();
+          break;
+        case SourceType::udp:
+          co_await serve_udp();
+          break;
+        case SourceType::file:
+          co_await serve_file();
+          change(SourceState::finished, describe_source(config) + ": end of file");
+          co_return;
+      }
+    } catch (const asio::system_error& error) {
+      reason = error.code().message();
+    } catch (const std::exception& error) {
+      reason = error.what();
+    }
+    still_there = nullptr;
+    break_connection = nullptr;
+    fail(reason);
+    co_await wait(backoff.next_s());
+  }
+}
+
+asio::awaitable<void> ByteSource::Impl::watch() {
+  for (;;) {
+    co_await wait(std::clamp(config.silence_s / 4.0, 0.05, 1.0));
+    SourceState state{};
+    {
+      const std::lock_guard lock(mutex);
+      state = status.state;
+    }
+    if (state != SourceState::connected && state != SourceState::silent) continue;
+    if (clock.monotonic_ns() - last_byte_ns < from_seconds(config.silence_s)) continue;
+    // A USB adapter can vanish without an error on the open file.
+    if (still_there && !still_there() && break_connection) {
+      break_connection();
+    } else if (state == SourceState::connected) {
+      change(SourceState::silent, describe_source(config) + ": connected, but no bytes");
+    }
+  }
+}
+
+ByteSource::ByteSource(ByteSourceConfig config, const Clock& clock, BytesHandler on_bytes,
+                       EventHandler on_event)
+    : impl_(std::make_unique<Impl>(std::move(config), clock, std::move(on_bytes), std::move(on_event))) {}
+
+ByteSource::~ByteSource() {
+  {
+    const std::lock_guard lock(impl_->mutex);
+    impl_->stopping = true;
+  }
+  impl_->stop_signal.notify_all();
+  impl_->io.stop();
+  if (impl_->thread.joinable()) impl_->thread.join();
+}
+
+void ByteSource::start() {
+  Impl& impl = *impl_;
+  asio::co_spawn(impl.io, impl.run(), asio::detached);
+  asio::co_spawn(impl.io, impl.watch(), asio::detached);
+  impl.thread = std::thread([&impl] { impl.io.run(); });
+}
+
+SourceStatus ByteSource::status() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->status;
+}
+
+void ByteSource::hold(DurationNs vehicle_ns) {
+  const auto host_ns = static_cast<double>(vehicle_ns) / impl_->clock.rate();
+  std::unique_lock lock(impl_->mutex);
+  impl_->stop_signal.wait_for(lock, std::chrono::nanoseconds(static_cast<DurationNs>(host_ns)),
+                              [this] { return impl_->stopping; });
+}
+
+}  // namespace fathom::runtime

@@ -1,0 +1,66 @@
+#pragma once
+
+// Private to runtime/byte_*.cpp: the only code that includes Asio.
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#define ASIO_STANDALONE 1
+#include <asio/awaitable.hpp>
+#include <asio/io_context.hpp>
+#include <asio/steady_timer.hpp>
+
+#include "runtime/backoff.hpp"
+#include "runtime/byte_source.hpp"
+
+namespace fathom::runtime {
+
+struct ByteSource::Impl {
+  Impl(ByteSourceConfig config_in, const Clock& clock_in, BytesHandler on_bytes_in, EventHandler on_event_in);
+
+  // The transports. Each returns when its connection has ended in an orderly way and throws when it broke.
+  asio::awaitable<void> serve_serial();
+  asio::awaitable<void> serve_tcp_client();
+  asio::awaitable<void> serve_tcp_server();
+  asio::awaitable<void> serve_udp();
+  asio::awaitable<void> serve_file();
+
+  asio::awaitable<void> run();    ///< serves and reconnects for ever
+  asio::awaitable<void> watch();  ///< notices silence
+  asio::awaitable<void> wait(double vehicle_s);
+
+  template <class Stream>
+  asio::awaitable<void> read_all(Stream& stream);
+
+  void deliver(std::size_t size);
+  void change(SourceState state, std::string detail);
+  void fail(const std::string& reason);
+
+  const ByteSourceConfig config;
+  const Clock& clock;
+  const BytesHandler on_bytes;
+  const EventHandler on_event;
+
+  asio::io_context io{1};
+  std::thread thread;
+  Backoff backoff;
+  std::array<std::uint8_t, 4096> buffer{};
+  TimeNs last_byte_ns = 0;  ///< monotonic
+  /// Set by a transport that can be broken from outside: watch() calls it when the device has gone unnoticed.
+  std::function<bool()> still_there;
+  std::function<void()> break_connection;
+
+  mutable std::mutex mutex;  ///< guards status and stopping
+  std::condition_variable stop_signal;
+  bool stopping = false;
+  SourceStatus status;
+  bool reported = false;  ///< a state has been reported at all
+};
+
+}  // namespace fathom::runtime

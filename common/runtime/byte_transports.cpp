@@ -1,0 +1,184 @@
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <system_error>
+
+#include <asio/buffer.hpp>
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/ip/address.hpp>
+#include <asio/ip/multicast.hpp>
+#include <asio/ip/tcp.hpp>
+#include <asio/ip/udp.hpp>
+#include <asio/serial_port.hpp>
+#include <asio/use_awaitable.hpp>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/stat.h>
+#include <termios.h>
+
+#include "runtime/byte_source_impl.hpp"
+
+namespace fathom::runtime {
+namespace {
+
+using asio::ip::tcp;
+using asio::ip::udp;
+
+constexpr double kConnectTimeout_s = 3.0;
+
+// A peer that lost power sends no FIN: without this a read would wait for hours.
+void keep_alive(tcp::socket& socket) {
+  socket.set_option(asio::socket_base::keep_alive(true));
+  const auto set = [&](int option, int value) {
+    if (setsockopt(socket.native_handle(), IPPROTO_TCP, option, &value, sizeof value) != 0) {
+      throw std::system_error(errno, std::generic_category(), "keep-alive");
+    }
+  };
+  set(TCP_KEEPIDLE, 5);
+  set(TCP_KEEPINTVL, 2);
+  set(TCP_KEEPCNT, 3);
+}
+
+}  // namespace
+
+template <class Stream>
+asio::awaitable<void> ByteSource::Impl::read_all(Stream& stream) {
+  for (;;) {
+    const std::size_t size = co_await stream.async_read_some(asio::buffer(buffer), asio::use_awaitable);
+    deliver(size);
+  }
+}
+
+asio::awaitable<void> ByteSource::Impl::serve_serial() {
+  asio::serial_port port(io);
+  port.open(config.path);
+  port.set_option(asio::serial_port::baud_rate(static_cast<unsigned>(config.baud)));
+  port.set_option(asio::serial_port::character_size(8));
+  port.set_option(asio::serial_port::parity(asio::serial_port::parity::none));
+  port.set_option(asio::serial_port::stop_bits(asio::serial_port::stop_bits::one));
+  port.set_option(asio::serial_port::flow_control(asio::serial_port::flow_control::none));
+  tcflush(port.native_handle(), TCIFLUSH);
+  still_there = [this, &port] {
+    struct stat at_path {};
+    struct stat opened {};
+    return stat(config.path.c_str(), &at_path) == 0 && fstat(port.native_handle(), &opened) == 0 &&
+           at_path.st_rdev == opened.st_rdev;
+  };
+  break_connection = [&port] { port.close(); };
+  last_byte_ns = clock.monotonic_ns();
+  change(SourceState::connected, describe_source(config) + ": open");
+  co_await read_all(port);
+}
+
+asio::awaitable<void> ByteSource::Impl::serve_tcp_client() {
+  tcp::socket socket(io);
+  const tcp::endpoint device(asio::ip::make_address(config.address),
+                             static_cast<asio::ip::port_type>(config.port));
+  // An address that nobody answers for would hold the attempt for minutes.
+  asio::steady_timer timeout(io, std::chrono::nanoseconds(from_seconds(kConnectTimeout_s)));
+  timeout.async_wait([&socket](const asio::error_code& error) {
+    if (!error) socket.close();
+  });
+  co_await socket.async_connect(device, asio::use_awaitable);
+  timeout.cancel();
+  keep_alive(socket);
+  last_byte_ns = clock.monotonic_ns();
+  change(SourceState::connected, describe_source(config) + ": connected");
+  co_await read_all(socket);
+}
+
+asio::awaitable<void> ByteSource::Impl::serve_tcp_server() {
+  tcp::acceptor acceptor(io, tcp::endpoint(asio::ip::make_address(config.address),
+                                           static_cast<asio::ip::port_type>(config.port)));
+  auto current = std::make_shared<std::shared_ptr<tcp::socket>>();
+  change(SourceState::lost, describe_source(config) + ": waiting for the device to connect");
+  for (;;) {
+    auto peer = std::make_shared<tcp::socket>(co_await acceptor.async_accept(asio::use_awaitable));
+    if (*current) {
+      asio::error_code ignored;
+      (*current)->close(ignored);
+      change(SourceState::lost, describe_source(config) + ": replaced by a new connection");
+    }
+    *current = peer;
+    last_byte_ns = clock.monotonic_ns();
+    change(SourceState::connected, describe_source(config) + ": the device connected");
+    asio::co_spawn(
+        io,
+        [](Impl& self, std::shared_ptr<tcp::socket> socket,
+           std::shared_ptr<std::shared_ptr<tcp::socket>> shown) -> asio::awaitable<void> {
+          std::string reason;
+          try {
+            keep_alive(*socket);
+            co_await self.read_all(*socket);
+          } catch (const asio::system_error& error) {
+            reason = error.code().message();
+          } catch (const std::exception& error) {
+            reason = error.what();
+          }
+          if (*shown != socket) co_return;  // replaced: the newcomer's state counts
+          shown->reset();
+          self.fail(reason);
+        }(*this, peer, current),
+        asio::detached);
+  }
+}
+
+asio::awaitable<void> ByteSource::Impl::serve_udp() {
+  const auto address = asio::ip::make_address(config.address);
+  const auto port = static_cast<asio::ip::port_type>(config.port);
+  udp::socket socket(io);
+  if (config.multicast.empty()) {
+    const udp::endpoint local(address, port);
+    socket.open(local.protocol());
+    socket.bind(local);
+  } else {
+    // A socket bound to an interface's address receives no group traffic: bind to the group, join on the
+    // interface.
+    const auto group = asio::ip::make_address(config.multicast);
+    const udp::endpoint local(group, port);
+    socket.open(local.protocol());
+    socket.set_option(asio::socket_base::reuse_address(true));
+    socket.bind(local);
+    if (group.is_v4()) {
+      socket.set_option(asio::ip::multicast::join_group(group.to_v4(), address.to_v4()));
+    } else {
+      socket.set_option(asio::ip::multicast::join_group(group));
+    }
+  }
+  last_byte_ns = clock.monotonic_ns();
+  change(SourceState::connected, describe_source(config) + ": bound");
+  for (;;) {
+    const std::size_t size = co_await socket.async_receive(asio::buffer(buffer), asio::use_awaitable);
+    if (size > 0) deliver(size);
+  }
+}
+
+asio::awaitable<void> ByteSource::Impl::serve_file() {
+  // A directory opens as a stream, too, and reads as empty.
+  if (std::filesystem::is_directory(config.path)) throw std::runtime_error("is a folder");
+  std::ifstream file(config.path, std::ios::binary);
+  if (!file) throw std::system_error(errno, std::generic_category());
+  last_byte_ns = clock.monotonic_ns();
+  change(SourceState::connected, describe_source(config) + ": open");
+  // Small pieces, so that a piece holds about one frame and its samples do not share one arrival.
+  const std::size_t piece = config.pace == Pace::fastest ? buffer.size() : 64;
+  const TimeNs start_ns = clock.monotonic_ns();
+  double sent = 0.0;
+  for (;;) {
+    file.read(reinterpret_cast<char*>(buffer.data()), static_cast<std::streamsize>(piece));
+    const auto size = static_cast<std::size_t>(file.gcount());
+    if (size == 0) break;
+    deliver(size);
+    sent += static_cast<double>(size);
+    double ahead_s = 0.0;
+    if (config.pace == Pace::rate) {
+      ahead_s = sent / config.bytes_per_s - to_seconds(clock.monotonic_ns() - start_ns);
+    }
+    // Even when there is nothing to wait for: stopping works between two pieces.
+    co_await wait(std::max(0.0, ahead_s));
+  }
+}
+
+}  // namespace fathom::runtime
