@@ -77,9 +77,10 @@ struct WriteOptions {
   bool gzip = false;                  ///< NAME.csv.gz instead of NAME.csv
 };
 
-/// Writes one file per stream that is not empty into `directory`, which is created when absent. Numbers are
-/// written so that reading gives the same value back; optional columns only where some row knows them;
-/// t_received_s only where some sample did not arrive at its stamp. Throws DatasetError.
+/// Writes one file per stream that is not empty into `directory`, which is created when absent; files of this
+/// layout that an earlier call left there are removed. Numbers are written so that reading gives the same
+/// value back (angles to the rounding of their conversion to degrees); optional columns only where some row
+/// knows them; t_received_s only where some sample did not arrive at its stamp. Throws DatasetError.
 void write(const std::filesystem::path& directory, const Dataset& data, const WriteOptions& options = {});
 
 /// One sample of a Dataset in the order of arrival: the element `index` of the stream `source`.

@@ -1,0 +1,179 @@
+#include "dataset/csv_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <system_error>
+
+#include <zlib.h>
+
+#include "base/unknown.hpp"
+#include "dataset/dataset.hpp"
+
+namespace fathom::dataset {
+namespace {
+
+// A row of the widest file has under 500 bytes; what exceeds this is not one of our files.
+constexpr std::size_t kLongestLine = 65'536;
+
+std::string_view trim(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const auto first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+// Field text in a message: short and printable whatever the file holds.
+std::string quoted(std::string_view text) {
+  std::string out = "'";
+  for (const char c : text.substr(0, 40)) out += c >= ' ' && c <= '~' ? c : '?';
+  return out + (text.size() > 40 ? "...'" : "'");
+}
+
+}  // namespace
+
+// Bytes of the file, decompressed where needed.
+class CsvReader::Source {
+ public:
+  explicit Source(const std::filesystem::path& path) : file_(gzopen(path.c_str(), "rb")) {
+    if (file_ == nullptr) throw DatasetError(path.string() + ": cannot be opened: " + std::strerror(errno));
+    gzbuffer(file_, 1U << 17U);
+  }
+  ~Source() { gzclose_r(file_); }
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  // The next chunk of bytes, empty at the end of the file; an error text instead when the file is damaged.
+  std::string_view read(const char*& error) {
+    const int got = gzread(file_, buffer_.data(), static_cast<unsigned>(buffer_.size()));
+    int code = Z_OK;
+    gzerror(file_, &code);
+    if (code == Z_BUF_ERROR) {
+      error = "gzip data end too early: the file is truncated, expected a complete .gz file";
+    } else if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
+      error = "gzip data are damaged, expected an intact .gz file";
+    }
+    return {buffer_.data(), static_cast<std::size_t>(std::max(got, 0))};
+  }
+  [[nodiscard]] bool plain() const { return gzdirect(file_) == 1; }
+
+  std::string_view pending;      // read, not yet split into lines
+  const char* damage = nullptr;  // found behind `pending`
+
+ private:
+  gzFile file_;
+  std::array<char, 1U << 16U> buffer_{};
+};
+
+CsvReader::CsvReader(const std::filesystem::path& path)
+    : file_(path.string()), source_(std::make_unique<Source>(path)) {
+  if (path.extension() == ".gz" && source_->plain()) {
+    throw DatasetError(file_ + ": is not gzip data, expected a .gz file");
+  }
+  if (!next_line()) throw DatasetError(file_ + ": is empty, expected a header line with column names");
+  if (line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);
+  split();
+  for (const std::string_view name : fields_) {
+    if (std::find(names_.begin(), names_.end(), name) != names_.end()) {
+      fail("column " + quoted(name) + " appears twice, expected each once");
+    }
+    names_.emplace_back(name);
+  }
+}
+
+CsvReader::~CsvReader() = default;
+
+bool CsvReader::next_line() {
+  line_.clear();
+  ++line_number_;
+  bool any = false;
+  while (true) {
+    if (source_->pending.empty()) {
+      if (source_->damage != nullptr) fail(source_->damage);
+      source_->pending = source_->read(source_->damage);
+      if (source_->pending.empty()) {
+        if (source_->damage != nullptr) fail(source_->damage);
+        return any;
+      }
+    }
+    any = true;
+    const auto end = source_->pending.find('\n');
+    line_.append(source_->pending.substr(0, end));
+    if (line_.size() > kLongestLine) fail("line is longer than 65536 bytes, expected a row of numbers");
+    if (end != std::string_view::npos) {
+      source_->pending.remove_prefix(end + 1);
+      return true;
+    }
+    source_->pending = {};
+  }
+}
+
+void CsvReader::split() {
+  fields_.clear();
+  const std::string_view line = line_;
+  std::size_t begin = 0;
+  while (true) {
+    const auto comma = line.find(',', begin);
+    fields_.push_back(trim(line.substr(begin, comma - begin)));
+    if (comma == std::string_view::npos) return;
+    begin = comma + 1;
+  }
+}
+
+bool CsvReader::next() {
+  if (!next_line()) return false;
+  if (trim(line_).empty()) {
+    // Blank lines may end a file, not interrupt it.
+    const std::size_t blank = line_number_;
+    while (next_line()) {
+      if (trim(line_).empty()) continue;
+      line_number_ = blank;
+      fail("line is blank, expected a row of " + std::to_string(names_.size()) + " fields");
+    }
+    return false;
+  }
+  split();
+  if (fields_.size() != names_.size()) {
+    fail("row has " + std::to_string(fields_.size()) + " fields, expected " + std::to_string(names_.size()) +
+         " as in the header");
+  }
+  return true;
+}
+
+CsvReader::Column CsvReader::column(std::string_view name) const {
+  const auto found = optional_column(name);
+  if (!found) throw DatasetError(file_ + ":1: column '" + std::string(name) + "' is missing from the header");
+  return *found;
+}
+
+std::optional<CsvReader::Column> CsvReader::optional_column(std::string_view name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found == names_.end()) return std::nullopt;
+  return static_cast<Column>(found - names_.begin());
+}
+
+double CsvReader::number(Column column) const {
+  std::string_view field = fields_[column];
+  if (field.empty()) return kUnknown;
+  if (field.front() == '+') field.remove_prefix(1);
+  double value = kUnknown;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error == std::errc::result_out_of_range || error == std::errc::invalid_argument ||
+      end != field.data() + field.size()) {
+    fail("column " + std::string(names_[column]) + ": " + quoted(fields_[column]) +
+         " is not a number, expected a decimal number or blank for unknown");
+  }
+  return value;
+}
+
+double CsvReader::number(const std::optional<Column>& column) const {
+  return column ? number(*column) : kUnknown;
+}
+
+void CsvReader::fail(const std::string& message) const {
+  throw DatasetError(file_ + ":" + std::to_string(line_number_) + ": " + message);
+}
+
+}  // namespace fathom::dataset

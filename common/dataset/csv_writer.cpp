@@ -1,0 +1,102 @@
+#include "dataset/csv_writer.hpp"
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <cstring>
+
+#include <zlib.h>
+
+#include "base/unknown.hpp"
+#include "dataset/dataset.hpp"
+
+namespace fathom::dataset {
+namespace {
+
+constexpr std::size_t kFlushBytes = 1U << 16U;
+
+}  // namespace
+
+CsvWriter::CsvWriter(const std::filesystem::path& path)
+    : file_(path.string()), out_(gzopen(path.c_str(), path.extension() == ".gz" ? "wb6" : "wbT")) {
+  if (out_ == nullptr) throw DatasetError(file_ + ": cannot be written: " + std::strerror(errno));
+}
+
+CsvWriter::~CsvWriter() {
+  if (out_ == nullptr) return;
+  gzwrite(out_, pending_.data(), static_cast<unsigned>(pending_.size()));
+  gzclose_w(out_);
+}
+
+void CsvWriter::separate() {
+  if (row_started_) pending_ += ',';
+  row_started_ = true;
+}
+
+CsvWriter& CsvWriter::number(double value) {
+  separate();
+  if (!known(value)) return *this;
+  std::array<char, 40> digits{};
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  pending_.append(digits.data(), result.ptr);
+  return *this;
+}
+
+CsvWriter& CsvWriter::fixed(double value, int decimals) {
+  separate();
+  if (!known(value)) return *this;
+  std::array<char, 400> digits{};  // the largest double has 309 digits before the point
+  const auto result =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals);
+  pending_.append(digits.data(), result.ptr);
+  return *this;
+}
+
+CsvWriter& CsvWriter::seconds(DurationNs duration) {
+  separate();
+  const bool negative = duration < 0;
+  const std::uint64_t magnitude =
+      negative ? 0 - static_cast<std::uint64_t>(duration) : static_cast<std::uint64_t>(duration);
+  constexpr std::uint64_t kPerSecond = kNsPerSecond;
+  std::string fraction = std::to_string(magnitude % kPerSecond);
+  fraction.insert(0, 9 - fraction.size(), '0');
+  while (fraction.size() > 2 && fraction.back() == '0') fraction.pop_back();
+  if (negative) pending_ += '-';
+  pending_ += std::to_string(magnitude / kPerSecond) + '.' + fraction;
+  return *this;
+}
+
+CsvWriter& CsvWriter::text(std::string_view word) {
+  separate();
+  pending_ += word;
+  return *this;
+}
+
+void CsvWriter::end_row() {
+  pending_ += '\n';
+  row_started_ = false;
+  if (pending_.size() >= kFlushBytes) flush();
+}
+
+void CsvWriter::line(std::string_view text) {
+  pending_ += text;
+  end_row();
+}
+
+void CsvWriter::flush() {
+  if (pending_.empty()) return;
+  if (gzwrite(out_, pending_.data(), static_cast<unsigned>(pending_.size())) <= 0) {
+    throw DatasetError(file_ + ": cannot be written: " + std::strerror(errno));
+  }
+  pending_.clear();
+}
+
+void CsvWriter::close() {
+  flush();
+  gzFile_s* out = out_;
+  out_ = nullptr;
+  if (gzclose_w(out) != Z_OK) throw DatasetError(file_ + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace fathom::dataset

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "base/time.hpp"
+
+struct gzFile_s;
+
+namespace fathom::dataset {
+
+/// Writes a comma-separated file, plain or gzip, field by field. Faults throw DatasetError. The same calls
+/// give the same bytes.
+class CsvWriter {
+ public:
+  /// Creates or replaces `path`; a name that ends in ".gz" is compressed.
+  explicit CsvWriter(const std::filesystem::path& path);
+  /// Closes without reporting faults; call close() where they matter.
+  ~CsvWriter();
+  CsvWriter(const CsvWriter&) = delete;
+  CsvWriter& operator=(const CsvWriter&) = delete;
+
+  /// The shortest decimal that reads back as the same value; unknown is left blank.
+  CsvWriter& number(double value);
+  /// With a fixed count of decimals; unknown is left blank.
+  CsvWriter& fixed(double value, int decimals);
+  /// Exact seconds, at most nine decimals.
+  CsvWriter& seconds(DurationNs duration);
+  CsvWriter& text(std::string_view word);
+  void end_row();
+  /// Whole line, e.g. the header.
+  void line(std::string_view text);
+
+  void close();
+
+ private:
+  void separate();
+  void flush();
+
+  std::string file_;
+  gzFile_s* out_;
+  std::string pending_;
+  bool row_started_ = false;
+};
+
+}  // namespace fathom::dataset
