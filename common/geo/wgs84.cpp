@@ -1,0 +1,90 @@
+#include "geo/wgs84.hpp"
+
+#include <cmath>
+
+namespace fathom::geo {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kGravityEquator_m_s2 = 9.7803253359;
+constexpr double kSomigliana = 0.00193185265241;  // (b g_p - a g_e) / (a g_e)
+constexpr double kSemiMinorAxis_m = kSemiMajorAxis_m * (1.0 - kFlattening);
+// omega^2 a^2 b / GM
+constexpr double kRotation = kEarthRate_rad_s * kEarthRate_rad_s * kSemiMajorAxis_m * kSemiMajorAxis_m *
+                             kSemiMinorAxis_m / kGravitationalConstant_m3_s2;
+// Nearer than this to a pole the longitude of a short step means nothing.
+constexpr double kLeastCosine = 1e-9;
+
+double away_from_zero(double cosine) {
+  return cosine < kLeastCosine ? kLeastCosine : cosine;
+}
+
+}  // namespace
+
+Radii radii(double latitude_rad) {
+  const double sine = std::sin(latitude_rad);
+  const double w2 = 1.0 - kEccentricitySquared * sine * sine;
+  const double w = std::sqrt(w2);
+  return {kSemiMajorAxis_m * (1.0 - kEccentricitySquared) / (w2 * w), kSemiMajorAxis_m / w};
+}
+
+double gravity(double latitude_rad, double altitude_m) {
+  const double sine = std::sin(latitude_rad);
+  const double s2 = sine * sine;
+  const double surface =
+      kGravityEquator_m_s2 * (1.0 + kSomigliana * s2) / std::sqrt(1.0 - kEccentricitySquared * s2);
+  const double linear = 2.0 / kSemiMajorAxis_m * (1.0 + kFlattening + kRotation - 2.0 * kFlattening * s2);
+  const double ratio = altitude_m / kSemiMajorAxis_m;
+  return surface * (1.0 - linear * altitude_m + 3.0 * ratio * ratio);
+}
+
+Eigen::Vector3d earth_rate_N(double latitude_rad) {
+  return {kEarthRate_rad_s * std::cos(latitude_rad), 0.0, -kEarthRate_rad_s * std::sin(latitude_rad)};
+}
+
+Eigen::Vector3d transport_rate_N(const Geodetic& at, const Eigen::Vector3d& v_N_m_s) {
+  const Radii r = radii(at.latitude_rad);
+  const double east = v_N_m_s.y() / (r.normal_m + at.altitude_m);
+  const double cosine = away_from_zero(std::cos(at.latitude_rad));
+  return {east, -v_N_m_s.x() / (r.meridian_m + at.altitude_m), -east * std::sin(at.latitude_rad) / cosine};
+}
+
+Eigen::Vector3d difference_N(const Geodetic& from, const Geodetic& to) {
+  const double latitude = 0.5 * (from.latitude_rad + to.latitude_rad);
+  const double altitude = 0.5 * (from.altitude_m + to.altitude_m);
+  const Radii r = radii(latitude);
+  return {(to.latitude_rad - from.latitude_rad) * (r.meridian_m + altitude),
+          wrap_pi(to.longitude_rad - from.longitude_rad) * (r.normal_m + altitude) * std::cos(latitude),
+          from.altitude_m - to.altitude_m};
+}
+
+Geodetic moved_by(const Geodetic& from, const Eigen::Vector3d& delta_N_m) {
+  Geodetic to;
+  to.altitude_m = from.altitude_m - delta_N_m.z();
+  const double altitude = 0.5 * (from.altitude_m + to.altitude_m);
+  // Two rounds settle the radius halfway to better than a micrometre over 10 km.
+  double middle = from.latitude_rad;
+  for (int round = 0; round < 2; ++round) {
+    const double step = delta_N_m.x() / (radii(middle).meridian_m + altitude);
+    middle = from.latitude_rad + 0.5 * step;
+  }
+  const Radii r = radii(middle);
+  to.latitude_rad = from.latitude_rad + delta_N_m.x() / (r.meridian_m + altitude);
+  const double cosine = away_from_zero(std::cos(0.5 * (from.latitude_rad + to.latitude_rad)));
+  to.longitude_rad = wrap_pi(from.longitude_rad + delta_N_m.y() / ((r.normal_m + altitude) * cosine));
+  return to;
+}
+
+double wrap_pi(double angle_rad) {
+  if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
+  const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
+  return wrapped <= -kPi ? wrapped + 2.0 * kPi : wrapped;
+}
+
+double wrap_two_pi(double angle_rad) {
+  const double wrapped = wrap_pi(angle_rad);
+  const double positive = wrapped < 0.0 ? wrapped + 2.0 * kPi : wrapped;
+  return positive >= 2.0 * kPi ? 0.0 : positive;
+}
+
+}  // namespace fathom::geo
