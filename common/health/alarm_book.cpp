@@ -1,0 +1,175 @@
+#include "health/alarm_book.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace fathom::health {
+namespace {
+
+void describe(Alarm& alarm, const Condition& condition) {
+  alarm.text = condition.text;
+  alarm.value = condition.value;
+  alarm.limit = condition.limit;
+}
+
+}  // namespace
+
+void AlarmBook::hold(const Condition& condition, const Instant& now) {
+  auto found = entries_.find(condition.key);
+  if (found == entries_.end()) {
+    if (!make_room(condition.severity)) {
+      ++dropped_;
+      return;
+    }
+    found = entries_.emplace(condition.key, Entry{}).first;
+    found->second.alarm.header.vehicle = vehicle_;
+    found->second.alarm.alarm = condition.key;
+  }
+  Entry& entry = found->second;
+  Alarm& alarm = entry.alarm;
+  entry.away = false;
+  entry.clear_hold_s = condition.clear_hold_s;
+  describe(alarm, condition);
+  const bool raised = !alarm.active;
+  if (raised) {
+    alarm.active = true;
+    alarm.acknowledged = false;
+    alarm.severity = condition.severity;
+    alarm.since_ns = now.utc_ns - from_seconds(condition.began_ago_s);
+    alarm.cleared_ns = 0;
+  } else if (condition.severity > alarm.severity) {
+    alarm.severity = condition.severity;
+    alarm.acknowledged = false;
+  } else {
+    return;  // nothing an operator has to be told at once
+  }
+  note_change(alarm);
+}
+
+void AlarmBook::release(const Name& key, const Instant& now) {
+  const auto found = entries_.find(key);
+  if (found == entries_.end() || !found->second.alarm.active) return;
+  Entry& entry = found->second;
+  if (!entry.away) {
+    entry.away = true;
+    entry.away_since_ns = now.monotonic_ns;
+  }
+  if (now.monotonic_ns - entry.away_since_ns < from_seconds(entry.clear_hold_s)) return;
+  clear(entry, now);
+  erase_if_done(found);
+}
+
+void AlarmBook::set(bool active, const Condition& condition, const Instant& now) {
+  if (active) {
+    hold(condition, now);
+  } else {
+    release(condition.key, now);
+  }
+}
+
+void AlarmBook::event(const Condition& condition, const Instant& now) {
+  hold(condition, now);
+  const auto found = entries_.find(condition.key);
+  if (found != entries_.end() && found->second.alarm.active) clear(found->second, now);
+}
+
+int AlarmBook::acknowledge(std::string_view target, const Instant& /*now*/) {
+  int acknowledged = 0;
+  for (auto entry = entries_.begin(); entry != entries_.end();) {
+    const auto next = std::next(entry);
+    Alarm& alarm = entry->second.alarm;
+    if (!alarm.acknowledged && (target == "*" || alarm.alarm.view() == target)) {
+      alarm.acknowledged = true;
+      ++acknowledged;
+      note_change(alarm);
+      erase_if_done(entry);
+    }
+    entry = next;
+  }
+  return acknowledged;
+}
+
+void AlarmBook::shift_utc(DurationNs step) {
+  for (auto& [key, entry] : entries_) {
+    entry.alarm.since_ns += step;
+    if (entry.alarm.cleared_ns != 0) entry.alarm.cleared_ns += step;
+  }
+}
+
+std::vector<Alarm> AlarmBook::take_changes() {
+  std::vector<Alarm> changes;
+  changes.swap(changes_);
+  return changes;
+}
+
+std::vector<Alarm> AlarmBook::all() const {
+  std::vector<Alarm> alarms;
+  alarms.reserve(entries_.size());
+  for (const auto& [key, entry] : entries_) alarms.push_back(entry.alarm);
+  std::stable_sort(alarms.begin(), alarms.end(), [](const Alarm& a, const Alarm& b) {
+    return std::tuple(!a.active, b.severity, a.since_ns) < std::tuple(!b.active, a.severity, b.since_ns);
+  });
+  return alarms;
+}
+
+const Alarm* AlarmBook::find(const Name& key) const {
+  const auto found = entries_.find(key);
+  return found == entries_.end() ? nullptr : &found->second.alarm;
+}
+
+std::uint32_t AlarmBook::active_count() const {
+  return static_cast<std::uint32_t>(std::count_if(entries_.begin(), entries_.end(),
+                                                  [](const auto& item) { return item.second.alarm.active; }));
+}
+
+std::uint32_t AlarmBook::unacknowledged_count() const {
+  return static_cast<std::uint32_t>(std::count_if(
+      entries_.begin(), entries_.end(), [](const auto& item) { return !item.second.alarm.acknowledged; }));
+}
+
+bool AlarmBook::any_active(Severity at_least) const {
+  return std::any_of(entries_.begin(), entries_.end(), [at_least](const auto& item) {
+    return item.second.alarm.active && item.second.alarm.severity >= at_least;
+  });
+}
+
+bool AlarmBook::make_room(Severity severity) {
+  if (entries_.size() < kMaxAlarms) return true;
+  // The cheapest to lose: cleared before active, then the least severe, then the oldest.
+  const auto worth = [](const auto& item) {
+    const Alarm& alarm = item.second.alarm;
+    return std::tuple(alarm.active, alarm.severity, alarm.since_ns);
+  };
+  const auto least = std::min_element(entries_.begin(), entries_.end(),
+                                      [&](const auto& a, const auto& b) { return worth(a) < worth(b); });
+  if (least->second.alarm.active && least->second.alarm.severity >= severity) return false;
+  ++dropped_;
+  entries_.erase(least);
+  return true;
+}
+
+void AlarmBook::clear(Entry& entry, const Instant& now) {
+  entry.away = false;
+  entry.alarm.active = false;
+  entry.alarm.cleared_ns = now.utc_ns;
+  note_change(entry.alarm);
+}
+
+void AlarmBook::note_change(const Alarm& alarm) {
+  // Several changes between two calls collapse into the latest, except that raising and clearing both remain:
+  // a reader that keeps only the last one is right, a log that counts them is too.
+  const auto same = std::find_if(changes_.rbegin(), changes_.rend(),
+                                 [&](const Alarm& change) { return change.alarm == alarm.alarm; });
+  if (same != changes_.rend() && same->active == alarm.active) {
+    *same = alarm;
+  } else {
+    changes_.push_back(alarm);
+  }
+}
+
+void AlarmBook::erase_if_done(std::map<Name, Entry>::iterator entry) {
+  const Alarm& alarm = entry->second.alarm;
+  if (!alarm.active && alarm.acknowledged) entries_.erase(entry);
+}
+
+}  // namespace fathom::health

@@ -1,0 +1,111 @@
+#include "health/gps_outage.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "health/text.hpp"
+
+namespace fathom::health {
+namespace {
+
+constexpr std::size_t kMaxReceivers = 16;  // names come from the network: bounded
+
+bool is_refusal(VerdictKind kind) {
+  return kind == VerdictKind::rejected || kind == VerdictKind::frozen || kind == VerdictKind::out_of_range ||
+         kind == VerdictKind::unknown_frame || kind == VerdictKind::from_the_future ||
+         kind == VerdictKind::late;
+}
+
+}  // namespace
+
+bool is_usable(const GpsSample& sample) {
+  return sample.fix >= GpsFix::fix_3d && std::isfinite(sample.latitude_rad) &&
+         std::isfinite(sample.longitude_rad) && std::abs(sample.latitude_rad) <= std::numbers::pi / 2;
+}
+
+void GpsOutage::add(const GpsSample& sample, const Instant& now) {
+  const Name& name = sample.header.sensor;
+  auto found = receivers_.find(name);
+  if (found == receivers_.end()) {
+    if (receivers_.size() >= kMaxReceivers) return;
+    found = receivers_.emplace(name, Receiver{OutageClock(config_.outage), 0, false}).first;
+  }
+  Receiver& receiver = found->second;
+  const bool repeated = receiver.heard && sample.header.stamp_ns == receiver.last_stamp_ns;
+  receiver.heard = true;
+  receiver.last_stamp_ns = sample.header.stamp_ns;
+  if (repeated) return;
+  if (!is_usable(sample)) {
+    unusable(name, receiver);
+    return;
+  }
+  receiver.clock.usable(now.monotonic_ns);
+  overall_.usable(now.monotonic_ns);
+  overall_source_ = name;
+}
+
+void GpsOutage::add(const Verdict& verdict) {
+  if (verdict.source != SourceKind::gps || !is_refusal(verdict.kind)) return;
+  const auto found = receivers_.find(verdict.header.sensor);
+  if (found != receivers_.end()) unusable(found->first, found->second);
+}
+
+void GpsOutage::unusable(const Name& name, Receiver& receiver) {
+  receiver.clock.unusable();
+  // One receiver without a fix says nothing while another one has it.
+  if (name == overall_source_) overall_.unusable();
+}
+
+void GpsOutage::evaluate(const Instant& now) {
+  overall_.evaluate(now.monotonic_ns);
+  for (auto& [name, receiver] : receivers_) receiver.clock.evaluate(now.monotonic_ns);
+}
+
+const OutageClock* GpsOutage::receiver(const Name& name) const {
+  const auto found = receivers_.find(name);
+  return found == receivers_.end() ? nullptr : &found->second.clock;
+}
+
+void GpsOutage::report(AlarmBook& book, const Instant& now) const {
+  report_outage(book, now, "gps_outage", overall_, "from any receiver");
+  if (config_.per_receiver_alarms && receivers_.size() > 1) {
+    for (const auto& [name, receiver] : receivers_) {
+      report_outage(book, now, alarm_key("gps_outage", name.view()), receiver.clock, "from " + name.str());
+    }
+  }
+  const Name no_fix = "gps_no_fix";
+  const double waited_s = to_seconds(now.monotonic_ns - start_.monotonic_ns);
+  if (config_.expected && !overall_.ever_usable() && waited_s >= config_.first_fix_limit_s) {
+    book.hold(
+        {.key = no_fix,
+         .severity = Severity::warning,
+         .text = sentence("There has been no usable GPS fix since the start %s ago (limit %s).",
+                          duration_text(waited_s).c_str(), duration_text(config_.first_fix_limit_s).c_str()),
+         .value = waited_s,
+         .limit = config_.first_fix_limit_s,
+         .began_ago_s = waited_s},
+        now);
+  } else {
+    book.release(no_fix, now);
+  }
+}
+
+void GpsOutage::report_outage(AlarmBook& book, const Instant& now, const Name& key, const OutageClock& clock,
+                              const std::string& who) const {
+  if (!clock.active()) {
+    book.release(key, now);
+    return;
+  }
+  const double outage_s = clock.now_s();
+  book.hold({.key = key,
+             .severity = outage_s >= config_.critical_s ? Severity::critical : Severity::warning,
+             .text = sentence("No usable GPS fix %s for %s (limit %s).", who.c_str(),
+                              duration_text(outage_s).c_str(), duration_text(config_.outage.limit_s).c_str()),
+             .value = outage_s,
+             .limit = config_.outage.limit_s,
+             .began_ago_s = outage_s,
+             .clear_hold_s = 0.0},  // the clock has its own hysteresis
+            now);
+}
+
+}  // namespace fathom::health

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <map>
+
+#include "health/alarm_book.hpp"
+#include "health/instant.hpp"
+#include "health/outage_clock.hpp"
+#include "samples/gps.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::health {
+
+struct GpsOutageConfig {
+  OutageLimits outage;
+  double critical_s = 3600.0;        ///< an outage this long is critical, a shorter one a warning
+  bool expected = true;              ///< false: a vehicle without GPS; nothing is said about the first fix
+  double first_fix_limit_s = 120.0;  ///< without any usable fix this long after the start, say so
+  bool per_receiver_alarms = true;   ///< with two or more receivers, an alarm for each besides the common one
+};
+
+/// A fix that position may rest on: three-dimensional or better, at a finite place on earth.
+[[nodiscard]] bool is_usable(const GpsSample& sample);
+
+/// GPS outages per receiver and for the vehicle as a whole (no receiver gives a usable fix).
+///
+/// Works from the receivers alone, so it works when fusion is dead. Where fusion's verdicts are heard, a fix
+/// that fusion refused breaks the run that would end an outage: it is over when fixes are there and not
+/// refused. A fix with the same stamp as the one before it is no new fix.
+class GpsOutage {
+ public:
+  GpsOutage(const GpsOutageConfig& config, const Instant& start) : config_(config), start_(start) {
+    overall_ = OutageClock(config.outage);
+  }
+
+  void add(const GpsSample& sample, const Instant& now);
+  /// Verdicts of other sources are ignored.
+  void add(const Verdict& verdict);
+  void evaluate(const Instant& now);
+  /// States the outage alarms: "gps_outage", "gps_outage:<receiver>", "gps_no_fix".
+  void report(AlarmBook& book, const Instant& now) const;
+
+  [[nodiscard]] const OutageClock& overall() const { return overall_; }
+  /// Nothing when the receiver was never heard.
+  [[nodiscard]] const OutageClock* receiver(const Name& name) const;
+
+ private:
+  struct Receiver {
+    OutageClock clock;
+    TimeNs last_stamp_ns = 0;
+    bool heard = false;
+  };
+
+  void unusable(const Name& name, Receiver& receiver);
+  void report_outage(AlarmBook& book, const Instant& now, const Name& key, const OutageClock& clock,
+                     const std::string& who) const;
+
+  GpsOutageConfig config_;
+  Instant start_;
+  OutageClock overall_;
+  Name overall_source_;  ///< the receiver that gave the last usable fix
+  std::map<Name, Receiver> receivers_;
+};
+
+}  // namespace fathom::health

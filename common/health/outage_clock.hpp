@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/time.hpp"
+
+namespace fathom::health {
+
+/// When fixes count as lost and as regained.
+struct OutageLimits {
+  double limit_s = 5.0;       ///< an outage begins when there was no usable fix for this long
+  int clear_fixes = 3;        ///< it ends after this many usable fixes in a row ...
+  double clear_hold_s = 1.0;  ///< ... spread over at least this long
+};
+
+/// Keeps the books of one source of fixes. All times are monotonic.
+///
+/// An outage is counted from the last usable fix before it to the first fix of the run that ended it. A run
+/// is broken by an unusable fix or by a pause longer than `limit_s`; single usable fixes inside an outage
+/// therefore neither end nor split it. While a run is under way the outage's length stands still; when the
+/// run breaks it counts on as if the run had not been.
+class OutageClock {
+ public:
+  explicit OutageClock(const OutageLimits& limits = {}) : limits_(limits) {}
+
+  void usable(TimeNs monotonic_ns);
+  /// A fix that must not be trusted, or a message without a fix.
+  void unusable();
+  /// To be called often: outages begin and end here and in usable().
+  void evaluate(TimeNs monotonic_ns);
+
+  [[nodiscard]] bool ever_usable() const { return ever_usable_; }
+  [[nodiscard]] bool active() const { return active_; }
+  /// Length of the present outage, 0 when there is none, NaN before the first usable fix. As of evaluate().
+  [[nodiscard]] double now_s() const;
+  [[nodiscard]] double longest_s() const;
+  [[nodiscard]] double total_s() const;
+  [[nodiscard]] std::uint32_t count() const { return count_; }
+
+ private:
+  [[nodiscard]] DurationNs present_ns() const;
+  void begin_if_due(TimeNs monotonic_ns);
+  void end_if_regained();
+
+  OutageLimits limits_;
+  bool ever_usable_ = false;
+  bool active_ = false;
+  TimeNs last_usable_ns_ = 0;  ///< before the outage, while there is one
+  TimeNs evaluated_ns_ = 0;
+  int run_ = 0;  ///< usable fixes in a row since the outage began
+  TimeNs run_begin_ns_ = 0;
+  TimeNs run_last_ns_ = 0;
+  std::uint32_t count_ = 0;
+  DurationNs longest_ns_ = 0;
+  DurationNs total_ns_ = 0;
+};
+
+}  // namespace fathom::health

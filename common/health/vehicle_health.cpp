@@ -1,0 +1,111 @@
+#include "health/vehicle_health.hpp"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "health/text.hpp"
+
+namespace fathom::health {
+
+VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start)
+    : config_(config),
+      utc_offset_ns_(start.utc_ns - start.monotonic_ns),
+      book_(config.vehicle),
+      gps_(config.gps, start),
+      nav_(config.nav, config.startup_s, start),
+      alignment_(config.alignment),
+      refusal_(config.refusal),
+      sensors_(config.sensors, config.startup_s, start),
+      services_(config.services, config.service, config.startup_s, start) {}
+
+void VehicleHealth::heard(SourceKind kind, const SampleHeader& header, const Instant& now) {
+  if (ours(header)) sensors_.heard(kind, header.sensor, now);
+}
+
+void VehicleHealth::add(const GpsSample& sample, const Instant& now) {
+  if (!ours(sample.header)) return;
+  sensors_.heard(SourceKind::gps, sample.header.sensor, now);
+  gps_.add(sample, now);
+}
+
+void VehicleHealth::add(const NavState& state, const Instant& now) {
+  if (!ours(state.header)) return;
+  nav_.add(state, now);
+  alignment_.add(state, now);
+}
+
+void VehicleHealth::add(const AlignmentStatus& status, const Instant& now) {
+  if (ours(status.header)) alignment_.add(status, now);
+}
+
+void VehicleHealth::add(const ServiceStatus& status, const Instant& now) {
+  if (ours(status.header)) services_.add(status, now);
+}
+
+void VehicleHealth::add(const Verdict& verdict, const Instant& now) {
+  if (!ours(verdict.header)) return;
+  gps_.add(verdict);
+  refusal_.add(verdict, now);
+}
+
+int VehicleHealth::apply(const Command& command, const Instant& now) {
+  if (!ours(command.header) || command.kind != CommandKind::acknowledge_alarm) return 0;
+  return book_.acknowledge(command.target.view(), now);
+}
+
+void VehicleHealth::evaluate(const Instant& now) {
+  follow_utc(now);
+  gps_.evaluate(now);
+  nav_.evaluate(now);
+  sensors_.evaluate(now);
+  services_.evaluate(now);
+  gps_.report(book_, now);
+  nav_.report(book_, now);
+  alignment_.report(book_, now);
+  refusal_.report(book_, now);
+  sensors_.report(book_, now);
+  services_.report(book_, now);
+}
+
+void VehicleHealth::follow_utc(const Instant& now) {
+  // Slow correction by a time server passes unnoticed; a step moves the civil times already noted.
+  constexpr DurationNs kStep = kNsPerSecond / 2;
+  const DurationNs offset_ns = now.utc_ns - now.monotonic_ns;
+  const DurationNs step_ns = offset_ns - utc_offset_ns_;
+  utc_offset_ns_ = offset_ns;
+  if (std::abs(step_ns) < kStep) return;
+  book_.shift_utc(step_ns);
+  book_.event({.key = "clock_step",
+               .severity = Severity::notice,
+               .text = sentence("The clock of this host was set %s by %s.", step_ns > 0 ? "forward" : "back",
+                                duration_text(std::abs(to_seconds(step_ns))).c_str()),
+               .value = to_seconds(step_ns),
+               .limit = to_seconds(kStep)},
+              now);
+}
+
+MonitorStatus VehicleHealth::status(const Instant& now) const {
+  MonitorStatus status;
+  status.header.vehicle = config_.vehicle;
+  status.header.stamp_ns = now.utc_ns;
+  status.header.received_ns = now.utc_ns;
+  status.mode = nav_.mode();
+  status.alignment =
+      nav_.mode() == NavMode::none && !nav_.fresh() ? AlignmentPhase::none : alignment_.phase();
+  status.nav_state_age_s = nav_.age_s(now);
+  const OutageClock& outage = gps_.overall();
+  status.gps_outage_active = outage.active();
+  status.gps_outage_s = outage.now_s();
+  status.gps_outage_longest_s = outage.longest_s();
+  status.gps_outage_total_s = outage.total_s();
+  status.gps_outage_count = outage.count();
+  status.alarms_active = book_.active_count();
+  status.alarms_unacknowledged = book_.unacknowledged_count();
+  status.sensors = sensors_.items(now);
+  status.services = services_.items(now);
+  const bool navigating = !config_.nav.expected || (nav_.fresh() && is_navigating(nav_.mode()));
+  status.healthy = navigating && !book_.any_active(Severity::warning);
+  return status;
+}
+
+}  // namespace fathom::health

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "health/alarm_book.hpp"
+#include "health/alignment_watch.hpp"
+#include "health/gps_outage.hpp"
+#include "health/instant.hpp"
+#include "health/nav_watch.hpp"
+#include "health/refusal_watch.hpp"
+#include "health/sensor_watch.hpp"
+#include "health/service_watch.hpp"
+#include "samples/command.hpp"
+
+namespace fathom::health {
+
+/// What the monitor watches and when it speaks up.
+struct HealthConfig {
+  Name vehicle = "auv";
+  double startup_s = 15.0;  ///< sensors, services and the navigation state may stay unheard of this long
+  GpsOutageConfig gps;
+  NavWatchConfig nav;
+  AlignmentWatchConfig alignment;
+  ServiceWatchConfig service;
+  RefusalWatchConfig refusal;
+  std::vector<ExpectedSensor> sensors;
+  std::vector<ExpectedService> services;
+};
+
+/// Everything the monitor knows: feed it what is heard, evaluate it often, take status and alarms out.
+/// Pure: time is an argument, durations are measured on the monotonic clock. Samples of other vehicles are
+/// ignored.
+class VehicleHealth {
+ public:
+  VehicleHealth(const HealthConfig& config, const Instant& start);
+
+  /// Any sensor sample: that it came.
+  void heard(SourceKind kind, const SampleHeader& header, const Instant& now);
+  /// A GPS sample: heard() is included.
+  void add(const GpsSample& sample, const Instant& now);
+  void add(const NavState& state, const Instant& now);
+  void add(const AlignmentStatus& status, const Instant& now);
+  void add(const ServiceStatus& status, const Instant& now);
+  void add(const Verdict& verdict, const Instant& now);
+  /// Acknowledgements; other commands are not for the monitor. Returns how many alarms were acknowledged.
+  int apply(const Command& command, const Instant& now);
+
+  /// States of all watchers into the alarm book.
+  void evaluate(const Instant& now);
+
+  /// As of the last evaluate(). header: vehicle and stamps; the rest is the writer's.
+  [[nodiscard]] MonitorStatus status(const Instant& now) const;
+  [[nodiscard]] std::vector<Alarm> take_changes() { return book_.take_changes(); }
+  [[nodiscard]] const AlarmBook& alarms() const { return book_; }
+
+ private:
+  [[nodiscard]] bool ours(const SampleHeader& header) const { return header.vehicle == config_.vehicle; }
+  void follow_utc(const Instant& now);
+
+  HealthConfig config_;
+  DurationNs utc_offset_ns_;  ///< UTC minus monotonic, as last seen
+  AlarmBook book_;
+  GpsOutage gps_;
+  NavWatch nav_;
+  AlignmentWatch alignment_;
+  RefusalWatch refusal_;
+  SensorWatch sensors_;
+  ServiceWatch services_;
+};
+
+}  // namespace fathom::health
