@@ -1,0 +1,36 @@
+#!/bin/sh
+# generate.sh FASTDDSGEN FILE.idl OUTPUT_DIR
+# Generates the C++ types of one IDL file. fastddsgen reports success after many of its own errors, so what counts
+# is that every expected file came into being in an empty folder; only then do they replace the previous ones.
+set -eu
+generator=$1
+idl=$2
+output=$3
+name=$(basename "$idl" .idl)
+
+mkdir -p "$output"
+scratch=$(mktemp -d "$output/.generate-$name-XXXXXX")
+trap 'rm -rf "$scratch"' EXIT
+
+if ! (cd "$(dirname "$idl")" &&
+  "$generator" -cs -replace -t "$scratch" -d "$scratch" "$name.idl") >"$scratch/log" 2>&1; then
+  cat "$scratch/log" >&2
+  echo "generate.sh: $idl: $generator failed" >&2
+  exit 1
+fi
+for file in "$name.h" "$name.cxx"; do
+  if [ ! -s "$scratch/$file" ]; then
+    cat "$scratch/log" >&2
+    echo "generate.sh: $idl: $generator ended without an error but did not write $file" >&2
+    exit 1
+  fi
+done
+# Every structure of the file must have arrived: the generator drops what it does not understand.
+for type in $(sed -n 's/^ *struct \([A-Za-z0-9_]*\).*/\1/p' "$idl"); do
+  if ! grep -q "class $type\$" "$scratch/$name.h"; then
+    cat "$scratch/log" >&2
+    echo "generate.sh: $idl: $name.h has no class $type" >&2
+    exit 1
+  fi
+done
+mv -f "$scratch/$name.h" "$scratch/$name.cxx" "$output/"
