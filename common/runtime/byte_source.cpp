@@ -126,6 +126,7 @@ asio::awaitable<void> ByteSource::Impl::run() {
 }
 
 asio::awaitable<void> ByteSource::Impl::watch() {
+  if (config.type == SourceType::file) co_return;  // a file's gaps are those of the recording
   for (;;) {
     co_await wait(std::clamp(config.silence_s / 4.0, 0.05, 1.0));
     SourceState state{};

@@ -50,8 +50,8 @@ struct ByteSource::Impl {
   asio::io_context io{1};
   std::thread thread;
   Backoff backoff;
-  std::array<std::uint8_t, 4096> buffer{};
-  TimeNs last_byte_ns = 0;  ///< monotonic
+  std::array<std::uint8_t, 65536> buffer{};  ///< holds the longest datagram
+  TimeNs last_byte_ns = 0;                   ///< monotonic
   /// Set by a transport that can be broken from outside: watch() calls it when the device has gone unnoticed.
   std::function<bool()> still_there;
   std::function<void()> break_connection;

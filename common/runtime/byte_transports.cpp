@@ -163,7 +163,7 @@ asio::awaitable<void> ByteSource::Impl::serve_file() {
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": open");
   // Small pieces, so that a piece holds about one frame and its samples do not share one arrival.
-  const std::size_t piece = config.pace == Pace::fastest ? buffer.size() : 64;
+  const std::size_t piece = config.pace == Pace::fastest ? 4096 : 64;
   const TimeNs start_ns = clock.monotonic_ns();
   double sent = 0.0;
   for (;;) {

@@ -1,0 +1,62 @@
+#include "host/run.hpp"
+
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "runtime/build_info.hpp"
+#include "runtime/signals.hpp"
+
+namespace fathom::host {
+namespace {
+
+int fail(const std::string& executable, ExitCode code, std::string message) {
+  for (char& c : message) {
+    if (c == '\n') c = ' ';
+  }
+  std::fprintf(stderr, "%s: %s\n", executable.c_str(), message.c_str());
+  return static_cast<int>(code);
+}
+
+}  // namespace
+
+int run_service(int argc, char** argv, const ServiceInfo& info,
+                const std::function<Prepared(const config::LoadRequest&)>& load,
+                const std::function<ExitCode(ServiceHost&)>& body) {
+  runtime::block_stop_signals();
+  std::string executable = "fathom-" + info.name;
+  for (char& c : executable) {
+    if (c == '_') c = '-';
+  }
+  CLI::App app{info.description, executable};
+  config::LoadRequest request;
+  bool check = false;
+  app.add_option("--config", request.file, "configuration file (JSON)")->required();
+  app.add_option("--set", request.sets, "override: key.sub=value, may be repeated")->allow_extra_args(false);
+  app.add_flag("--check", check, "check the configuration and exit");
+  app.set_version_flag("--version", executable + " " + std::string(runtime::version()));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help, --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    return fail(executable, ExitCode::bad_configuration, std::string(error.what()) + "; see --help");
+  }
+  try {
+    Prepared prepared = load(request);
+    if (check) {
+      std::printf("%s: %s: valid\n", executable.c_str(), request.file.c_str());
+      return static_cast<int>(ExitCode::done);
+    }
+    ServiceHost host({info, std::move(prepared.common), std::move(prepared.config_hash)});
+    return static_cast<int>(body(host));
+  } catch (const config::ConfigError& error) {
+    return fail(executable, ExitCode::bad_configuration, error.what());
+  } catch (const std::exception& error) {
+    return fail(executable, ExitCode::runtime_failure, error.what());
+  }
+}
+
+}  // namespace fathom::host

@@ -1,0 +1,210 @@
+#include "host/service_host.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
+#include <unistd.h>
+
+#include "bus/writer.hpp"
+#include "runtime/build_info.hpp"
+#include "runtime/signals.hpp"
+
+namespace fathom::host {
+namespace {
+
+constexpr DurationNs kLifeSignPeriod = kNsPerSecond;
+constexpr std::size_t kMostCounters = 32;
+
+std::unique_ptr<Clock> make_clock(const config::ClockConfig& config) {
+  if (config.epoch_ns == 0) return std::make_unique<SystemClock>();
+  return std::make_unique<ScaledClock>(config.epoch_ns, config.rate);
+}
+
+runtime::LogLevel log_level(const std::string& word) {
+  auto level = runtime::LogLevel::info;
+  (void)runtime::parse_log_level(word, level);
+  return level;
+}
+
+bus::ParticipantOptions participant_options(const ServiceHost::Start& start) {
+  bus::ParticipantOptions out;
+  out.name = start.info.name;
+  out.domain = static_cast<std::uint32_t>(start.common.bus.domain);
+  out.interfaces = start.common.bus.interfaces;
+  out.peers = start.common.bus.peers;
+  out.profiles_dir = start.common.bus.profiles_dir;
+  return out;
+}
+
+std::string event_text(const bus::BusEvent& event) {
+  const char* what = "event";
+  switch (event.kind) {
+    case bus::BusEventKind::incompatible_qos:
+      what = "incompatible QoS";
+      break;
+    case bus::BusEventKind::deadline_missed:
+      what = "deadline missed";
+      break;
+    case bus::BusEventKind::writer_lost:
+      what = "writer lost";
+      break;
+    case bus::BusEventKind::sample_lost:
+      what = "sample lost";
+      break;
+    case bus::BusEventKind::write_failed:
+      what = "write failed";
+      break;
+    case bus::BusEventKind::resource_limit:
+      what = "resource limit reached";
+      break;
+  }
+  return "bus: " + event.topic + ": " + what + (event.detail.empty() ? "" : ": " + event.detail);
+}
+
+void append_bus_counters(const bus::BusCounters& counters, ServiceStatus& status) {
+  const std::pair<const char*, std::uint64_t> all[] = {{"bus_incompatible_qos", counters.incompatible_qos},
+                                                       {"bus_deadline_missed", counters.deadline_missed},
+                                                       {"bus_writer_lost", counters.writer_lost},
+                                                       {"bus_sample_lost", counters.sample_lost},
+                                                       {"bus_write_failed", counters.write_failed}};
+  // The bus's counters are the same for every service and must not be crowded out.
+  status.counters.resize(std::min(status.counters.size(), kMostCounters - std::size(all)));
+  for (const auto& [name, value] : all) status.counters.push_back({name, value});
+}
+
+}  // namespace
+
+struct ServiceHost::Impl {
+  explicit Impl(Start start_in)
+      : start(std::move(start_in)),
+        log("fathom-" + start.info.name, log_level(start.common.log.level)),
+        clock(make_clock(start.common.clock)),
+        participant(participant_options(start)),
+        status_writer(participant),
+        started_ns(clock->utc_ns()) {}
+
+  [[nodiscard]] SampleHeader header() const;
+  void publish(ServiceState state);
+
+  Start start;
+  runtime::Log log;
+  std::unique_ptr<Clock> clock;
+  runtime::StopSignal stop_signal;
+  bus::Participant participant;
+  bus::Writer<ServiceStatus> status_writer;
+  TimeNs started_ns;
+  std::uint64_t sequence = 0;
+  std::function<void(ServiceStatus&)> fill;
+  std::function<void()> tick;
+  DurationNs tick_period_ns = 0;
+  std::atomic<bool> publish_soon{false};
+  std::atomic<bool> stop_requested{false};
+  std::atomic<int> exit_code{-1};
+};
+
+SampleHeader ServiceHost::Impl::header() const {
+  const TimeNs now = clock->utc_ns();
+  return {std::string_view(start.common.vehicle), std::string_view(start.info.name), now, now, 0};
+}
+
+void ServiceHost::Impl::publish(ServiceState state) {
+  ServiceStatus status;
+  status.header = header();
+  status.header.sequence = ++sequence;
+  status.state = state;
+  status.version = runtime::version();
+  status.config_hash = start.config_hash;
+  status.host = runtime::host_name();
+  status.pid = static_cast<std::uint32_t>(getpid());
+  status.started_ns = started_ns;
+  if (fill) fill(status);
+  if (state == ServiceState::stopping) status.state = state;
+  append_bus_counters(participant.counters(), status);
+  status_writer.write(status);
+}
+
+ServiceHost::ServiceHost(Start start) : impl_(std::make_unique<Impl>(std::move(start))) {
+  impl_->participant.on_event(
+      [log = &impl_->log](const bus::BusEvent& event) { log->warning(event_text(event)); });
+}
+
+ServiceHost::~ServiceHost() = default;
+
+const config::CommonConfig& ServiceHost::common() const {
+  return impl_->start.common;
+}
+const std::string& ServiceHost::name() const {
+  return impl_->start.info.name;
+}
+Clock& ServiceHost::clock() {
+  return *impl_->clock;
+}
+runtime::Log& ServiceHost::log() {
+  return impl_->log;
+}
+bus::Participant& ServiceHost::participant() {
+  return impl_->participant;
+}
+
+SampleHeader ServiceHost::header() const {
+  return impl_->header();
+}
+
+DurationNs ServiceHost::host_duration(DurationNs vehicle_ns) const {
+  return static_cast<DurationNs>(static_cast<double>(vehicle_ns) / impl_->clock->rate());
+}
+
+void ServiceHost::on_status(std::function<void(ServiceStatus&)> fill) {
+  impl_->fill = std::move(fill);
+}
+
+void ServiceHost::on_tick(DurationNs period_ns, std::function<void()> tick) {
+  impl_->tick_period_ns = period_ns;
+  impl_->tick = std::move(tick);
+}
+
+void ServiceHost::publish_status_soon() {
+  impl_->publish_soon = true;
+  impl_->stop_signal.wake();
+}
+
+void ServiceHost::stop(ExitCode code) {
+  int none = -1;
+  impl_->exit_code.compare_exchange_strong(none, static_cast<int>(code));
+  impl_->stop_requested = true;
+  impl_->stop_signal.wake();
+}
+
+ExitCode ServiceHost::run() {
+  Impl& impl = *impl_;
+  impl.log.info("started, version " + std::string(runtime::version()) + ", configuration " +
+                impl.start.config_hash + ", vehicle " + impl.start.common.vehicle + ", domain " +
+                std::to_string(impl.start.common.bus.domain));
+  TimeNs next_life_sign = impl.clock->monotonic_ns();
+  TimeNs next_tick = next_life_sign;
+  try {
+    while (!impl.stop_requested) {
+      const TimeNs now = impl.clock->monotonic_ns();
+      if (impl.tick && now >= next_tick) {
+        impl.tick();
+        next_tick += impl.tick_period_ns * (1 + (now - next_tick) / impl.tick_period_ns);
+      }
+      const bool due = now >= next_life_sign;
+      if (impl.publish_soon.exchange(false) || due) impl.publish(ServiceState::healthy);
+      if (due) next_life_sign += kLifeSignPeriod * (1 + (now - next_life_sign) / kLifeSignPeriod);
+      const TimeNs next = impl.tick ? std::min(next_tick, next_life_sign) : next_life_sign;
+      const auto woken = impl.stop_signal.wait(host_duration(next - impl.clock->monotonic_ns()));
+      if (woken == runtime::StopSignal::Woken::signal) stop(ExitCode::done);
+    }
+  } catch (...) {
+    impl.fill = nullptr;  // it may be what failed
+    impl.publish(ServiceState::stopping);
+    throw;
+  }
+  impl.publish(ServiceState::stopping);
+  impl.log.info("stopped");
+  return static_cast<ExitCode>(impl.exit_code.load());
+}
+
+}  // namespace fathom::host
