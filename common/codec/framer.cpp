@@ -68,7 +68,7 @@ void Framer::drain(Sink& sink, bool at_end) {
         const Outcome outcome = decode(front.first(found.length), offset_, sink);
         if (outcome.kind == Outcome::Kind::refused) {
           refuse(sink, outcome.reason, found.length);
-          pass(1);
+          pass(std::clamp<std::size_t>(outcome.advance, 1, unread));
           break;
         }
         if (outcome.kind == Outcome::Kind::ignored) ++totals_.frames_ignored;

@@ -42,13 +42,16 @@ struct Outcome {
   enum class Kind : std::uint8_t { used, ignored, refused };
   Kind kind = Kind::used;
   RejectReason reason = RejectReason::structure;
+  std::size_t advance = 1;  ///< after `refused`, as in Probe
 
   /// Gave samples, now or together with later frames.
   [[nodiscard]] static Outcome used() { return {Kind::used}; }
   /// Good, of a kind that carries no sample.
   [[nodiscard]] static Outcome ignored() { return {Kind::ignored}; }
   /// Its checksum is right and its inside is not. Nothing may have been emitted.
-  [[nodiscard]] static Outcome refused(RejectReason reason) { return {Kind::refused, reason}; }
+  [[nodiscard]] static Outcome refused(RejectReason reason, std::size_t advance = 1) {
+    return {Kind::refused, reason, advance};
+  }
 };
 
 /// The part of a codec that all protocols share: buffering, absolute offsets, resynchronisation and totals.

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "codec/framer.hpp"
+#include "codec/registry.hpp"
+#include "samples/depth.hpp"
+
+namespace fathom::codec {
+
+/// What the text protocols of pressure sensors share: lines without checksum, and what their number means.
+
+inline constexpr std::size_t kMaxDepthLine = 128;
+
+/// One line, from where the last one ended to its CR or LF. A line longer than kMaxDepthLine is refused.
+[[nodiscard]] Probe probe_depth_line(Bytes front);
+
+/// The line's text, without its end.
+[[nodiscard]] std::string_view line_text(Bytes frame);
+
+/// How a number becomes a depth.
+struct DepthScale {
+  double unit = 1.0;    ///< of one count, metres or pascal
+  double offset = 0.0;  ///< added after scaling, metres or pascal
+  bool value_is_depth = false;
+  double atmosphere_Pa = 101'325.0;
+  double latitude_rad = 0.0;
+
+  /// Writes depth, and pressure where that was measured. `out_of_range` beyond what the ocean holds.
+  [[nodiscard]] std::optional<RejectReason> apply(double value, DepthSample& sample) const;
+};
+
+}  // namespace fathom::codec

@@ -1,0 +1,182 @@
+#include "codec/nmea_epoch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::codec {
+namespace {
+
+constexpr DurationNs kHalfDay = 12 * 3600 * kNsPerSecond;
+constexpr DurationNs kDay = 2 * kHalfDay;
+
+/// The fix of the epoch: the sentence that grades it best decides, RMC may only take away.
+GpsFix joint_fix(const GpsReport* fixed, const GpsReport* rmc) {
+  if (fixed == nullptr) return rmc != nullptr ? rmc->fix : GpsFix::none;
+  GpsFix fix = fixed->fix;
+  if (fix == GpsFix::fix_3d && !known(fixed->altitude_msl_m)) fix = GpsFix::fix_2d;
+  if (rmc != nullptr && rmc->fix <= GpsFix::dead_reckoning) fix = std::min(fix, rmc->fix);
+  return fix;
+}
+
+void set_velocity(GpsSample& sample, const GpsReport& report) {
+  if (known(report.speed_m_s) && known(report.course_rad)) {
+    sample.course_rad = report.course_rad;
+    sample.velocity_N_m_s[0] = report.speed_m_s * std::cos(report.course_rad);
+    sample.velocity_N_m_s[1] = report.speed_m_s * std::sin(report.course_rad);
+  } else if (report.speed_m_s == 0.0) {
+    // Receivers leave the course out when they stand still.
+    sample.velocity_N_m_s[0] = 0.0;
+    sample.velocity_N_m_s[1] = 0.0;
+  }
+}
+
+}  // namespace
+
+const GpsReport* GpsEpochs::Epoch::find(GpsSentence type) const {
+  const std::optional<GpsReport>& found = part[static_cast<std::size_t>(type)];
+  return found ? &*found : nullptr;
+}
+
+std::uint8_t GpsEpochs::Epoch::mask() const {
+  std::uint8_t bits = 0;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (part[i]) bits = static_cast<std::uint8_t>(bits | (1U << i));
+  }
+  return bits;
+}
+
+void GpsEpochs::add(const GpsReport& report, std::uint64_t offset, std::uint64_t length,
+                    const Deliver& deliver) {
+  if (report.midnight && report.time_of_day) {
+    midnight_ = report.midnight;
+    dated_at_ = *report.time_of_day;
+  }
+  if (report.type == GpsSentence::zda) {
+    date_epoch(report);
+    return;
+  }
+  if (epoch_ && belongs(report)) {
+    join(report, offset, length);
+  } else if (report.type == GpsSentence::vtg) {
+    waiting_vtg_ = Waiting{report, offset, length};
+    return;
+  } else if (report.type == GpsSentence::gst) {
+    waiting_gst_ = Waiting{report, offset, length};
+    return;
+  } else {
+    open_next(report, offset, length, deliver);
+  }
+  if (!epoch_->delivered && cycle_complete()) deliver_open(deliver);
+}
+
+void GpsEpochs::finish(const Deliver& deliver) {
+  close(deliver);
+  *this = GpsEpochs();
+}
+
+void GpsEpochs::date_epoch(const GpsReport& report) {
+  // A ZDA of another second dates the stream and not this epoch.
+  if (!epoch_ || epoch_->delivered || !report.time_of_day) return;
+  if (!epoch_->time_of_day) epoch_->time_of_day = report.time_of_day;
+  if (epoch_->time_of_day == report.time_of_day && !epoch_->midnight) epoch_->midnight = report.midnight;
+}
+
+bool GpsEpochs::belongs(const GpsReport& report) const {
+  const bool same_time = report.time_of_day && epoch_->time_of_day == report.time_of_day;
+  if (const GpsReport* twin = epoch_->find(report.type)) {
+    // Two talkers may report the same epoch; one talker repeating itself begins another.
+    return same_time && twin->talker != report.talker;
+  }
+  if (report.type == GpsSentence::vtg || same_time) return true;
+  if (report.type == GpsSentence::gst) return false;
+  return !epoch_->delivered && (!report.time_of_day || !epoch_->time_of_day);
+}
+
+void GpsEpochs::join(const GpsReport& report, std::uint64_t offset, std::uint64_t length) {
+  std::optional<GpsReport>& part = epoch_->part[static_cast<std::size_t>(report.type)];
+  if (part) return;
+  part = report;
+  if (!epoch_->time_of_day) epoch_->time_of_day = report.time_of_day;
+  if (report.midnight) epoch_->midnight = report.midnight;
+  epoch_->offset = std::min(epoch_->offset, offset);
+  epoch_->end = std::max(epoch_->end, offset + length);
+}
+
+void GpsEpochs::open_next(const GpsReport& report, std::uint64_t offset, std::uint64_t length,
+                          const Deliver& deliver) {
+  close(deliver);
+  epoch_ = Epoch{};
+  epoch_->offset = offset;
+  join(report, offset, length);
+  if (waiting_vtg_) join(waiting_vtg_->report, waiting_vtg_->offset, waiting_vtg_->length);
+  if (waiting_gst_ && waiting_gst_->report.time_of_day == report.time_of_day) {
+    join(waiting_gst_->report, waiting_gst_->offset, waiting_gst_->length);
+  }
+  waiting_vtg_.reset();
+  waiting_gst_.reset();
+}
+
+void GpsEpochs::close(const Deliver& deliver) {
+  if (!epoch_) return;
+  if (!epoch_->delivered) deliver_open(deliver);
+  cycles_[closed_ % kHistory] = epoch_->mask();
+  ++closed_;
+  epoch_.reset();
+}
+
+bool GpsEpochs::cycle_complete() const {
+  if (closed_ < 2) return false;
+  std::uint8_t expected = 0;
+  for (const std::uint8_t mask : cycles_) expected = static_cast<std::uint8_t>(expected | mask);
+  return (expected & ~epoch_->mask()) == 0;
+}
+
+DeviceTime GpsEpochs::time_of(const Epoch& epoch) {
+  DeviceTime time;
+  if (!epoch.time_of_day) return time;
+  if (epoch.midnight) {
+    midnight_ = epoch.midnight;
+  } else if (midnight_) {
+    if (*epoch.time_of_day < dated_at_ - kHalfDay) *midnight_ += kDay;
+    if (*epoch.time_of_day > dated_at_ + kHalfDay) *midnight_ -= kDay;
+  }
+  if (midnight_) {
+    dated_at_ = *epoch.time_of_day;
+    time.utc_ns = *midnight_ + *epoch.time_of_day;
+  } else {
+    time.time_of_day_ns = epoch.time_of_day;
+  }
+  return time;
+}
+
+void GpsEpochs::deliver_open(const Deliver& deliver) {
+  epoch_->delivered = true;
+  const GpsReport* gga = epoch_->find(GpsSentence::gga);
+  const GpsReport* gns = epoch_->find(GpsSentence::gns);
+  const GpsReport* rmc = epoch_->find(GpsSentence::rmc);
+  const GpsReport* vtg = epoch_->find(GpsSentence::vtg);
+  const GpsReport* gst = epoch_->find(GpsSentence::gst);
+  const GpsReport* fixed = gga != nullptr ? gga : gns;
+  const GpsReport& position = fixed != nullptr ? *fixed : *rmc;
+
+  GpsSample sample;
+  sample.satellites = position.satellites;
+  sample.hdop = position.hdop;
+  sample.fix = joint_fix(fixed, rmc);
+  if (!known(position.latitude_rad) || !known(position.longitude_rad)) sample.fix = GpsFix::none;
+  if (sample.fix != GpsFix::none) {
+    sample.latitude_rad = position.latitude_rad;
+    sample.longitude_rad = position.longitude_rad;
+    sample.altitude_msl_m = position.altitude_msl_m;
+    sample.altitude_m = position.altitude_msl_m + position.geoid_separation_m;
+    if (gst != nullptr) sample.position_sigma_N_m = gst->sigma_N_m;
+    if (rmc != nullptr) {
+      set_velocity(sample, *rmc);
+    } else if (vtg != nullptr && vtg->fix != GpsFix::none) {
+      set_velocity(sample, *vtg);
+    }
+  }
+  deliver(sample, time_of(*epoch_), epoch_->offset, epoch_->end - epoch_->offset);
+}
+
+}  // namespace fathom::codec

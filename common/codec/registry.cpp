@@ -1,0 +1,84 @@
+#include "codec/registry.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "codec/ascii_depth.hpp"
+#include "codec/nmea.hpp"
+#include "codec/paroscientific.hpp"
+#include "codec/pd0.hpp"
+#include "codec/ubx.hpp"
+#include "codec/vectornav.hpp"
+#include "codec/waterlinked.hpp"
+
+namespace fathom::codec {
+namespace {
+
+constexpr std::array<std::string_view, 16> kNmeaAliases{"nmea",
+                                                        "nmea_0183",
+                                                        "nmea0183_gps",
+                                                        "nmea0183_depth_heading",
+                                                        "nmea183",
+                                                        "gps_nmea",
+                                                        "nmea_gps",
+                                                        "nmea_heading",
+                                                        "heading",
+                                                        "heading_nmea",
+                                                        "hdt",
+                                                        "rpm",
+                                                        "nmea_rpm",
+                                                        "actuator",
+                                                        "nmea0183_heading",
+                                                        "nmea0183_rpm"};
+constexpr std::array<std::string_view, 5> kUbxAliases{"ublox", "u_blox", "ubx_nav_pvt", "nav_pvt", "gps_ubx"};
+constexpr std::array<std::string_view, 5> kPd0Aliases{"teledyne_pd0", "rdi", "rdi_pd0", "workhorse",
+                                                      "dvl_pd0"};
+constexpr std::array<std::string_view, 5> kWaterlinkedAliases{"waterlinked_json", "water_linked", "a50",
+                                                              "a125", "water_linked_json"};
+constexpr std::array<std::string_view, 4> kVectornavAliases{"vn", "vnbin", "vectornav_binary",
+                                                            "imu_vectornav"};
+constexpr std::array<std::string_view, 4> kParoscientificAliases{"pressure", "digiquartz", "paros",
+                                                                 "pressure_paroscientific"};
+constexpr std::array<std::string_view, 3> kAsciiDepthAliases{"ascii", "depth_line", "ascii_line"};
+constexpr std::array<std::string_view, 4> kPsimssbAliases{"usbl", "kongsberg", "kongsberg_psimssb", "hipap"};
+
+const std::array<Protocol, 8> kProtocols{{
+    {"nmea0183", kNmeaAliases,
+     "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, PSIMSSB; any talker", make_nmea0183},
+    {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx},
+    {"pd0", kPd0Aliases, "Teledyne RDI PD0 ensembles with bottom track", make_pd0},
+    {"waterlinked", kWaterlinkedAliases, "Water Linked A50 and A125, JSON lines", make_waterlinked},
+    {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data", make_vectornav},
+    {"paroscientific", kParoscientificAliases, "Paroscientific Digiquartz pressure", make_paroscientific},
+    {"ascii_depth", kAsciiDepthAliases, "one depth or pressure a line, prefix, scale and offset configurable",
+     make_ascii_depth},
+    {"psimssb", kPsimssbAliases, "Kongsberg $PSIMSSB acoustic positions", make_psimssb},
+}};
+
+char folded(char c) {
+  if (c == '-') return '_';
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return folded(x) == folded(y); });
+}
+
+}  // namespace
+
+std::span<const Protocol> protocols() {
+  return kProtocols;
+}
+
+const Protocol* find_protocol(std::string_view name) {
+  for (const Protocol& protocol : kProtocols) {
+    if (same_name(protocol.name, name)) return &protocol;
+    for (const std::string_view alias : protocol.aliases) {
+      if (same_name(alias, name)) return &protocol;
+    }
+  }
+  return nullptr;
+}
+
+}  // namespace fathom::codec
