@@ -1,0 +1,28 @@
+#pragma once
+
+// Description of the estimator's configuration; included by fusion_config.cpp and fusion_engine_config.cpp
+// only. In the file, angles are in degrees and inertial errors in the units of their data sheets; the keys
+// say which.
+
+#include "config/schema.hpp"
+#include "estimation/engine_config.hpp"
+
+namespace fathom::config {
+
+void describe(Schema<estimation::ImuConfig>& s);
+void describe(Schema<estimation::StateGroups>& s);
+void describe(Schema<estimation::StateModelConfig>& s);
+void describe(Schema<estimation::SensorConfig>& s);
+void describe(Schema<estimation::AlignmentConfig>& s);
+void describe(Schema<estimation::ForecastLimitConfig>& s);
+void describe(Schema<estimation::EngineConfig>& s);
+
+/// What a sensor's entry leaves out is that of its kind: default_sensor().
+void load_value(const nlohmann::json& json, estimation::SensorConfig& out,
+                const Rules<estimation::SensorConfig>& rules, const Place& place);
+
+/// The state groups that are not named are those of the named configuration.
+void load_value(const nlohmann::json& json, estimation::EngineConfig& out,
+                const Rules<estimation::EngineConfig>& rules, const Place& place);
+
+}  // namespace fathom::config

@@ -1,0 +1,124 @@
+#include "config/fusion_config.hpp"
+
+#include <numbers>
+
+#include "config/engine_schema.hpp"
+#include "config/service_schema.hpp"
+
+namespace fathom::config {
+
+using estimation::StartMode;
+
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+
+}  // namespace
+
+void describe(Schema<GivenState>& s) {
+  s.field("stamp_ns", &GivenState::stamp_ns,
+          "UTC instant of the state since 1970; 0: with the first inertial sample")
+      .unit("ns")
+      .range(0, 9.2e18);
+  s.field("latitude_deg", &GivenState::latitude_rad, "geodetic latitude, WGS-84")
+      .unit("deg")
+      .range(-90, 90)
+      .scaled(kRadPerDeg)
+      .required();
+  s.field("longitude_deg", &GivenState::longitude_rad, "geodetic longitude, WGS-84")
+      .unit("deg")
+      .range(-360, 360)
+      .scaled(kRadPerDeg)
+      .required();
+  s.field("altitude_m", &GivenState::altitude_m, "height above the WGS-84 ellipsoid, up")
+      .unit("m")
+      .range(-12'000, 100'000)
+      .required();
+  s.field("velocity_N_m_s", &GivenState::velocity_N_m_s, "velocity north, east, down")
+      .unit("m/s")
+      .range(-1000, 1000);
+  s.field("rpy_deg", &GivenState::rpy_rad, "roll, pitch, yaw of the body")
+      .unit("deg")
+      .range(-360, 360)
+      .scaled(kRadPerDeg)
+      .required();
+}
+
+void describe(Schema<StartSigma>& s) {
+  s.field("position_N_m", &StartSigma::position_N_m, "one standard deviation north, east, down")
+      .unit("m")
+      .range(1e-4, 1e6);
+  s.field("velocity_N_m_s", &StartSigma::velocity_N_m_s, "one standard deviation north, east, down")
+      .unit("m/s")
+      .range(1e-5, 1e3);
+  s.field("attitude_deg", &StartSigma::attitude_rad, "one standard deviation about north, east, down")
+      .unit("deg")
+      .range(1e-5, 180)
+      .scaled(kRadPerDeg);
+}
+
+void describe(Schema<StartConfig>& s) {
+  s.field("mode", &StartConfig::mode, "how navigation begins")
+      .words({{"at_rest", StartMode::at_rest},
+              {"in_motion", StartMode::in_motion},
+              {"given", StartMode::given},
+              {"automatic", StartMode::automatic}});
+  s.field("state", &StartConfig::state, "the state that mode \"given\" starts from");
+  s.field("sigma", &StartConfig::sigma, "how well a given state or a reference is known");
+}
+
+void describe(Schema<FusionConfig>& s) {
+  s.include(&FusionConfig::common);
+  s.field("imu_sensor", &FusionConfig::imu_sensor,
+          "name of the inertial unit that is listened to; empty: the first one heard");
+  s.field("ownership_strength", &FusionConfig::ownership_strength,
+          "of the navigation state: the strongest living fusion is heard")
+      .range(0, 1'000'000);
+  s.field("start", &FusionConfig::start, "how navigation begins");
+  s.field("engine", &FusionConfig::engine, "the estimator and its instruments").required();
+  s.check([](const FusionConfig& config) -> std::pair<std::string, std::string> {
+    if (config.imu_sensor.size() > Name::kCapacity) {
+      return {"imu_sensor", "at most " + std::to_string(Name::kCapacity) + " characters"};
+    }
+    if (config.start.mode == StartMode::given && !config.start.state) {
+      return {"start.state", "the state to start from, because start.mode is \"given\""};
+    }
+    return {};
+  });
+}
+
+template <>
+LoadedConfig<FusionConfig> load_service_config<FusionConfig>(const LoadRequest& request) {
+  LoadedConfig<FusionConfig> out;
+  out.value = load<FusionConfig>(request);
+  out.hash = runtime::hex_hash(canonical(out.value));
+  return out;
+}
+
+ConfigKind fusion_kind() {
+  return make_kind<FusionConfig>("fusion");
+}
+
+estimation::EngineConfig engine_config(const FusionConfig& config) {
+  estimation::EngineConfig engine = config.engine;
+  engine.vehicle = config.common.vehicle;
+  engine.alignment.mode = config.start.mode;
+  return engine;
+}
+
+estimation::InitialState initial_state(const FusionConfig& config) {
+  const GivenState& given = *config.start.state;
+  estimation::InitialState state;
+  state.stamp_ns = given.stamp_ns;
+  state.latitude_rad = given.latitude_rad;
+  state.longitude_rad = given.longitude_rad;
+  state.altitude_m = given.altitude_m;
+  state.velocity_N_m_s = given.velocity_N_m_s;
+  state.rpy_rad = given.rpy_rad;
+  state.position_sigma_N_m = config.start.sigma.position_N_m;
+  state.velocity_sigma_N_m_s = config.start.sigma.velocity_N_m_s;
+  state.attitude_sigma_rad = config.start.sigma.attitude_rad;
+  return state;
+}
+
+}  // namespace fathom::config

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "base/unknown.hpp"
+#include "config/common_config.hpp"
+#include "config/error.hpp"
+#include "config/registry.hpp"
+#include "config/service_config.hpp"
+#include "estimation/engine_config.hpp"
+
+namespace fathom::config {
+
+/// The state that navigation starts from where the configuration gives it.
+struct GivenState {
+  std::int64_t stamp_ns = 0;  ///< UTC; 0: with the first inertial sample
+  double latitude_rad = kUnknown;
+  double longitude_rad = kUnknown;
+  double altitude_m = kUnknown;  ///< above the WGS-84 ellipsoid
+  std::array<double, 3> velocity_N_m_s{0, 0, 0};
+  std::array<double, 3> rpy_rad{kUnknown, kUnknown, kUnknown};
+};
+
+/// How well a given state, or a reference that navigation starts from, is known.
+struct StartSigma {
+  std::array<double, 3> position_N_m{1.0, 1.0, 1.0};
+  std::array<double, 3> velocity_N_m_s{0.1, 0.1, 0.1};
+  std::array<double, 3> attitude_rad{0.01, 0.01, 0.02};  ///< about north, east, down
+};
+
+/// Section "start".
+struct StartConfig {
+  estimation::StartMode mode = estimation::StartMode::automatic;
+  std::optional<GivenState> state;  ///< required by mode "given"
+  StartSigma sigma;
+};
+
+/// deploy/config/fusion.json, and what `fathom solve --config` reads: the same engine from the same file.
+struct FusionConfig {
+  CommonConfig common;
+  std::string imu_sensor;               ///< the inertial unit that is listened to; empty: the first one heard
+  std::int32_t ownership_strength = 0;  ///< of NavState: the strongest living fusion is heard
+  StartConfig start;
+  estimation::EngineConfig engine;  ///< as in the file; use engine_config() to build an engine
+};
+
+/// Throws ConfigError.
+template <>
+[[nodiscard]] LoadedConfig<FusionConfig> load_service_config<FusionConfig>(const LoadRequest& request);
+
+[[nodiscard]] ConfigKind fusion_kind();
+
+/// The engine's configuration with what stands elsewhere in the file: vehicle and start mode.
+[[nodiscard]] estimation::EngineConfig engine_config(const FusionConfig& config);
+
+/// The configured state for FusionEngine::start_from(). Precondition: config.start.state.
+[[nodiscard]] estimation::InitialState initial_state(const FusionConfig& config);
+
+}  // namespace fathom::config
