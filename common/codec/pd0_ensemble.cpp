@@ -13,7 +13,7 @@ namespace {
 using Part = std::span<const std::uint8_t>;  ///< one data type, identifier included
 
 constexpr double kRadPerCentidegree = std::numbers::pi / 18'000.0;
-constexpr double kMetresPerSecond = 1e-3;
+constexpr double kPerMillimetre = 1e3;  // divided by, so that 0.478 reads 0.478
 
 /// The data types of an ensemble that are read; empty where absent.
 struct Parts {
@@ -96,12 +96,12 @@ std::array<double, 4> read_velocity(Part bottom, std::size_t at, Part high_resol
   for (std::size_t i = 0; i < 4; ++i) {
     const auto coarse = load_le<std::int16_t>(bottom, at + 2 * i);
     if (coarse == kBadVelocity) continue;
-    v[i] = coarse * kMetresPerSecond;
+    v[i] = coarse / kPerMillimetre;
     if (high_resolution.size() < high_resolution::kFull) continue;
     const auto fine = load_le<std::int32_t>(high_resolution, fine_at + 4 * i);
     if (fine == kBadHighResolution) continue;
-    const double refined = -fine * 1e-5;  // opposite sign: vehicle relative to bottom
-    if (std::abs(refined - v[i]) <= 1.5 * kMetresPerSecond) v[i] = refined;
+    const double refined = -fine / 1e5;  // opposite sign: vehicle relative to bottom
+    if (std::abs(refined - v[i]) <= 1.5 / kPerMillimetre) v[i] = refined;
   }
   return v;
 }
@@ -113,7 +113,7 @@ double read_sigma(Part navigation, std::size_t at) {
   for (std::size_t i = 0; i < 4; ++i) {
     const auto sigma = load_le<std::uint16_t>(navigation, at + 2 * i);
     if (sigma == 0 || sigma >= 0x7FFF) continue;
-    sum += std::pow(sigma * kMetresPerSecond, 2);
+    sum += std::pow(sigma / kPerMillimetre, 2);
     ++count;
   }
   return count > 0 ? std::sqrt(sum / count) : kUnknown;
@@ -131,14 +131,14 @@ BottomTrack read_track(const Parts& parts) {
     std::uint32_t range_cm = load_le<std::uint16_t>(part, bottom::kRange + 2 * i);
     if (part.size() >= bottom::kFull) range_cm += 65'536U * part[bottom::kRangeHigh + i];
     if (range_cm == 0) continue;
-    track.range_m[i] = range_cm * 0.01;
+    track.range_m[i] = range_cm / 100.0;
     sum += track.range_m[i];
     ++count;
   }
   if (count > 0) track.altitude_m = sum / count;
   if (parts.range.size() >= range::kShortest) {
     const auto vertical = load_le<std::uint32_t>(parts.range, range::kVertical);
-    if (vertical != 0 && vertical < 0x7FFF'FFFF) track.altitude_m = vertical * 1e-4;
+    if (vertical != 0 && vertical < 0x7FFF'FFFF) track.altitude_m = vertical / 1e4;
   }
   if (part.size() < bottom::kWaterEnd) return track;
   Velocity water;
@@ -181,7 +181,7 @@ std::variant<Ensemble, RejectReason> read_ensemble(std::span<const std::uint8_t>
   if (std::abs(roll) <= 18'000) ensemble.roll_rad = roll * kRadPerCentidegree;
   double sound_speed = load_le<std::uint16_t>(leader, variable::kSoundSpeed);
   if (parts->high_resolution.size() >= high_resolution::kFull) {
-    const double fine = load_le<std::uint32_t>(parts->high_resolution, high_resolution::kSoundSpeed) * 1e-6;
+    const double fine = load_le<std::uint32_t>(parts->high_resolution, high_resolution::kSoundSpeed) / 1e6;
     if (std::abs(fine - sound_speed) <= 1.0) sound_speed = fine;
   }
   if (sound_speed >= 1'300.0 && sound_speed <= 1'700.0) ensemble.sound_speed_m_s = sound_speed;

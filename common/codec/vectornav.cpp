@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "codec/bytes.hpp"
 #include "codec/framer.hpp"
+#include "codec/text.hpp"
 #include "codec/vectornav_layout.hpp"
 
 namespace fathom::codec {
@@ -253,12 +253,9 @@ class VectorNav : public Framer {
     for (std::size_t at = tag.size(); at < line.size(); ++count) {
       if (count == wanted) return Outcome::refused(RejectReason::structure);
       const std::size_t end = std::min(line.find(',', at + 1), line.size());
-      std::string_view text = line.substr(at + 1, end - at - 1);
-      if (text.starts_with('+')) text.remove_prefix(1);
-      const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), values[count]);
-      if (error != std::errc() || rest != text.data() + text.size() || !std::isfinite(values[count])) {
-        return Outcome::refused(RejectReason::field);
-      }
+      const std::optional<double> value = parse_decimal(line.substr(at + 1, end - at - 1));
+      if (!value) return Outcome::refused(RejectReason::field);
+      values[count] = *value;
       at = end;
     }
     if (count != wanted) return Outcome::refused(RejectReason::structure);
