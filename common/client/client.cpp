@@ -1,0 +1,175 @@
+#include <chrono>
+#include <condition_variable>
+#include <cstdlib>
+#include <mutex>
+#include <utility>
+
+#include <fathom/client.hpp>
+
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+
+namespace fathom {
+namespace {
+
+bus::ParticipantOptions participant_options(const ClientOptions& options) {
+  bus::ParticipantOptions out;
+  out.name = options.name;
+  out.domain = options.domain;
+  out.interfaces = options.interfaces;
+  out.peers = options.peers;
+  out.profiles_dir = options.profiles_dir;
+  const char* environment = std::getenv("FATHOM_DDS_DIR");
+  if (out.profiles_dir.empty() && environment != nullptr) out.profiles_dir = environment;
+  if (out.profiles_dir.empty()) out.profiles_dir = options.package_profiles_dir;
+  return out;
+}
+
+/// A handler that may be replaced at any time, also by itself.
+template <class T>
+class Callback {
+ public:
+  void call(const T& sample) {
+    const std::lock_guard lock(mutex_);
+    const auto handler = handler_;  // kept alive although it may replace itself
+    if (handler && *handler) (*handler)(sample);
+  }
+  void replace(std::function<void(const T&)> handler) {
+    const std::lock_guard lock(mutex_);
+    handler_ = std::make_shared<std::function<void(const T&)>>(std::move(handler));
+  }
+
+ private:
+  std::recursive_mutex mutex_;
+  std::shared_ptr<std::function<void(const T&)>> handler_;
+};
+
+}  // namespace
+
+struct Client::Impl {
+  explicit Impl(const ClientOptions& client_options)
+      : options(client_options),
+        clock(client_options.clock != nullptr ? *client_options.clock : system_clock),
+        vehicle(client_options.vehicle),
+        participant(participant_options(client_options)) {
+    nav_reader.emplace(participant, [this](const NavState& state, const bus::SampleInfo&) { take(state); });
+    alignment_reader.emplace(participant, [this](const AlignmentStatus& status, const bus::SampleInfo&) {
+      const std::lock_guard lock(mutex);
+      if (ours(status.header)) alignment = status;
+    });
+    monitor_reader.emplace(participant, [this](const MonitorStatus& status, const bus::SampleInfo&) {
+      const std::lock_guard lock(mutex);
+      if (ours(status.header)) monitor = status;
+    });
+    alarm_reader.emplace(participant, [this](const Alarm& alarm, const bus::SampleInfo&) {
+      {
+        const std::lock_guard lock(mutex);
+        if (!ours(alarm.header)) return;
+      }
+      on_alarm.call(alarm);
+    });
+  }
+
+  /// Precondition: mutex held. An unnamed vehicle is settled by the first that is heard.
+  bool ours(const SampleHeader& header) {
+    if (vehicle.empty()) vehicle = header.vehicle;
+    return header.vehicle == vehicle;
+  }
+
+  void take(const NavState& state) {
+    {
+      const std::lock_guard lock(mutex);
+      if (!ours(state.header)) return;
+      // A state that repeats its stamp is no news: its age goes on.
+      if (!latest || latest->header.stamp_ns != state.header.stamp_ns) {
+        arrived_ns = clock.monotonic_ns();
+        ++arrivals;
+      }
+      latest = state;
+    }
+    arrival.notify_all();
+    on_nav_state.call(state);
+  }
+
+  [[nodiscard]] double age_locked() const {
+    return latest ? to_seconds(clock.monotonic_ns() - arrived_ns) : kUnknown;
+  }
+
+  ClientOptions options;
+  SystemClock system_clock;
+  const Clock& clock;
+
+  mutable std::mutex mutex;  ///< guards what follows up to the handlers
+  std::condition_variable arrival;
+  Name vehicle;
+  std::optional<NavState> latest;
+  TimeNs arrived_ns = 0;
+  std::uint64_t arrivals = 0;
+  std::uint64_t returned = 0;  ///< `arrivals` when wait_next last returned
+  std::optional<AlignmentStatus> alignment;
+  std::optional<MonitorStatus> monitor;
+
+  Callback<NavState> on_nav_state;
+  Callback<Alarm> on_alarm;
+
+  bus::Participant participant;
+  // Last: their handlers use all of the above.
+  std::optional<bus::Reader<NavState>> nav_reader;
+  std::optional<bus::Reader<AlignmentStatus>> alignment_reader;
+  std::optional<bus::Reader<MonitorStatus>> monitor_reader;
+  std::optional<bus::Reader<Alarm>> alarm_reader;
+};
+
+Client::Client(const ClientOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+
+Client::~Client() = default;
+
+void Client::on_nav_state(NavStateHandler handler) {
+  impl_->on_nav_state.replace(std::move(handler));
+}
+
+void Client::on_alarm(AlarmHandler handler) {
+  impl_->on_alarm.replace(std::move(handler));
+}
+
+std::optional<NavState> Client::latest() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->latest;
+}
+
+double Client::age_s() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->age_locked();
+}
+
+std::optional<NavState> Client::wait_next(double timeout_s) {
+  std::unique_lock lock(impl_->mutex);
+  const bool arrived = impl_->arrival.wait_for(lock, std::chrono::nanoseconds(from_seconds(timeout_s)),
+                                               [this] { return impl_->arrivals != impl_->returned; });
+  if (!arrived) return std::nullopt;
+  impl_->returned = impl_->arrivals;
+  return impl_->latest;
+}
+
+NavHealth Client::health() const {
+  std::optional<NavState> state;
+  double age_s = kUnknown;
+  {
+    const std::lock_guard lock(impl_->mutex);
+    state = impl_->latest;
+    age_s = impl_->age_locked();
+  }
+  return judge(state, age_s, impl_->options.limits);
+}
+
+std::optional<AlignmentStatus> Client::alignment() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->alignment;
+}
+
+std::optional<MonitorStatus> Client::monitor() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->monitor;
+}
+
+}  // namespace fathom

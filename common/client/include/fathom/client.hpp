@@ -1,0 +1,119 @@
+#pragma once
+
+/// Navigation for guidance software, in a few lines:
+///
+///   #include <fathom/client.hpp>
+///
+///   fathom::Client navigation({.domain = 0, .vehicle = "auv"});
+///   while (running) {
+///     const auto health = navigation.health();
+///     if (health.ok) steer(*navigation.latest());
+///     else hold(health.reason);
+///   }
+///
+/// Positions are WGS-84 in radians, velocities north-east-down in m/s, q_NB turns body (forward-right-down)
+/// into north-east-down. Unknown values are NaN.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "base/time.hpp"
+#include "samples/alignment_status.hpp"
+#include "samples/health.hpp"
+#include "samples/nav_state.hpp"
+
+namespace fathom {
+
+#ifdef FATHOM_CLIENT_DDS_DIR
+inline constexpr const char* kClientProfiles = FATHOM_CLIENT_DDS_DIR;
+#else
+inline constexpr const char* kClientProfiles = "";
+#endif
+
+/// What a navigation state has to fulfil for health().ok.
+struct HealthLimits {
+  double max_age_s = 0.5;              ///< since the state arrived
+  double max_horizontal_95_m = 50.0;   ///< radius that holds the true position with 95 % probability
+  double max_heading_sigma_rad = 0.1;  ///< one sigma
+  bool need_aligned = true;            ///< the alignment phase must be `aligned`
+};
+
+struct ClientOptions {
+  std::uint32_t domain = 0;
+  std::string vehicle;            ///< empty: the first vehicle heard, and only that one from then on
+  std::string name = "guidance";  ///< how this program shows up on the vehicle network
+  std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses bound, nothing else is
+  std::vector<std::string> peers{"127.0.0.1"};       ///< asked for discovery besides multicast
+  /// Folder of the QoS XML. Empty: $FATHOM_DDS_DIR, else the folder that was installed with the package.
+  std::string profiles_dir;
+  HealthLimits limits{};
+  /// For accelerated simulations; must outlive the client. None: the host's clock.
+  const Clock* clock = nullptr;
+  /// Filled in by the installed package.
+  std::string package_profiles_dir = kClientProfiles;
+};
+
+/// Whether guidance may rely on the navigation state, and if not, why.
+struct NavHealth {
+  bool ok = false;
+  bool heard = false;    ///< a state has been received at all
+  bool fresh = false;    ///< not older than max_age_s
+  bool usable = false;   ///< the mode gives a position, and position, velocity and attitude are finite
+  bool aligned = false;  ///< phase `aligned`
+  bool certain = false;  ///< within the limits of uncertainty
+  NavMode mode = NavMode::none;
+  double age_s = kUnknown;
+  double horizontal_95_m = kUnknown;
+  double heading_sigma_rad = kUnknown;
+  std::string reason;  ///< empty when ok; else one English sentence about the first thing that is wrong
+};
+
+/// Judges a state by the limits; `age_s` since its arrival, NaN when there is none. Pure.
+[[nodiscard]] NavHealth judge(const std::optional<NavState>& state, double age_s, const HealthLimits& limits);
+
+/// Receives the navigation state of one vehicle. All functions may be called from any thread, also from a
+/// callback.
+class Client {
+ public:
+  using NavStateHandler = std::function<void(const NavState&)>;
+  using AlarmHandler = std::function<void(const Alarm&)>;
+
+  /// Joins the vehicle network. Throws std::runtime_error, naming what is missing.
+  explicit Client(const ClientOptions& options = {});
+  ~Client();
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  /// `handler` runs for every navigation state, on a thread of the client, one at a time: be quick. Replaces
+  /// the handler before; an empty one ends the calls. No call to the old handler begins once this has
+  /// returned, unless this is called from within a handler.
+  void on_nav_state(NavStateHandler handler);
+  /// Likewise for alarms of the monitor: raised, escalated, cleared, acknowledged, and every few seconds
+  /// again.
+  void on_alarm(AlarmHandler handler);
+
+  /// The newest state, however old; nothing before the first one.
+  [[nodiscard]] std::optional<NavState> latest() const;
+  /// Seconds since a state with a new stamp last arrived, by a clock that no correction of UTC moves; NaN
+  /// before the first one. In vehicle time where options.clock is accelerated.
+  [[nodiscard]] double age_s() const;
+  /// Waits until a state newer than the last one returned arrives, at most so long (host time).
+  [[nodiscard]] std::optional<NavState> wait_next(double timeout_s);
+
+  [[nodiscard]] NavHealth health() const;
+  /// What alignment waits for and what would help; nothing before the first status.
+  [[nodiscard]] std::optional<AlignmentStatus> alignment() const;
+  /// The monitor's view; nothing before the first one.
+  [[nodiscard]] std::optional<MonitorStatus> monitor() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fathom

@@ -1,0 +1,179 @@
+#include "config/monitor_config.hpp"
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "config/service_schema.hpp"
+
+namespace fathom::config {
+namespace {
+
+using health::AlignmentWatchConfig;
+using health::ExpectedSensor;
+using health::ExpectedService;
+using health::GpsOutageConfig;
+using health::HealthConfig;
+using health::NavWatchConfig;
+using health::OutageLimits;
+using health::RefusalWatchConfig;
+using health::ServiceWatchConfig;
+using Fault = std::pair<std::string, std::string>;
+
+std::vector<std::pair<std::string, Severity>> severities() {
+  return {{"notice", Severity::notice}, {"warning", Severity::warning}, {"critical", Severity::critical}};
+}
+
+std::vector<std::pair<std::string, SourceKind>> sensor_kinds() {
+  std::vector<std::pair<std::string, SourceKind>> words;
+  for (std::size_t i = 0; i < kSourceKinds; ++i) {
+    const auto kind = static_cast<SourceKind>(i);
+    words.emplace_back(to_string(kind), kind);
+  }
+  return words;
+}
+
+}  // namespace
+
+void describe(Schema<OutageLimits>& s) {
+  s.field("limit_s", &OutageLimits::limit_s, "an outage begins when there was no usable fix for this long")
+      .unit("s")
+      .range(0.2, 3600);
+  s.field("clear_fixes", &OutageLimits::clear_fixes, "it ends after this many usable fixes in a row")
+      .range(1, 1000);
+  s.field("clear_hold_s", &OutageLimits::clear_hold_s, "and these fixes are spread over at least this long")
+      .unit("s")
+      .range(0, 60);
+}
+
+void describe(Schema<GpsOutageConfig>& s) {
+  s.include(&GpsOutageConfig::outage);
+  s.field("critical_s", &GpsOutageConfig::critical_s, "an outage this long is critical")
+      .unit("s")
+      .range(1, 1e7);
+  s.field("expected", &GpsOutageConfig::expected,
+          "the vehicle has GPS: the absence of a first fix is an alarm");
+  s.field("first_fix_limit_s", &GpsOutageConfig::first_fix_limit_s, "how long the first fix may take")
+      .unit("s")
+      .range(1, 1e5);
+  s.field("per_receiver_alarms", &GpsOutageConfig::per_receiver_alarms,
+          "with several receivers, an alarm for each besides the common one");
+}
+
+void describe(Schema<NavWatchConfig>& s) {
+  s.field("expected", &NavWatchConfig::expected, "a navigation state has to be there");
+  s.field("rate_hz", &NavWatchConfig::rate_hz, "its rate: that of the inertial sensor")
+      .unit("Hz")
+      .range(1, 2000);
+  s.field("missing_s", &NavWatchConfig::missing_s, "silent this long: an alarm").unit("s").range(0.05, 60);
+  s.field("horizontal_95_limit_m", &NavWatchConfig::horizontal_95_limit_m,
+          "a larger 95 % radius of the position is an alarm")
+      .unit("m")
+      .range(0.1, 1e6);
+}
+
+void describe(Schema<AlignmentWatchConfig>& s) {
+  s.field("limit_s", &AlignmentWatchConfig::limit_s, "not aligned this long after the start: an alarm")
+      .unit("s")
+      .range(1, 1e5);
+  s.field("regain_hold_s", &AlignmentWatchConfig::regain_hold_s,
+          "a lost alignment must be back this long before its alarm clears")
+      .unit("s")
+      .range(0, 600);
+}
+
+void describe(Schema<ServiceWatchConfig>& s) {
+  s.field("missing_s", &ServiceWatchConfig::missing_s, "no life sign (one a second) for this long: missing")
+      .unit("s")
+      .range(1.5, 600);
+  s.field("degraded_hold_s", &ServiceWatchConfig::degraded_hold_s,
+          "a service must call itself degraded this long before it is an alarm")
+      .unit("s")
+      .range(0, 600);
+}
+
+void describe(Schema<RefusalWatchConfig>& s) {
+  s.field("limit_s", &RefusalWatchConfig::limit_s,
+          "a sensor that fusion refuses throughout this time is an alarm")
+      .unit("s")
+      .range(0.1, 3600);
+  s.field("minimum", &RefusalWatchConfig::minimum, "and at least so many of its measurements")
+      .range(1, 10000);
+}
+
+void describe(Schema<ExpectedSensor>& s) {
+  s.field("name", &ExpectedSensor::name, "of the sensor, as its bridge calls it").required();
+  s.field("kind", &ExpectedSensor::kind, "what it measures").words(sensor_kinds()).required();
+  s.field("rate_hz", &ExpectedSensor::rate_hz, "samples per second").unit("Hz").range(0.001, 4000).required();
+  s.field("missing_s", &ExpectedSensor::missing_s,
+          "silent this long: missing; 0: ten periods, at least two seconds")
+      .unit("s")
+      .range(0, 1e5);
+  s.field("severity", &ExpectedSensor::severity, "of its absence").words(severities());
+  s.check([](const ExpectedSensor& sensor) -> Fault {
+    if (sensor.name.empty()) return {"name", "a name"};
+    if (sensor.missing_s > 0.0 && sensor.missing_s * sensor.rate_hz < 1.5) {
+      return {"missing_s", "0 or more than one and a half periods of rate_hz"};
+    }
+    return {};
+  });
+}
+
+void describe(Schema<ExpectedService>& s) {
+  s.field("name", &ExpectedService::name, "of the service, e.g. fusion").required();
+  s.field("severity", &ExpectedService::severity, "of its absence").words(severities());
+}
+
+void describe(Schema<HealthConfig>& s) {
+  s.field(
+       "startup_s", &HealthConfig::startup_s,
+       "sensors, services and the navigation state may stay unheard of this long after the monitor's start")
+      .unit("s")
+      .range(0, 3600);
+  s.field("gps", &HealthConfig::gps, "GPS outages");
+  s.field("navigation", &HealthConfig::nav, "the navigation state");
+  s.field("alignment", &HealthConfig::alignment, "alignment");
+  s.field("service_life_signs", &HealthConfig::service, "how services are judged");
+  s.field("refusals", &HealthConfig::refusal, "sensors that talk but that fusion does not believe");
+  s.field("sensors", &HealthConfig::sensors, "sensors that have to be there, at most 32");
+  s.field("services", &HealthConfig::services, "services that have to be there, at most 32");
+  s.check([](const HealthConfig& health) -> Fault {
+    std::set<std::pair<SourceKind, Name>> sensors;
+    for (const auto& sensor : health.sensors) {
+      if (!sensors.insert({sensor.kind, sensor.name}).second) {
+        return {"sensors", "each sensor once: " + sensor.name.str() + " is there twice"};
+      }
+    }
+    std::set<Name> services;
+    for (const auto& service : health.services) {
+      if (!services.insert(service.name).second) {
+        return {"services", "each service once: " + service.name.str() + " is there twice"};
+      }
+    }
+    if (sensors.size() > health::SensorWatch::kMaxSensors) return {"sensors", "at most 32"};
+    if (services.size() > health::ServiceWatch::kMaxServices) return {"services", "at most 32"};
+    return {};
+  });
+}
+
+void describe(Schema<MonitorConfig>& s) {
+  s.include(&MonitorConfig::common);
+  s.include(&MonitorConfig::health);
+  s.field("evaluation_hz", &MonitorConfig::evaluation_hz, "how often everything is judged")
+      .unit("Hz")
+      .range(2, 100);
+  s.field("status_hz", &MonitorConfig::status_hz, "how often the monitor's status is published at least")
+      .unit("Hz")
+      .range(0.2, 20);
+  s.field("alarm_repeat_s", &MonitorConfig::alarm_repeat_s, "how often alarms are published again")
+      .unit("s")
+      .range(0.5, 60);
+}
+
+template LoadedConfig<MonitorConfig> load_service_config(const LoadRequest& request);
+
+ConfigKind monitor_kind() {
+  return make_kind<MonitorConfig>("monitor");
+}
+
+}  // namespace fathom::config

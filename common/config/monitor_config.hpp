@@ -1,0 +1,20 @@
+#pragma once
+
+#include "config/common_config.hpp"
+#include "config/registry.hpp"
+#include "health/vehicle_health.hpp"
+
+namespace fathom::config {
+
+/// deploy/config/monitor.json
+struct MonitorConfig {
+  CommonConfig common;
+  health::HealthConfig health;  ///< its `vehicle` is that of `common`; the rest stands at the top of the file
+  double evaluation_hz = 20.0;  ///< how often everything is judged
+  double status_hz = 4.0;       ///< of MonitorStatus; a change is published at once besides
+  double alarm_repeat_s = 5.0;  ///< alarms are published again this often, with their present text and value
+};
+
+[[nodiscard]] ConfigKind monitor_kind();
+
+}  // namespace fathom::config
