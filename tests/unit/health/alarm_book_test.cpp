@@ -1,0 +1,182 @@
+#include "health/alarm_book.hpp"
+
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "health/text.hpp"
+#include "timeline.hpp"
+
+namespace fathom::health {
+namespace {
+
+Condition condition(const Name& key, Severity severity = Severity::warning, double value = 1.0) {
+  return {.key = key, .severity = severity, .text = "It is so.", .value = value, .limit = 0.5};
+}
+
+TEST(AlarmBook, RaisedOnceHoweverOftenItIsHeld) {
+  AlarmBook book("auv");
+  for (int i = 0; i < 100; ++i) book.hold(condition("a", Severity::warning, 0.1 * i), at(0.1 * i));
+  const auto changes = book.take_changes();
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_TRUE(changes[0].active);
+  EXPECT_EQ(changes[0].header.vehicle, Name("auv"));
+  EXPECT_EQ(changes[0].since_ns, at(0.0).utc_ns);
+  EXPECT_NEAR(book.find("a")->value, 9.9, 0.01) << "text and value stay present";
+  EXPECT_TRUE(book.take_changes().empty());
+}
+
+TEST(AlarmBook, StaysUntilClearedAndAcknowledgedInEitherOrder) {
+  AlarmBook book;
+  book.hold(condition("a"), at(0.0));
+  book.release("a", at(1.0));
+  book.release("a", at(2.0));
+  ASSERT_NE(book.find("a"), nullptr);
+  EXPECT_FALSE(book.find("a")->active);
+  EXPECT_EQ(book.find("a")->cleared_ns, at(2.0).utc_ns);
+  EXPECT_EQ(book.unacknowledged_count(), 1u);
+  EXPECT_EQ(book.acknowledge("a", at(3.0)), 1);
+  EXPECT_EQ(book.find("a"), nullptr);
+
+  book.hold(condition("b"), at(4.0));
+  EXPECT_EQ(book.acknowledge("b", at(5.0)), 1);
+  ASSERT_NE(book.find("b"), nullptr);
+  EXPECT_TRUE(book.find("b")->active);
+  EXPECT_EQ(book.acknowledge("b", at(5.0)), 0) << "once is enough";
+  book.release("b", at(6.0));
+  book.release("b", at(7.0));
+  EXPECT_EQ(book.find("b"), nullptr);
+  const auto changes = book.take_changes();
+  ASSERT_FALSE(changes.empty());
+  EXPECT_FALSE(changes.back().active);
+  EXPECT_TRUE(changes.back().acknowledged) << "readers are told of the end";
+}
+
+TEST(AlarmBook, FlickeringFasterThanTheHoldIsOneAlarm) {
+  AlarmBook book;
+  int raised = 0;
+  int cleared = 0;
+  for (int i = 0; i < 600; ++i) {
+    const double t = 0.1 * i;
+    if (i % 4 == 0) {
+      book.hold(condition("a"), at(t));
+    } else {
+      book.release("a", at(t));
+    }
+    for (const Alarm& change : book.take_changes()) (change.active ? raised : cleared)++;
+  }
+  EXPECT_EQ(raised, 1);
+  EXPECT_EQ(cleared, 0);
+}
+
+TEST(AlarmBook, RaisedAgainItIsUnacknowledgedWithANewBeginning) {
+  AlarmBook book;
+  book.hold(condition("a", Severity::critical), at(0.0));
+  book.release("a", at(1.0));
+  book.release("a", at(2.0));
+  book.hold(condition("a", Severity::warning), at(10.0));
+  const Alarm* alarm = book.find("a");
+  ASSERT_NE(alarm, nullptr);
+  EXPECT_TRUE(alarm->active);
+  EXPECT_FALSE(alarm->acknowledged);
+  EXPECT_EQ(alarm->since_ns, at(10.0).utc_ns);
+  EXPECT_EQ(alarm->cleared_ns, 0);
+  EXPECT_EQ(alarm->severity, Severity::warning) << "a new occurrence starts with its own severity";
+}
+
+TEST(AlarmBook, SeverityOnlyRisesWhileActiveAndARiseWithdrawsTheAcknowledgement) {
+  AlarmBook book;
+  book.hold(condition("a", Severity::warning), at(0.0));
+  book.acknowledge("*", at(0.5));
+  book.hold(condition("a", Severity::notice), at(1.0));
+  EXPECT_EQ(book.find("a")->severity, Severity::warning);
+  EXPECT_TRUE(book.find("a")->acknowledged);
+  book.hold(condition("a", Severity::critical), at(2.0));
+  EXPECT_EQ(book.find("a")->severity, Severity::critical);
+  EXPECT_FALSE(book.find("a")->acknowledged);
+  EXPECT_EQ(book.find("a")->since_ns, at(0.0).utc_ns);
+}
+
+TEST(AlarmBook, StarAcknowledgesAll) {
+  AlarmBook book;
+  for (const char* key : {"a", "b", "c"}) book.hold(condition(key), at(0.0));
+  EXPECT_EQ(book.acknowledge("no such alarm", at(1.0)), 0);
+  EXPECT_EQ(book.acknowledge("*", at(1.0)), 3);
+  EXPECT_EQ(book.unacknowledged_count(), 0u);
+  EXPECT_EQ(book.active_count(), 3u);
+}
+
+TEST(AlarmBook, AnEventIsOverAtOnceAndStaysUntilAcknowledged) {
+  AlarmBook book;
+  book.event(condition("restarted", Severity::notice), at(1.0));
+  ASSERT_NE(book.find("restarted"), nullptr);
+  EXPECT_FALSE(book.find("restarted")->active);
+  const auto changes = book.take_changes();
+  ASSERT_EQ(changes.size(), 2u);
+  EXPECT_TRUE(changes[0].active);
+  EXPECT_FALSE(changes[1].active);
+  EXPECT_EQ(book.acknowledge("restarted", at(2.0)), 1);
+  EXPECT_EQ(book.find("restarted"), nullptr);
+}
+
+TEST(AlarmBook, IsBoundedAndLosesTheLeastImportantFirst) {
+  AlarmBook book;
+  book.hold(condition("cleared"), at(0.0));
+  book.release("cleared", at(0.0));
+  book.release("cleared", at(1.0));
+  for (std::size_t i = 1; i < AlarmBook::kMaxAlarms; ++i) {
+    book.hold(condition(Name("n" + std::to_string(i)), Severity::notice), at(1.0 + static_cast<double>(i)));
+  }
+  EXPECT_EQ(book.all().size(), AlarmBook::kMaxAlarms);
+  EXPECT_EQ(book.dropped(), 0u);
+  book.hold(condition("w"), at(100.0));
+  EXPECT_EQ(book.find("cleared"), nullptr);
+  book.hold(condition("x", Severity::critical), at(101.0));
+  EXPECT_EQ(book.find("n1"), nullptr) << "the oldest notice went";
+  book.hold(condition("one more notice", Severity::notice), at(102.0));
+  EXPECT_EQ(book.find("one more notice"), nullptr) << "no room for what is no more important";
+  EXPECT_EQ(book.all().size(), AlarmBook::kMaxAlarms);
+  EXPECT_EQ(book.dropped(), 3u);
+}
+
+TEST(AlarmBook, ListsActiveFirstThenBySeverityThenByAge) {
+  AlarmBook book;
+  book.event(condition("over", Severity::critical), at(0.0));
+  book.hold(condition("young"), at(2.0));
+  book.hold(condition("old"), at(1.0));
+  book.hold(condition("grave", Severity::critical), at(3.0));
+  std::vector<std::string> order;
+  for (const Alarm& alarm : book.all()) order.push_back(alarm.alarm.str());
+  EXPECT_EQ(order, (std::vector<std::string>{"grave", "old", "young", "over"}));
+  EXPECT_TRUE(book.any_active(Severity::critical));
+}
+
+TEST(AlarmBook, CivilTimesFollowAStepOfTheClock) {
+  AlarmBook book;
+  book.hold(condition("a"), at(5.0));
+  book.shift_utc(-100 * kNsPerSecond);
+  EXPECT_EQ(book.find("a")->since_ns, at(-95.0).utc_ns);
+  EXPECT_EQ(book.find("a")->cleared_ns, 0);
+}
+
+TEST(AlarmText, KeysFitTheirFieldAndLongNamesStayApart) {
+  EXPECT_EQ(alarm_key("service_missing", "fusion"), Name("service_missing:fusion"));
+  EXPECT_EQ(alarm_key("service_missing", "actuator_bridge").view(), "service_missing:actuator_bridge");
+  const Name one = alarm_key("service_missing", "guidance_example_one");
+  const Name two = alarm_key("service_missing", "guidance_example_two");
+  EXPECT_EQ(one.view().size(), Name::kCapacity);
+  EXPECT_NE(one, two);
+  EXPECT_EQ(one, alarm_key("service_missing", "guidance_example_one"));
+}
+
+TEST(AlarmText, DurationsReadAtAGlance) {
+  EXPECT_EQ(duration_text(0.04), "0.0 s");
+  EXPECT_EQ(duration_text(12.34), "12.3 s");
+  EXPECT_EQ(duration_text(245.0), "4 min 05 s");
+  EXPECT_EQ(duration_text(7380.0), "2 h 03 min");
+  EXPECT_EQ(duration_text(kUnknown), "an unknown time");
+}
+
+}  // namespace
+}  // namespace fathom::health
