@@ -1,0 +1,192 @@
+#include "sim/encode/nmea.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdint>
+#include <cstdio>
+#include <numbers>
+
+#include "codec/nmea_sentence.hpp"
+
+namespace fathom::sim::encode {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+constexpr double kKnot_m_s = 1852.0 / 3600.0;
+constexpr double kKmhPerKnot = 1.852;
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  std::array<char, 256> text{};
+  std::va_list arguments;
+  va_start(arguments, pattern);
+  const int length = std::vsnprintf(text.data(), text.size(), pattern, arguments);
+  va_end(arguments);
+  return {text.data(), std::min(static_cast<std::size_t>(std::max(length, 0)), text.size() - 1)};
+}
+
+/// A number with `decimals`, or nothing for an unknown one.
+std::string number(double value, int decimals) {
+  return known(value) ? format("%.*f", decimals, value) : std::string();
+}
+
+CivilTime civil_to_millisecond(TimeNs utc_ns) {
+  return to_civil((utc_ns + kNsPerMillisecond / 2) / kNsPerMillisecond * kNsPerMillisecond);
+}
+
+std::string time_text(const CivilTime& t) {
+  return format("%02d%02d%02d.%03d", t.hour, t.minute, t.second,
+                static_cast<int>(t.nanosecond / kNsPerMillisecond));
+}
+
+/// Degrees and minutes of 1e-7 minute, counted in whole units so that rounding never gives 60 minutes.
+std::string angle_text(double angle_rad, int degree_digits, std::string_view hemispheres) {
+  if (!known(angle_rad)) return ",";
+  constexpr std::int64_t kUnitsPerMinute = 10'000'000;
+  const std::int64_t units =
+      std::llround(std::abs(angle_rad) * kDegreesPerRadian * 60.0 * static_cast<double>(kUnitsPerMinute));
+  const std::int64_t minutes = units / kUnitsPerMinute;
+  return format("%0*d%02d.%07d,%c", degree_digits, static_cast<int>(minutes / 60),
+                static_cast<int>(minutes % 60), static_cast<int>(units % kUnitsPerMinute),
+                angle_rad < 0.0 ? hemispheres[1] : hemispheres[0]);
+}
+
+std::string position_text(const GpsSample& sample) {
+  return angle_text(sample.latitude_rad, 2, "NS") + "," + angle_text(sample.longitude_rad, 3, "EW");
+}
+
+char quality_of(GpsFix fix) {
+  switch (fix) {
+    case GpsFix::none:
+    case GpsFix::time_only:
+      return '0';
+    case GpsFix::dead_reckoning:
+      return '6';
+    case GpsFix::fix_2d:
+    case GpsFix::fix_3d:
+      return '1';
+    case GpsFix::differential:
+      return '2';
+    case GpsFix::rtk_float:
+      return '5';
+    case GpsFix::rtk_fixed:
+      return '4';
+  }
+  return '0';
+}
+
+char mode_of(GpsFix fix) {
+  switch (fix) {
+    case GpsFix::none:
+    case GpsFix::time_only:
+      return 'N';
+    case GpsFix::dead_reckoning:
+      return 'E';
+    case GpsFix::fix_2d:
+    case GpsFix::fix_3d:
+      return 'A';
+    case GpsFix::differential:
+      return 'D';
+    case GpsFix::rtk_float:
+      return 'F';
+    case GpsFix::rtk_fixed:
+      return 'R';
+  }
+  return 'N';
+}
+
+/// East positive angle and its letter.
+std::string east_west_text(double angle_rad) {
+  if (!known(angle_rad)) return ",";
+  return format("%.3f,%c", std::abs(angle_rad) * kDegreesPerRadian, angle_rad < 0.0 ? 'W' : 'E');
+}
+
+double turn_deg(double angle_rad) {
+  const double angle_deg = std::fmod(angle_rad * kDegreesPerRadian, 360.0);
+  return angle_deg < 0.0 ? angle_deg + 360.0 : angle_deg;
+}
+
+}  // namespace
+
+std::string nmea_sentence(std::string_view body) {
+  return "$" + std::string(body) + format("*%02X\r\n", codec::nmea_checksum(body));
+}
+
+std::string nmea_gps(const GpsSample& sample, TimeNs utc_ns, std::string_view talker) {
+  GpsSample sent = sample;
+  const bool fixed = sample.fix >= GpsFix::dead_reckoning;
+  if (!fixed) sent = GpsSample{.header = {}, .satellites = sample.satellites, .hdop = sample.hdop};
+  if (sample.fix == GpsFix::fix_2d) sent.altitude_m = sent.altitude_msl_m = kUnknown;
+
+  const CivilTime civil = civil_to_millisecond(utc_ns);
+  const std::string time = time_text(civil);
+  const std::string position = position_text(sent);
+  const std::string name(talker);
+  const bool has_msl = known(sent.altitude_msl_m);
+  const double altitude_msl_m = has_msl ? sent.altitude_msl_m : sent.altitude_m;
+  const double separation_m =
+      has_msl ? sent.altitude_m - sent.altitude_msl_m : (known(altitude_msl_m) ? 0.0 : kUnknown);
+  const double speed_kn = std::hypot(sent.velocity_N_m_s[0], sent.velocity_N_m_s[1]) / kKnot_m_s;
+  const double course_deg = turn_deg(std::atan2(sent.velocity_N_m_s[1], sent.velocity_N_m_s[0]));
+  const char mode = mode_of(sample.fix);
+
+  const std::string satellites = sent.satellites >= 0 ? format("%02d", sent.satellites) : std::string();
+  std::string out = nmea_sentence(name + "GGA," + time + "," + position + "," + quality_of(sample.fix) + "," +
+                                  satellites + "," + number(sent.hdop, 2) + "," + number(altitude_msl_m, 3) +
+                                  ",M," + number(separation_m, 3) + ",M,,");
+  out += nmea_sentence(name + "RMC," + time + (fixed ? ",A," : ",V,") + position + "," + number(speed_kn, 4) +
+                       "," + number(course_deg, 3) + "," +
+                       format("%02d%02d%02d", civil.day, civil.month, civil.year % 100) + ",,," + mode);
+  out += nmea_sentence(name + "VTG," + number(course_deg, 3) + ",T,,M," + number(speed_kn, 4) + ",N," +
+                       number(speed_kn * kKmhPerKnot, 4) + ",K," + mode);
+  out += nmea_sentence(name + "GST," + time + ",,,,," + number(sent.position_sigma_N_m[0], 3) + "," +
+                       number(sent.position_sigma_N_m[1], 3) + "," + number(sent.position_sigma_N_m[2], 3));
+  return out;
+}
+
+std::string nmea_heading(const HeadingSample& sample, std::string_view talker) {
+  const std::string name(talker);
+  if (sample.north == North::true_north) {
+    return nmea_sentence(name + "HDT," + number(turn_deg(sample.heading_rad), 3) + ",T");
+  }
+  const double deviation_rad = known(sample.deviation_rad) ? sample.deviation_rad : 0.0;
+  return nmea_sentence(name + "HDG," + number(turn_deg(sample.heading_rad - deviation_rad), 3) + "," +
+                       east_west_text(sample.deviation_rad) + "," + east_west_text(sample.variation_rad));
+}
+
+std::string nmea_rpm(const PropulsionSample& sample, std::string_view talker) {
+  return nmea_sentence(std::string(talker) + "RPM,S,1," + number(sample.rpm, 2) + ",," +
+                       (known(sample.rpm) ? 'A' : 'V'));
+}
+
+std::string nmea_fins(const FinsSample& sample, std::string_view talker) {
+  const std::string name(talker);
+  const double bow_to_starboard_deg = -sample.rudder_rad * kDegreesPerRadian;
+  return nmea_sentence(name + "RSA," + number(bow_to_starboard_deg, 3) + "," +
+                       (known(sample.rudder_rad) ? 'A' : 'V') + ",,V") +
+         nmea_sentence(name + "XDR,A," + number(sample.stern_rad * kDegreesPerRadian, 3) + ",D,STERN");
+}
+
+std::string psimssb(const UsblSample& sample, TimeNs utc_ns) {
+  const bool geodetic = sample.frame == UsblFrame::geodetic;
+  const std::array<double, 3>& r = sample.relative_m;
+  const bool replied = geodetic ? known(sample.latitude_rad) && known(sample.longitude_rad)
+                                : known(r[0]) && known(r[1]) && known(r[2]);
+  std::string position = ",,";
+  if (replied && geodetic) {
+    position = number(sample.latitude_rad, 10) + "," + number(sample.longitude_rad, 10) + "," +
+               number(sample.depth_m, 3);
+  } else if (replied) {
+    const bool vessel = sample.frame == UsblFrame::vessel_frd;
+    position =
+        number(vessel ? r[1] : r[0], 3) + "," + number(vessel ? r[0] : r[1], 3) + "," + number(r[2], 3);
+  }
+  const char* axes = geodetic ? "R,G" : sample.frame == UsblFrame::vessel_frd ? "C,H" : "C,N";
+  return nmea_sentence("PSIMSSB," + time_text(civil_to_millisecond(utc_ns)) + "," + sample.transponder.str() +
+                       (replied ? ",A,," : ",V,NRy,") + axes + ",M," + position + "," +
+                       number(replied ? sample.sigma_m : kUnknown, 3) + ",T," +
+                       number(sample.travel_time_s, 6) + ",");
+}
+
+}  // namespace fathom::sim::encode

@@ -1,0 +1,123 @@
+#include "sim/encode/ubx.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "codec/bytes.hpp"
+#include "codec/ubx.hpp"
+
+namespace fathom::sim::encode {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+/// 1980-01-06, the start of GPS time, and the leap seconds since.
+constexpr TimeNs kGpsEpoch = 315'964'800 * kNsPerSecond;
+constexpr DurationNs kLeapSeconds = 18 * kNsPerSecond;
+constexpr DurationNs kWeek = 7 * 86'400 * kNsPerSecond;
+
+std::int32_t scaled(double value, double scale) {
+  if (!known(value)) return 0;
+  constexpr double kLimit = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::llround(std::clamp(value * scale, -kLimit, kLimit)));
+}
+
+/// An accuracy in thousandths; unknown is the largest number.
+std::uint32_t accuracy(double value) {
+  constexpr double kLimit = std::numeric_limits<std::uint32_t>::max();
+  const double milli = known(value) ? std::clamp(value * 1e3, 0.0, kLimit) : kLimit;
+  return static_cast<std::uint32_t>(std::llround(milli));
+}
+
+std::uint8_t fix_type(GpsFix fix) {
+  switch (fix) {
+    case GpsFix::none:
+      return 0;
+    case GpsFix::time_only:
+      return 5;
+    case GpsFix::dead_reckoning:
+      return 1;
+    case GpsFix::fix_2d:
+      return 2;
+    default:
+      return 3;
+  }
+}
+
+std::uint8_t fix_flags(GpsFix fix) {
+  constexpr std::uint8_t kFixOk = 0x01;
+  constexpr std::uint8_t kCorrected = 0x02;
+  constexpr std::uint8_t kCarrierFloat = 0x40;
+  constexpr std::uint8_t kCarrierFixed = 0x80;
+  switch (fix) {
+    case GpsFix::none:
+      return 0;
+    case GpsFix::differential:
+      return kFixOk | kCorrected;
+    case GpsFix::rtk_float:
+      return kFixOk | kCorrected | kCarrierFloat;
+    case GpsFix::rtk_fixed:
+      return kFixOk | kCorrected | kCarrierFixed;
+    default:
+      return kFixOk;
+  }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> ubx_frame(std::uint8_t message_class, std::uint8_t message_id,
+                                    std::span<const std::uint8_t> payload) {
+  std::vector<std::uint8_t> frame{codec::kUbxSync1, codec::kUbxSync2, message_class, message_id};
+  codec::append_le<std::uint16_t>(frame, static_cast<std::uint16_t>(payload.size()));
+  frame.insert(frame.end(), payload.begin(), payload.end());
+  const auto [a, b] = codec::ubx_checksum(std::span<const std::uint8_t>(frame).subspan(2));
+  frame.push_back(a);
+  frame.push_back(b);
+  return frame;
+}
+
+std::vector<std::uint8_t> ubx_nav_pvt(const GpsSample& sample, TimeNs utc_ns) {
+  const CivilTime civil = to_civil(utc_ns);
+  const bool located = sample.fix >= GpsFix::dead_reckoning;
+  const auto& v = sample.velocity_N_m_s;
+  const auto& sigma = sample.position_sigma_N_m;
+  const auto& speed_sigma = sample.velocity_sigma_N_m_s;
+  const double speed_m_s = std::hypot(v[0], v[1]);
+  double course_deg = std::atan2(v[1], v[0]) * kDegreesPerRadian;
+  if (course_deg < 0.0) course_deg += 360.0;
+
+  std::vector<std::uint8_t> p;
+  p.reserve(92);
+  const std::int64_t gps_ns = utc_ns - kGpsEpoch + kLeapSeconds;
+  codec::append_le<std::uint32_t>(p, static_cast<std::uint32_t>(gps_ns % kWeek / kNsPerMillisecond));
+  codec::append_le<std::uint16_t>(p, static_cast<std::uint16_t>(civil.year));
+  for (const int field : {civil.month, civil.day, civil.hour, civil.minute, civil.second}) {
+    p.push_back(static_cast<std::uint8_t>(field));
+  }
+  p.push_back(0x07);  // date and time valid, fully resolved
+  codec::append_le<std::uint32_t>(p, 30);
+  codec::append_le<std::int32_t>(p, static_cast<std::int32_t>(civil.nanosecond));
+  p.push_back(fix_type(sample.fix));
+  p.push_back(fix_flags(sample.fix));
+  p.push_back(0);
+  p.push_back(static_cast<std::uint8_t>(std::clamp(sample.satellites, 0, 255)));
+  codec::append_le<std::int32_t>(p, scaled(sample.longitude_rad * kDegreesPerRadian, 1e7));
+  codec::append_le<std::int32_t>(p, scaled(sample.latitude_rad * kDegreesPerRadian, 1e7));
+  codec::append_le<std::int32_t>(p, scaled(sample.altitude_m, 1e3));
+  codec::append_le<std::int32_t>(p, scaled(sample.altitude_msl_m, 1e3));
+  codec::append_le<std::uint32_t>(p, accuracy(std::hypot(sigma[0], sigma[1])));
+  codec::append_le<std::uint32_t>(p, accuracy(sigma[2]));
+  for (const double component : v) codec::append_le<std::int32_t>(p, scaled(component, 1e3));
+  codec::append_le<std::int32_t>(p, scaled(speed_m_s, 1e3));
+  codec::append_le<std::int32_t>(p, scaled(course_deg, 1e5));
+  codec::append_le<std::uint32_t>(p, accuracy(std::max({speed_sigma[0], speed_sigma[1], speed_sigma[2]})));
+  codec::append_le<std::uint32_t>(p, 0);
+  const double dilution = known(sample.hdop) ? std::clamp(sample.hdop * 100.0, 0.0, 9999.0) : 9999.0;
+  codec::append_le<std::uint16_t>(p, static_cast<std::uint16_t>(dilution));
+  p.push_back(located ? 0 : 1);  // invalidLlh
+  p.resize(92, 0);
+  return ubx_frame(0x01, 0x07, p);
+}
+
+}  // namespace fathom::sim::encode
