@@ -1,0 +1,76 @@
+#include <array>
+#include <cmath>
+
+#include "geo/so3.hpp"
+#include "sim/sensor_models.hpp"
+#include "sim/vehicle.hpp"
+
+namespace fathom::sim {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+DvlModel::DvlModel(const DvlConfig& config, std::uint64_t seed) : config_(config), random_(seed, "dvl") {
+  scale_ = config.scale + random_.normal(config.scale_sigma);
+  const auto& m = config.mounting_rpy_rad;
+  const double sigma = config.misalignment_sigma_rad;
+  const double roll = random_.normal(sigma);
+  const double pitch = random_.normal(sigma);
+  const double yaw = random_.normal(sigma);
+  q_BD_ = q_of_rpy(m[0], m[1], m[2]) * q_of_rpy(roll, pitch, yaw);
+}
+
+DvlSample DvlModel::sample(const TruthPoint& point) {
+  const Vector3d lever_B = geo::vec(config_.lever_B_m);
+  const TruthPoint at = at_lever(point, lever_B);
+  const Eigen::Quaterniond q_DN = (at.q_NB * q_BD_).conjugate();
+  const Vector3d v_D = q_DN * at.v_N_m_s;
+  const Vector3d down_D = q_DN * Vector3d::UnitZ();
+  const double height_m = at.water_depth_m - at.depth_m;
+  const double s = std::sin(config_.beam_angle_rad);
+  const double c = std::cos(config_.beam_angle_rad);
+  const std::array<Vector3d, 4> beam_D{Vector3d(0, -s, c), Vector3d(0, s, c), Vector3d(s, 0, c),
+                                       Vector3d(-s, 0, c)};
+  const bool deaf = inside(config_.dropouts, at.t_s) || at.depth_m < 0.0;
+  const double sigma = std::hypot(config_.beam_sigma_m_s, config_.beam_sigma_per_speed * v_D.norm());
+  const bool outlier = random_.chance(config_.outlier_probability);
+
+  DvlSample out;
+  out.mode = DvlMode::bottom;
+  out.recorded_frame =
+      config_.frame == DvlConfig::Frame::beam
+          ? DvlFrame::beam
+          : (config_.frame == DvlConfig::Frame::ship ? DvlFrame::ship : DvlFrame::instrument);
+  out.beam_angle_rad = config_.beam_angle_rad;
+  out.sound_speed_m_s = config_.sound_speed_m_s;
+  Matrix3d normal = Matrix3d::Zero();
+  Vector3d right = Vector3d::Zero();
+  double range_sum_m = 0.0;
+  int good = 0;
+  for (std::size_t i = 0; i < beam_D.size(); ++i) {
+    const double noise = random_.normal(sigma);
+    const bool lost = random_.chance(config_.beam_dropout_probability);
+    const double steepness = beam_D[i].dot(down_D);  // cosine of the beam against the vertical
+    const double slant_m = steepness > 0.1 ? height_m / steepness : config_.maximum_range_m * 10.0;
+    const bool heard =
+        !deaf && !lost && height_m > config_.minimum_range_m && slant_m < config_.maximum_range_m;
+    if (!heard) continue;
+    double velocity = (1.0 + scale_) * beam_D[i].dot(v_D) + noise;
+    if (outlier) velocity += config_.outlier_m_s * (i % 2 == 0 ? 1.0 : -0.5);
+    out.beam_velocity_m_s[i] = velocity;
+    out.beam_range_m[i] = slant_m * c;
+    normal += beam_D[i] * beam_D[i].transpose();
+    right += beam_D[i] * velocity;
+    range_sum_m += slant_m * c;
+    ++good;
+  }
+  if (good > 0) out.altitude_m = range_sum_m / good;
+  if (good >= 3) out.velocity_D_m_s = geo::arr(Vector3d(normal.inverse() * right));
+  if (good == 4) {
+    const auto& b = out.beam_velocity_m_s;
+    out.error_velocity_m_s = (b[0] + b[1] - b[2] - b[3]) / (2.0 * std::sqrt(2.0) * s);
+  }
+  return out;
+}
+
+}  // namespace fathom::sim

@@ -1,0 +1,127 @@
+#include "sim/sensor_models.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geo/so3.hpp"
+#include "geo/wgs84.hpp"
+#include "sim/vehicle.hpp"
+
+namespace fathom::sim {
+
+using Eigen::Vector3d;
+
+DepthModel::DepthModel(const DepthConfig& config, std::uint64_t seed)
+    : config_(config), random_(seed, "depth"), bias_m_(random_.normal(config.bias_sigma_m)) {}
+
+DepthSample DepthModel::sample(const TruthPoint& point) {
+  const double noise = random_.normal(config_.sigma_m);
+  const bool outlier = random_.chance(config_.outlier_probability);
+  DepthSample out;
+  // In the air the port reads the atmosphere.
+  out.depth_m = std::max(at_lever(point, geo::vec(config_.lever_B_m)).depth_m, 0.0) + bias_m_ + noise;
+  if (outlier) out.depth_m += config_.outlier_m;
+  if (config_.quantum_m > 0.0) out.depth_m = std::round(out.depth_m / config_.quantum_m) * config_.quantum_m;
+  return out;
+}
+
+HeadingModel::HeadingModel(const HeadingConfig& config, const EnvironmentConfig& environment,
+                           std::uint64_t seed)
+    : config_(config),
+      variation_rad_(environment.magnetic_variation_rad),
+      random_(seed, "heading"),
+      bias_rad_(random_.normal(config.bias_sigma_rad)) {}
+
+HeadingSample HeadingModel::sample(const TruthPoint& point) {
+  const double noise = random_.normal(config_.sigma_rad);
+  const bool outlier = random_.chance(config_.outlier_probability);
+  const double yaw = rpy_of(point.q_NB).z();
+  const auto& d = config_.deviation_rad;
+  double heading = yaw + bias_rad_ + noise + d[0] + d[1] * std::sin(yaw) + d[2] * std::cos(yaw) +
+                   d[3] * std::sin(2.0 * yaw) + d[4] * std::cos(2.0 * yaw);
+  if (outlier) heading += config_.outlier_rad;
+  HeadingSample out;
+  if (config_.magnetic) {
+    out.north = North::magnetic;
+    out.variation_rad = variation_rad_;
+    heading -= variation_rad_;
+  }
+  out.heading_rad = geo::wrap_two_pi(heading);
+  return out;
+}
+
+UsblModel::UsblModel(const UsblConfig& config, const Scenario& scenario, std::uint64_t seed)
+    : config_(config), random_(seed, "usbl"), surface_altitude_m_(scenario.environment.surface_altitude_m) {
+  const geo::Geodetic ship =
+      geo::moved_by({scenario.start.latitude_rad, scenario.start.longitude_rad, surface_altitude_m_},
+                    geo::vec(config.ship_N_m));
+  ship_latitude_rad_ = ship.latitude_rad;
+  ship_longitude_rad_ = ship.longitude_rad;
+  ship_altitude_m_ = ship.altitude_m;
+}
+
+std::optional<UsblSample> UsblModel::sample(const TruthPoint& point) {
+  const TruthPoint transponder = at_lever(point, geo::vec(config_.lever_B_m));
+  const geo::Geodetic at{transponder.latitude_rad, transponder.longitude_rad, transponder.altitude_m};
+  const double range_m =
+      geo::difference_N({ship_latitude_rad_, ship_longitude_rad_, ship_altitude_m_}, at).norm();
+  const double sigma = std::hypot(config_.floor_m, config_.range_fraction * range_m);
+  Vector3d error{random_.normal(sigma), random_.normal(sigma), random_.normal(sigma)};
+  const double bearing = random_.uniform(0.0, 6.283185307179586);
+  if (random_.chance(config_.outlier_probability)) {
+    error += config_.outlier_m * Vector3d(std::cos(bearing), std::sin(bearing), 0.0);
+  }
+  if (transponder.depth_m < config_.minimum_depth_m) return std::nullopt;
+  const geo::Geodetic fix = geo::moved_by(at, error);
+  UsblSample out;
+  out.frame = UsblFrame::geodetic;
+  out.transponder = "B01";
+  out.latitude_rad = fix.latitude_rad;
+  out.longitude_rad = fix.longitude_rad;
+  out.depth_m = surface_altitude_m_ - fix.altitude_m;
+  out.sigma_m = sigma;
+  out.travel_time_s = range_m / 1500.0;
+  return out;
+}
+
+double UsblModel::latency_s() {
+  return random_.uniform(config_.latency_s, std::max(config_.latency_s, config_.maximum_latency_s));
+}
+
+PropulsionModel::PropulsionModel(const PropulsionConfig& config, std::uint64_t seed)
+    : config_(config), random_(seed, "propulsion"), scale_(random_.normal(config.scale_sigma)) {}
+
+PropulsionSample PropulsionModel::sample(const TruthPoint& point) {
+  PropulsionSample out;
+  out.rpm = (1.0 + scale_) * point.rpm + random_.normal(config_.sigma_rpm);
+  return out;
+}
+
+FinsModel::FinsModel(const FinsConfig& config, std::uint64_t seed)
+    : config_(config),
+      random_(seed, "fins"),
+      rudder_bias_rad_(random_.normal(config.bias_sigma_rad)),
+      stern_bias_rad_(random_.normal(config.bias_sigma_rad)) {}
+
+FinsSample FinsModel::sample(const TruthPoint& point) {
+  FinsSample out;
+  out.rudder_rad = point.rudder_rad + rudder_bias_rad_ + random_.normal(config_.sigma_rad);
+  out.stern_rad = point.stern_rad + stern_bias_rad_ + random_.normal(config_.sigma_rad);
+  return out;
+}
+
+AirspeedModel::AirspeedModel(const AirspeedConfig& config, std::uint64_t seed)
+    : config_(config),
+      random_(seed, "airspeed"),
+      scale_(random_.normal(config.scale_sigma)),
+      baro_bias_m_(random_.normal(config.baro_bias_sigma_m)) {}
+
+AirspeedSample AirspeedModel::sample(const TruthPoint& point) {
+  AirspeedSample out;
+  out.airspeed_m_s = (1.0 + scale_) * point.V_B_m_s.x() + random_.normal(config_.sigma_m_s);
+  out.baro_altitude_m = point.altitude_m + baro_bias_m_ + random_.normal(config_.baro_sigma_m);
+  out.sigma_m_s = config_.sigma_m_s;
+  return out;
+}
+
+}  // namespace fathom::sim
