@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -16,13 +15,14 @@ struct ReaderOptions {
   /// Expect at least one sample this often per instance; a miss is counted and reported. None: as the profile
   /// says.
   std::optional<DurationNs> deadline_ns;
-  /// Suffix of the QoS profile: "" the topic's own, "deep" for recorders.
+  /// Variant of the QoS profile: "" the topic's own; "deep" for recorders, which must not miss a sample: the
+  /// profile "<topic>.deep" where there is one, else the topic's own, which is deep already.
   std::string profile_suffix;
 };
 
 /// Who wrote a sample and when.
 struct SampleInfo {
-  std::array<std::uint8_t, 16> writer_guid{};
+  WriterGuid writer_guid{};
   TimeNs source_ns = 0;     ///< the writer's clock at write()
   TimeNs reception_ns = 0;  ///< this host's clock at arrival
 };
@@ -34,7 +34,8 @@ class Reader {
   using Handler = std::function<void(const T& sample, const SampleInfo& info)>;
 
   /// `handler` runs on a thread of the bus, one sample at a time per reader, until the destructor returns: be
-  /// quick, or hand over to a thread of your own. Throws BusError.
+  /// quick (other topics of this participant wait), or hand over to a thread of your own; do not throw, and
+  /// do not destroy the reader in it. Throws BusError.
   Reader(Participant& participant, Handler handler, const ReaderOptions& options = {});
   ~Reader();
   Reader(const Reader&) = delete;

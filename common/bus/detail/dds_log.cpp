@@ -1,0 +1,51 @@
+#include "bus/detail/dds_log.hpp"
+
+#include <memory>
+#include <mutex>
+
+#include <fastdds/dds/log/Log.hpp>
+
+namespace fathom::bus::detail {
+namespace {
+
+using eprosima::fastdds::dds::Log;
+using eprosima::fastdds::dds::LogConsumer;
+
+// Fast DDS has one log per process, so what listens to it is one per process as well.
+struct LastError {
+  std::mutex mutex;
+  std::string text;
+};
+
+LastError& last_error() {
+  static LastError* error = new LastError;  // never destroyed: the log's thread outlives main's objects
+  return *error;
+}
+
+class KeepLastError final : public LogConsumer {
+ public:
+  void Consume(const Log::Entry& entry) override {
+    if (entry.kind != Log::Kind::Error) return;
+    const std::lock_guard lock(last_error().mutex);
+    last_error().text = entry.message;
+  }
+};
+
+}  // namespace
+
+void capture_dds_log() {
+  static std::once_flag once;
+  std::call_once(once, [] {
+    Log::SetVerbosity(Log::Kind::Error);
+    Log::ClearConsumers();
+    Log::RegisterConsumer(std::make_unique<KeepLastError>());
+  });
+}
+
+std::string last_dds_error() {
+  Log::Flush();
+  const std::lock_guard lock(last_error().mutex);
+  return last_error().text.empty() ? "" : " (" + last_error().text + ")";
+}
+
+}  // namespace fathom::bus::detail

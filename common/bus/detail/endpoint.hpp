@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bus/detail/topic_ops.hpp"
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+
+namespace fathom::bus::detail {
+
+/// Writer<T> without the T: the one place that creates a Fast DDS writer.
+class WriterCore {
+ public:
+  WriterCore(Participant& participant, const TopicOps& ops, const WriterOptions& options);
+  ~WriterCore();
+  bool write(const void* sample);
+  [[nodiscard]] int matched_readers() const;
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reader<T> without the T.
+class ReaderCore {
+ public:
+  using Handler = std::function<void(const void* sample, const SampleInfo& info)>;
+
+  ReaderCore(Participant& participant, const TopicOps& ops, Handler handler, const ReaderOptions& options);
+  ~ReaderCore();
+  [[nodiscard]] int matched_writers() const;
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Behind to_cdr and from_cdr.
+std::vector<std::uint8_t> encode(const TopicOps& ops, const void* sample);
+bool decode(const TopicOps& ops, std::span<const std::uint8_t> bytes, void* sample);
+
+}  // namespace fathom::bus::detail

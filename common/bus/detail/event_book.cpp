@@ -1,0 +1,86 @@
+#include "bus/detail/event_book.hpp"
+
+#include <utility>
+
+namespace fathom::bus {
+
+std::string_view to_string(BusEventKind kind) {
+  switch (kind) {
+    case BusEventKind::incompatible_qos:
+      return "incompatible QoS";
+    case BusEventKind::deadline_missed:
+      return "deadline missed";
+    case BusEventKind::writer_lost:
+      return "writer lost";
+    case BusEventKind::sample_lost:
+      return "sample lost";
+    case BusEventKind::write_failed:
+      return "write failed";
+    case BusEventKind::resource_limit:
+      return "resource limit";
+    case BusEventKind::invalid_sample:
+      return "invalid sample";
+  }
+  return "unknown";
+}
+
+namespace detail {
+namespace {
+
+std::uint64_t& counter(BusCounters& counters, BusEventKind kind) {
+  switch (kind) {
+    case BusEventKind::incompatible_qos:
+      return counters.incompatible_qos;
+    case BusEventKind::deadline_missed:
+      return counters.deadline_missed;
+    case BusEventKind::writer_lost:
+      return counters.writer_lost;
+    case BusEventKind::sample_lost:
+      return counters.sample_lost;
+    case BusEventKind::write_failed:
+      return counters.write_failed;
+    case BusEventKind::resource_limit:
+      return counters.resource_limit;
+    case BusEventKind::invalid_sample:
+      break;
+  }
+  return counters.invalid_sample;
+}
+
+}  // namespace
+
+void EventBook::report(BusEventKind kind, const std::string& topic, const std::string& subject,
+                       const std::string& detail, std::uint64_t occurrences) {
+  {
+    const std::lock_guard lock(mutex_);
+    counter(counters_, kind) += occurrences;
+    if (!reported_.emplace(kind, topic, subject).second) return;
+  }
+  const std::lock_guard lock(handler_mutex_);
+  BusEvent event{kind, topic, detail};
+  if (handler_) {
+    handler_(event);
+  } else if (backlog_.size() < kBacklog) {
+    backlog_.push_back(std::move(event));
+  }
+}
+
+void EventBook::recovered(BusEventKind kind, const std::string& topic, const std::string& subject) {
+  const std::lock_guard lock(mutex_);
+  reported_.erase({kind, topic, subject});
+}
+
+BusCounters EventBook::counters() const {
+  const std::lock_guard lock(mutex_);
+  return counters_;
+}
+
+void EventBook::set_handler(std::function<void(const BusEvent&)> handler) {
+  const std::lock_guard lock(handler_mutex_);
+  handler_ = std::move(handler);
+  if (!handler_) return;
+  for (const BusEvent& event : std::exchange(backlog_, {})) handler_(event);
+}
+
+}  // namespace detail
+}  // namespace fathom::bus

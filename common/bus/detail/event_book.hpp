@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "bus/participant.hpp"
+
+namespace fathom::bus::detail {
+
+/// Counts every occurrence and reports the first of each kind × topic × subject. Thread-safe.
+class EventBook {
+ public:
+  /// `subject` tells occurrences on the same topic apart: a peer, an instance.
+  void report(BusEventKind kind, const std::string& topic, const std::string& subject,
+              const std::string& detail, std::uint64_t occurrences = 1);
+  /// The trouble is over: its next occurrence is reported again.
+  void recovered(BusEventKind kind, const std::string& topic, const std::string& subject);
+
+  [[nodiscard]] BusCounters counters() const;
+  void set_handler(std::function<void(const BusEvent&)> handler);
+
+ private:
+  static constexpr std::size_t kBacklog = 64;  ///< kept for a handler that is set later
+
+  mutable std::mutex mutex_;  // of what follows up to the next mutex
+  BusCounters counters_;
+  std::set<std::tuple<BusEventKind, std::string, std::string>> reported_;
+
+  std::mutex handler_mutex_;  // held while the handler runs; never taken while mutex_ is held
+  std::function<void(const BusEvent&)> handler_;
+  std::vector<BusEvent> backlog_;
+};
+
+}  // namespace fathom::bus::detail

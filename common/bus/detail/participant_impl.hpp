@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
+
+#include "bus/detail/event_book.hpp"
+#include "bus/detail/peer_book.hpp"
+#include "bus/detail/topic_ops.hpp"
+#include "bus/participant.hpp"
+
+namespace fathom::bus {
+
+/// The Fast DDS side of a participant: its entities, what discovery tells, and the shared books.
+struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListener {
+  explicit Impl(const ParticipantOptions& options);
+  ~Impl() override;
+
+  /// The topic, created and its type registered at first use. Throws BusError.
+  eprosima::fastdds::dds::Topic* topic(const detail::TopicOps& ops);
+
+  /// A reader lost sight of this writer. Whether the writer was deleted or its process died is known when the
+  /// participant is found to have left (at once) or to have been dropped.
+  void writer_unmatched(const WriterGuid& guid, const std::string& topic);
+  void writer_matched(const WriterGuid& guid, const std::string& topic);
+  /// Reports the participants that use this topic with another type: they will never match.
+  void check_types(const std::string& topic);
+
+  void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant*,
+                                eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+  void on_publisher_discovery(eprosima::fastdds::dds::DomainParticipant*,
+                              eprosima::fastrtps::rtps::WriterDiscoveryInfo&& info) override;
+  void on_subscriber_discovery(eprosima::fastdds::dds::DomainParticipant*,
+                               eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override;
+
+  detail::EventBook events;
+  detail::PeerBook peers;
+  eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
+  eprosima::fastdds::dds::Publisher* publisher = nullptr;
+  eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
+
+ private:
+  struct Unmatched {
+    WriterGuid guid;
+    std::string topic;
+    std::chrono::steady_clock::time_point when;
+  };
+  void participant_dropped(const detail::GuidPrefix& prefix);
+
+  std::mutex mutex_;
+  std::map<std::string, eprosima::fastdds::dds::Topic*> topics_;  // owned by participant
+  std::map<std::string, std::string> types_;                      // of local topics
+  std::vector<Unmatched> unmatched_;
+};
+
+namespace detail {
+
+/// A Fast DDS GUID or instance handle as plain bytes.
+[[nodiscard]] WriterGuid to_guid(const eprosima::fastrtps::rtps::GUID_t& guid);
+
+}  // namespace detail
+
+}  // namespace fathom::bus

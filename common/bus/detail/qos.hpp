@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
+
+#include "bus/detail/qos_summary.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+
+namespace fathom::bus::detail {
+
+/// The folder of QoS profiles: `configured`, else as ParticipantOptions::profiles_dir says. Throws BusError
+/// naming the places it looked at.
+[[nodiscard]] std::string find_profiles_dir(const std::string& configured);
+
+/// Loads every *.xml of the folder, in the order of the names, into the process; a file loaded before is
+/// skipped. Throws BusError naming the file.
+void load_profiles(const std::string& folder);
+
+/// The topic's profile with what the configuration says on top. Throws BusError.
+[[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer_qos(
+    const eprosima::fastdds::dds::Publisher& publisher, const std::string& topic,
+    const WriterOptions& options);
+[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader_qos(
+    const eprosima::fastdds::dds::Subscriber& subscriber, const std::string& topic,
+    const ReaderOptions& options);
+
+[[nodiscard]] Policy policy_of(eprosima::fastdds::dds::QosPolicyId_t id);
+
+/// Of a DataWriterQos, DataReaderQos or their counterparts in discovery.
+template <class Reliability, class Durability, class Deadline, class Ownership, class Liveliness>
+QosSummary summarise(const Reliability& reliability, const Durability& durability, const Deadline& deadline,
+                     const Ownership& ownership, const Liveliness& liveliness) {
+  const auto ns = [](const auto& duration) {
+    if (duration.seconds == 0x7fffffff) return kForever;
+    return duration.seconds * kNsPerSecond + static_cast<DurationNs>(duration.nanosec);
+  };
+  QosSummary summary;
+  summary.reliability = reliability.kind == eprosima::fastdds::dds::RELIABLE_RELIABILITY_QOS ? 1 : 0;
+  summary.durability = durability.kind;
+  summary.deadline_ns = ns(deadline.period);
+  summary.ownership = ownership.kind;
+  summary.liveliness = liveliness.kind;
+  summary.lease_ns = ns(liveliness.lease_duration);
+  return summary;
+}
+
+}  // namespace fathom::bus::detail

@@ -1,0 +1,185 @@
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <set>
+#include <utility>
+
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/DataReaderListener.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+
+#include "bus/detail/dds_log.hpp"
+#include "bus/detail/endpoint.hpp"
+#include "bus/detail/participant_impl.hpp"
+#include "bus/detail/qos.hpp"
+#include "bus/detail/sample_type.hpp"
+
+namespace fathom::bus::detail {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::InstanceHandle_t;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+TimeNs to_ns(const eprosima::fastrtps::rtps::Time_t& time) {
+  return time.to_ns();
+}
+
+}  // namespace
+
+struct ReaderCore::Impl final : dds::DataReaderListener {
+  Impl(Participant::Impl& bus_in, const TopicOps& ops_in, Handler handler_in, const ReaderOptions& options)
+      : bus(bus_in), ops(ops_in), handler(std::move(handler_in)) {
+    dds::Topic* topic = bus.topic(ops);
+    const dds::DataReaderQos qos = reader_qos(*bus.subscriber, ops.topic, options);
+    requested =
+        summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(), qos.liveliness());
+    slot.sample = ops.create();
+    dds::StatusMask mask = dds::StatusMask::data_available();
+    mask << dds::StatusMask::subscription_matched() << dds::StatusMask::requested_deadline_missed()
+         << dds::StatusMask::requested_incompatible_qos() << dds::StatusMask::sample_lost()
+         << dds::StatusMask::sample_rejected();
+    reader = bus.subscriber->create_datareader(topic, qos, this, mask);
+    if (reader == nullptr) {
+      ops.destroy(slot.sample);
+      throw BusError("reader of " + std::string(ops.topic) + ": Fast DDS could not create it" +
+                     last_dds_error());
+    }
+    bus.check_types(ops.topic);
+  }
+
+  ~Impl() override {
+    closed = true;
+    // Whoever is in the handler now is waited for; whoever comes later sees `closed`.
+    { const std::lock_guard wait(handler_mutex); }
+    reader->set_listener(nullptr);
+    bus.subscriber->delete_datareader(reader);
+    ops.destroy(slot.sample);
+  }
+
+  void on_data_available(dds::DataReader* from) override {
+    const std::lock_guard lock(handler_mutex);
+    dds::SampleInfo info;
+    while (!closed && from->take_next_sample(&slot, &info) == ReturnCode_t::RETCODE_OK) {
+      if (!info.valid_data) continue;  // an instance ended
+      const WriterGuid guid = to_guid(info.sample_identity.writer_guid());
+      if (!slot.valid) {
+        const std::string name = bus.peers.name(guid);
+        bus.events.report(BusEventKind::invalid_sample, ops.topic, name,
+                          name + " sent bytes that are no " + ops.type_name);
+        continue;
+      }
+      if (requested.deadline_ns != kForever) track_deadline(info.instance_handle, guid);
+      handler(slot.sample, {guid, to_ns(info.source_timestamp), to_ns(info.reception_timestamp)});
+    }
+  }
+
+  void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
+    if (closed) return;
+    WriterGuid guid{};
+    for (std::size_t i = 0; i < guid.size(); ++i) guid[i] = status.last_publication_handle.value[i];
+    {
+      const std::lock_guard lock(mutex);
+      if (status.current_count_change > 0) {
+        writers.insert(guid);
+      } else {
+        writers.erase(guid);
+      }
+      matched = static_cast<int>(writers.size());
+    }
+    if (status.current_count_change > 0) {
+      bus.writer_matched(guid, ops.topic);
+    } else {
+      bus.writer_unmatched(guid, ops.topic);
+    }
+  }
+
+  void on_requested_deadline_missed(dds::DataReader*,
+                                    const dds::RequestedDeadlineMissedStatus& status) override {
+    std::string key;
+    WriterGuid guid{};
+    {
+      const std::lock_guard lock(mutex);
+      const auto found = instances.find(status.last_instance_handle);
+      // A writer that left owes nothing any more; that it was lost is reported as such.
+      if (found == instances.end() || !writers.contains(found->second.writer)) return;
+      found->second.missed = true;
+      key = found->second.key;
+      guid = found->second.writer;
+    }
+    bus.events.report(
+        BusEventKind::deadline_missed, ops.topic, key,
+        bus.peers.name(guid) + " sent nothing about " + key + " for " + duration_text(requested.deadline_ns),
+        status.total_count_change);
+  }
+
+  void on_requested_incompatible_qos(dds::DataReader*,
+                                     const dds::RequestedIncompatibleQosStatus& status) override {
+    const Policy policy = policy_of(status.last_policy_id);
+    std::string names = bus.peers.writers_in_conflict(ops.topic, policy, requested);
+    if (names.empty()) names = "another participant";
+    bus.events.report(BusEventKind::incompatible_qos, ops.topic, "writer:" + names + to_string(policy),
+                      "the writer of " + names + " offers another " + to_string(policy) +
+                          " than this reader requests (" + value_text(policy, requested) + ")",
+                      static_cast<std::uint64_t>(status.total_count_change));
+  }
+
+  void on_sample_lost(dds::DataReader*, const dds::SampleLostStatus& status) override {
+    bus.events.report(BusEventKind::sample_lost, ops.topic, "",
+                      "samples did not arrive and are no longer to be had",
+                      static_cast<std::uint64_t>(status.total_count_change));
+  }
+
+  void on_sample_rejected(dds::DataReader*, const dds::SampleRejectedStatus& status) override {
+    bus.events.report(BusEventKind::resource_limit, ops.topic, "",
+                      "this reader has no room for more samples or keys", status.total_count_change);
+  }
+
+  struct Instance {
+    std::string key;
+    WriterGuid writer{};
+    bool missed = false;
+  };
+
+  /// Remembers whose sample an instance was last, and notices recovery. Called with slot filled.
+  void track_deadline(const InstanceHandle_t& handle, const WriterGuid& guid) {
+    std::string key;
+    {
+      const std::lock_guard lock(mutex);
+      Instance& instance = instances[handle];
+      if (instance.key.empty()) instance.key = ops.key_text(slot.sample);
+      instance.writer = guid;
+      if (!instance.missed) return;
+      instance.missed = false;
+      key = instance.key;
+    }
+    bus.events.recovered(BusEventKind::deadline_missed, ops.topic, key);
+  }
+
+  Participant::Impl& bus;
+  const TopicOps& ops;
+  QosSummary requested;
+  std::atomic<bool> closed = false;
+  std::atomic<int> matched = 0;
+
+  std::mutex handler_mutex;  // held while samples are handed over
+  Handler handler;
+  SampleSlot slot;
+
+  std::mutex mutex;  // of what follows
+  std::set<WriterGuid> writers;
+  std::map<InstanceHandle_t, Instance> instances;
+
+  dds::DataReader* reader = nullptr;
+};
+
+ReaderCore::ReaderCore(Participant& participant, const TopicOps& ops, Handler handler,
+                       const ReaderOptions& options)
+    : impl_(std::make_unique<Impl>(participant.impl(), ops, std::move(handler), options)) {}
+ReaderCore::~ReaderCore() = default;
+int ReaderCore::matched_writers() const {
+  return impl_->matched;
+}
+
+}  // namespace fathom::bus::detail

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace eprosima::fastcdr {
+class Cdr;
+}
+
+namespace fathom::bus::detail {
+
+/// What the bus needs to know about one topic, with the sample's type erased: `sample` always points to the
+/// plain value. One per topic, made from its Mapping (detail/mapping.hpp).
+struct TopicOps {
+  const char* topic;           ///< name on the network and of the QoS profile
+  const char* type_name;       ///< as in the IDL
+  std::uint32_t max_size;      ///< serialised, without encapsulation
+  std::uint32_t max_key_size;  ///< serialised key
+
+  void* (*create)();
+  void (*destroy)(void* sample);
+  void (*encode)(const void* sample, eprosima::fastcdr::Cdr& cdr);
+  /// False when the bytes are a legal encoding of something no sample can hold: an unknown enumerator, a
+  /// sequence beyond its bound. Throws what Fast CDR throws when bytes are missing.
+  bool (*decode)(eprosima::fastcdr::Cdr& cdr, void* sample);
+  void (*encode_key)(const void* sample, eprosima::fastcdr::Cdr& cdr);
+  /// The key in words, e.g. "auv/gps0", for reports.
+  std::string (*key_text)(const void* sample);
+};
+
+/// The operations of the topic of T, instantiated in bus/topics/.
+template <class T>
+const TopicOps& topic_ops();
+
+}  // namespace fathom::bus::detail

@@ -1,0 +1,133 @@
+#include <atomic>
+#include <map>
+#include <mutex>
+
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/DataWriterListener.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+
+#include "bus/detail/dds_log.hpp"
+#include "bus/detail/endpoint.hpp"
+#include "bus/detail/participant_impl.hpp"
+#include "bus/detail/qos.hpp"
+#include "bus/detail/sample_type.hpp"
+
+namespace fathom::bus::detail {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+
+}  // namespace
+
+struct WriterCore::Impl final : dds::DataWriterListener {
+  Impl(Participant::Impl& bus_in, const TopicOps& ops_in, const WriterOptions& options)
+      : bus(bus_in), ops(ops_in), type(ops_in) {
+    dds::Topic* topic = bus.topic(ops);
+    const dds::DataWriterQos qos = writer_qos(*bus.publisher, ops.topic, options);
+    offered =
+        summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(), qos.liveliness());
+    dds::StatusMask mask = dds::StatusMask::publication_matched();
+    mask << dds::StatusMask::offered_deadline_missed() << dds::StatusMask::offered_incompatible_qos();
+    writer = bus.publisher->create_datawriter(topic, qos, this, mask);
+    if (writer == nullptr) {
+      throw BusError("writer of " + std::string(ops.topic) + ": Fast DDS could not create it" +
+                     last_dds_error());
+    }
+    bus.check_types(ops.topic);
+  }
+
+  ~Impl() override {
+    if (writer == nullptr) return;
+    writer->set_listener(nullptr);
+    bus.publisher->delete_datawriter(writer);
+  }
+
+  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
+    matched = status.current_count;
+  }
+
+  void on_offered_incompatible_qos(dds::DataWriter*,
+                                   const dds::OfferedIncompatibleQosStatus& status) override {
+    const Policy policy = policy_of(status.last_policy_id);
+    std::string readers = bus.peers.readers_in_conflict(ops.topic, policy, offered);
+    if (readers.empty()) readers = "another participant";
+    bus.events.report(BusEventKind::incompatible_qos, ops.topic, "reader:" + readers + to_string(policy),
+                      "the reader of " + readers + " requests another " + to_string(policy) +
+                          " than this writer offers (" + value_text(policy, offered) + ")",
+                      static_cast<std::uint64_t>(status.total_count_change));
+  }
+
+  void on_offered_deadline_missed(dds::DataWriter*, const dds::OfferedDeadlineMissedStatus& status) override {
+    const std::string key = missed(status.last_instance_handle);
+    bus.events.report(
+        BusEventKind::deadline_missed, ops.topic, "own:" + key,
+        "this service wrote nothing about " + key + " for " + duration_text(offered.deadline_ns),
+        status.total_count_change);
+  }
+
+  struct Instance {
+    eprosima::fastrtps::rtps::InstanceHandle_t handle;
+    bool missed = false;
+  };
+
+  /// Remembers which key the handle of a deadline stands for, and notices recovery.
+  void track_deadline(const SampleSlot& slot) {
+    const std::string key = ops.key_text(slot.sample);
+    {
+      const std::lock_guard lock(mutex);
+      const auto [found, is_new] = instances.try_emplace(key);
+      if (is_new) type.getKey(const_cast<SampleSlot*>(&slot), &found->second.handle, false);
+      if (!found->second.missed) return;
+      found->second.missed = false;
+    }
+    bus.events.recovered(BusEventKind::deadline_missed, ops.topic, "own:" + key);
+  }
+
+  std::string missed(const eprosima::fastrtps::rtps::InstanceHandle_t& handle) {
+    const std::lock_guard lock(mutex);
+    for (auto& [key, instance] : instances) {
+      if (instance.handle == handle) {
+        instance.missed = true;
+        return key;
+      }
+    }
+    return "an unknown key";
+  }
+
+  bool write(const void* sample) {
+    SampleSlot slot{const_cast<void*>(sample), true};
+    if (offered.deadline_ns != kForever) track_deadline(slot);
+    const bool written = writer->write(&slot);
+    if (written) {
+      if (failed.exchange(false)) bus.events.recovered(BusEventKind::write_failed, ops.topic, "");
+    } else {
+      failed = true;
+      bus.events.report(BusEventKind::write_failed, ops.topic, "",
+                        "a sample about " + ops.key_text(sample) +
+                            " found no room in the writer's history, or its readers did not keep up");
+    }
+    return written;
+  }
+
+  Participant::Impl& bus;
+  const TopicOps& ops;
+  SampleType type;  // for keys only; Fast DDS owns its own
+  QosSummary offered;
+  std::atomic<int> matched = 0;
+  std::atomic<bool> failed = false;
+  std::mutex mutex;
+  std::map<std::string, Instance> instances;
+  dds::DataWriter* writer = nullptr;
+};
+
+WriterCore::WriterCore(Participant& participant, const TopicOps& ops, const WriterOptions& options)
+    : impl_(std::make_unique<Impl>(participant.impl(), ops, options)) {}
+WriterCore::~WriterCore() = default;
+bool WriterCore::write(const void* sample) {
+  return impl_->write(sample);
+}
+int WriterCore::matched_readers() const {
+  return impl_->matched;
+}
+
+}  // namespace fathom::bus::detail

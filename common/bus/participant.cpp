@@ -1,0 +1,306 @@
+#include "bus/participant.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/topic/Topic.hpp>
+#include <fastdds/dds/topic/TypeSupport.hpp>
+#include <fastdds/rtps/builtin/data/ReaderProxyData.h>
+#include <fastdds/rtps/builtin/data/WriterProxyData.h>
+#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
+#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <ifaddrs.h>
+#include <netinet/in.h>
+#include <unistd.h>
+
+#include "bus/detail/dds_log.hpp"
+#include "bus/detail/participant_impl.hpp"
+#include "bus/detail/qos.hpp"
+#include "bus/detail/sample_type.hpp"
+
+namespace fathom::bus {
+namespace {
+
+namespace dds = eprosima::fastdds::dds;
+namespace rtps = eprosima::fastrtps::rtps;
+using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
+using eprosima::fastrtps::types::ReturnCode_t;
+
+constexpr const char* kParticipantProfile = "fathom";
+
+std::string host_name() {
+  std::array<char, 64> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return {};
+  return name.data();
+}
+
+/// Every IPv4 address of this host.
+std::vector<std::string> local_addresses() {
+  std::vector<std::string> addresses;
+  ifaddrs* list = nullptr;
+  if (getifaddrs(&list) != 0) return addresses;
+  for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next) {
+    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
+    const auto* address = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
+    const std::uint32_t ip = ntohl(address->sin_addr.s_addr);
+    addresses.push_back(std::to_string(ip >> 24U) + "." + std::to_string((ip >> 16U) & 255U) + "." +
+                        std::to_string((ip >> 8U) & 255U) + "." + std::to_string(ip & 255U));
+  }
+  freeifaddrs(list);
+  return addresses;
+}
+
+rtps::Locator_t locator(const std::string& what, const std::string& address) {
+  rtps::Locator_t result;
+  result.kind = LOCATOR_KIND_UDPv4;
+  if (!rtps::IPLocator::isIPv4(address) || !rtps::IPLocator::setIPv4(result, address)) {
+    throw BusError(what + " '" + address + "': expected an IPv4 address such as 127.0.0.1");
+  }
+  return result;
+}
+
+/// Fast DDS would silently leave out an address that this host does not have, and never use it afterwards.
+void check_interfaces(const std::vector<std::string>& interfaces) {
+  if (interfaces.empty()) throw BusError("no interfaces: expected at least one IPv4 address of this host");
+  const std::vector<std::string> present = local_addresses();
+  for (const std::string& interface : interfaces) {
+    if (std::find(present.begin(), present.end(), interface) != present.end()) continue;
+    std::string text;
+    for (const std::string& address : present) text += (text.empty() ? "" : ", ") + address;
+    throw BusError("interface '" + interface + "': this host has no such address, only " + text);
+  }
+}
+
+bool loopback(const std::string& address) {
+  return address.starts_with("127.");
+}
+
+dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
+                                          const std::string& profiles_dir) {
+  dds::DomainParticipantQos qos;
+  if (dds::DomainParticipantFactory::get_instance()->get_participant_qos_from_profile(
+          kParticipantProfile, qos) != ReturnCode_t::RETCODE_OK) {
+    throw BusError(profiles_dir + ": the QoS profiles have no participant '" + kParticipantProfile + "'");
+  }
+  qos.name(options.name);
+  const std::string user = "host=" + host_name() + ";pid=" + std::to_string(getpid());
+  qos.user_data().setValue(std::vector<rtps::octet>(user.begin(), user.end()));
+
+  // The profile's transport is shared by everybody in this process who loads it: give interfaces to a copy.
+  auto& transports = qos.transport().user_transports;
+  const auto profile =
+      transports.size() == 1 ? std::dynamic_pointer_cast<UDPv4TransportDescriptor>(transports[0]) : nullptr;
+  if (!profile) throw BusError(profiles_dir + ": participant 'fathom': expected exactly one UDPv4 transport");
+  auto transport = std::make_shared<UDPv4TransportDescriptor>(*profile);
+  transport->interfaceWhiteList = options.interfaces;
+  transports = {transport};
+  qos.transport().use_builtin_transports = false;
+
+  auto& builtin = qos.wire_protocol().builtin;
+  for (const std::string& peer : options.peers) builtin.initialPeersList.push_back(locator("peer", peer));
+  if (std::all_of(options.interfaces.begin(), options.interfaces.end(), loopback)) {
+    // Naming the unicast locators leaves no multicast socket on the loopback interface.
+    for (const std::string& interface : options.interfaces) {
+      builtin.metatrafficUnicastLocatorList.push_back(locator("interface", interface));
+    }
+  } else {
+    rtps::Locator_t multicast = locator("multicast group", "239.255.0.1");
+    multicast.port = qos.wire_protocol().port.getMulticastPort(options.domain);
+    builtin.initialPeersList.push_back(multicast);
+  }
+  return qos;
+}
+
+Peer to_peer(const rtps::ParticipantProxyData& data) {
+  Peer peer;
+  peer.name = data.m_participantName.to_string();
+  const auto& user = data.m_userData.data_vec();
+  const std::string text(user.begin(), user.end());
+  const std::size_t host = text.find("host=");
+  const std::size_t pid = text.find(";pid=");
+  if (host != 0 || pid == std::string::npos) return peer;
+  peer.host = text.substr(5, pid - 5);
+  peer.pid = static_cast<std::uint32_t>(std::strtoul(text.c_str() + pid + 5, nullptr, 10));
+  return peer;
+}
+
+detail::GuidPrefix to_prefix(const rtps::GUID_t& guid) {
+  return detail::prefix_of(detail::to_guid(guid));
+}
+
+template <class ProxyData>
+detail::RemoteEndpoint to_endpoint(const ProxyData& data) {
+  const auto& qos = data.m_qos;
+  return {data.topicName().to_string(), data.typeName().to_string(),
+          detail::summarise(qos.m_reliability, qos.m_durability, qos.m_deadline, qos.m_ownership,
+                            qos.m_liveliness)};
+}
+
+}  // namespace
+
+WriterGuid detail::to_guid(const rtps::GUID_t& guid) {
+  WriterGuid bytes{};
+  std::copy_n(&guid.guidPrefix.value[0], 12, bytes.begin());
+  std::copy_n(&guid.entityId.value[0], 4, bytes.begin() + 12);
+  return bytes;
+}
+
+Participant::Impl::Impl(const ParticipantOptions& options) {
+  detail::capture_dds_log();
+  if (options.name.empty() || options.name.size() > 255) {
+    throw BusError("participant name '" + options.name + "': expected 1 to 255 bytes");
+  }
+  if (options.domain > 232) {
+    throw BusError("domain " + std::to_string(options.domain) + ": expected 0 to 232");
+  }
+  check_interfaces(options.interfaces);
+  const std::string profiles_dir = detail::find_profiles_dir(options.profiles_dir);
+  detail::load_profiles(profiles_dir);
+  const dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);
+
+  auto* factory = dds::DomainParticipantFactory::get_instance();
+  participant = factory->create_participant(options.domain, qos, this, dds::StatusMask::none());
+  if (participant != nullptr) {
+    publisher = participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
+    subscriber = participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
+  }
+  if (publisher == nullptr || subscriber == nullptr) {
+    throw BusError("participant '" + options.name + "' on domain " + std::to_string(options.domain) +
+                   ": Fast DDS could not create it" + detail::last_dds_error());
+  }
+}
+
+Participant::Impl::~Impl() {
+  if (participant == nullptr) return;
+  participant->delete_contained_entities();
+  dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+}
+
+dds::Topic* Participant::Impl::topic(const detail::TopicOps& ops) {
+  const std::lock_guard lock(mutex_);
+  dds::Topic*& topic = topics_[ops.topic];
+  if (topic != nullptr) return topic;
+  const dds::TypeSupport type(new detail::SampleType(ops));
+  if (type.register_type(participant) == ReturnCode_t::RETCODE_OK) {
+    topic = participant->create_topic(ops.topic, ops.type_name, dds::TOPIC_QOS_DEFAULT);
+  }
+  if (topic == nullptr) {
+    throw BusError("topic " + std::string(ops.topic) + ": Fast DDS could not create it" +
+                   detail::last_dds_error());
+  }
+  types_[ops.topic] = ops.type_name;
+  return topic;
+}
+
+void Participant::Impl::check_types(const std::string& topic) {
+  std::string type;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = types_.find(topic);
+    if (found == types_.end()) return;
+    type = found->second;
+  }
+  for (const std::string& conflict : peers.type_conflicts(topic, type)) {
+    events.report(BusEventKind::incompatible_qos, topic, conflict,
+                  conflict + " differs from ours, '" + type + "': they never meet");
+  }
+}
+
+void Participant::Impl::writer_matched(const WriterGuid& guid, const std::string& topic) {
+  events.recovered(BusEventKind::writer_lost, topic, peers.name(guid));
+}
+
+void Participant::Impl::writer_unmatched(const WriterGuid& guid, const std::string& topic) {
+  const auto now = std::chrono::steady_clock::now();
+  const std::lock_guard lock(mutex_);
+  // Fast DDS unmatches the writers of a dropped participant immediately before it reports the drop; what was
+  // unmatched earlier had been deleted.
+  std::erase_if(unmatched_, [&](const Unmatched& old) { return now - old.when > std::chrono::seconds(1); });
+  unmatched_.push_back({guid, topic, now});
+}
+
+void Participant::Impl::participant_dropped(const detail::GuidPrefix& prefix) {
+  std::vector<Unmatched> lost;
+  {
+    const auto now = std::chrono::steady_clock::now();
+    const std::lock_guard lock(mutex_);
+    for (const Unmatched& entry : unmatched_) {
+      if (detail::prefix_of(entry.guid) == prefix && now - entry.when <= std::chrono::seconds(1)) {
+        lost.push_back(entry);
+      }
+    }
+  }
+  for (const Unmatched& writer : lost) {
+    const std::string name = peers.name(writer.guid);
+    events.report(BusEventKind::writer_lost, writer.topic, name,
+                  "writer of " + name + " fell silent and was given up");
+  }
+}
+
+void Participant::Impl::on_participant_discovery(dds::DomainParticipant*,
+                                                 rtps::ParticipantDiscoveryInfo&& info) {
+  const detail::GuidPrefix prefix = to_prefix(info.info.m_guid);
+  switch (info.status) {
+    case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
+    case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:
+      peers.participant_seen(prefix, to_peer(info.info));
+      return;
+    case rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT:
+      participant_dropped(prefix);
+      break;
+    case rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT:
+      break;
+  }
+  peers.participant_gone(prefix);
+  const std::lock_guard lock(mutex_);
+  std::erase_if(unmatched_, [&](const Unmatched& entry) { return detail::prefix_of(entry.guid) == prefix; });
+}
+
+void Participant::Impl::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
+  const WriterGuid guid = detail::to_guid(info.info.guid());
+  if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) {
+    peers.writer_gone(guid);
+    return;
+  }
+  const detail::RemoteEndpoint endpoint = to_endpoint(info.info);
+  peers.writer_seen(guid, endpoint);
+  check_types(endpoint.topic);
+}
+
+void Participant::Impl::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
+  const WriterGuid guid = detail::to_guid(info.info.guid());
+  if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) {
+    peers.reader_gone(guid);
+    return;
+  }
+  const detail::RemoteEndpoint endpoint = to_endpoint(info.info);
+  peers.reader_seen(guid, endpoint);
+  check_types(endpoint.topic);
+}
+
+Participant::Participant(const ParticipantOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+Participant::~Participant() = default;
+
+BusCounters Participant::counters() const {
+  return impl_->events.counters();
+}
+
+void Participant::on_event(std::function<void(const BusEvent&)> handler) {
+  impl_->events.set_handler(std::move(handler));
+}
+
+std::optional<Peer> Participant::peer(const WriterGuid& writer) const {
+  return impl_->peers.peer(writer);
+}
+std::string Participant::writer_name(const WriterGuid& writer) const {
+  return impl_->peers.name(writer);
+}
+std::vector<Peer> Participant::peers() const {
+  return impl_->peers.present();
+}
+
+}  // namespace fathom::bus

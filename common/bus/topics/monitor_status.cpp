@@ -1,0 +1,41 @@
+#include "bus/detail/mapping.hpp"
+#include "idl/health.h"
+#include "samples/health.hpp"
+
+namespace fathom::bus::detail {
+
+template <>
+struct Mapping<MonitorStatus> {
+  using Wire = v1::MonitorStatus;
+  static constexpr const char* kTopic = "fathom/v1/monitor_status";
+  static constexpr const char* kType = "fathom::v1::MonitorStatus";
+
+  static void fields(auto& copy, auto& plain, auto& wire) {
+    copy_header(copy, plain.header, wire);
+    copy(plain.healthy, wire.healthy());
+    copy_enum<NavMode::inertial, v1::NAV_MODE_INERTIAL>(copy, plain.mode, wire.mode());
+    copy_enum<AlignmentPhase::lost, v1::ALIGNMENT_PHASE_LOST>(copy, plain.alignment, wire.alignment());
+    copy(plain.nav_state_age_s, wire.nav_state_age_s());
+    copy(plain.gps_outage_active, wire.gps_outage_active());
+    copy(plain.gps_outage_s, wire.gps_outage_s());
+    copy(plain.gps_outage_longest_s, wire.gps_outage_longest_s());
+    copy(plain.gps_outage_total_s, wire.gps_outage_total_s());
+    copy(plain.gps_outage_count, wire.gps_outage_count());
+    copy(plain.alarms_active, wire.alarms_active());
+    copy(plain.alarms_unacknowledged, wire.alarms_unacknowledged());
+    const auto item = [](auto& each, auto& watched, auto& w) {
+      each(watched.name, w.name());
+      copy_enum<Presence::missing, v1::PRESENCE_MISSING>(each, watched.presence, w.presence());
+      each(watched.age_s, w.age_s());
+      each(watched.rate_hz, w.rate_hz());
+    };
+    copy.sequence(plain.sensors, wire.sensors(), 32, item);
+    copy.sequence(plain.services, wire.services(), 32, item);
+  }
+
+  static std::string key_text(const MonitorStatus& sample) { return sample.header.vehicle.str(); }
+};
+
+}  // namespace fathom::bus::detail
+
+FATHOM_BUS_TOPIC(MonitorStatus)

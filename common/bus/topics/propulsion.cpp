@@ -1,0 +1,23 @@
+#include "bus/detail/mapping.hpp"
+#include "idl/sensors.h"
+#include "samples/actuator.hpp"
+
+namespace fathom::bus::detail {
+
+template <>
+struct Mapping<PropulsionSample> {
+  using Wire = v1::PropulsionSample;
+  static constexpr const char* kTopic = "fathom/v1/propulsion";
+  static constexpr const char* kType = "fathom::v1::PropulsionSample";
+
+  static void fields(auto& copy, auto& plain, auto& wire) {
+    copy_header(copy, plain.header, wire);
+    copy(plain.rpm, wire.rpm());
+  }
+
+  static std::string key_text(const PropulsionSample& sample) { return vehicle_and_sensor(sample); }
+};
+
+}  // namespace fathom::bus::detail
+
+FATHOM_BUS_TOPIC(PropulsionSample)

@@ -1,0 +1,31 @@
+#include "samples/usbl.hpp"
+
+#include "bus/detail/mapping.hpp"
+#include "idl/sensors.h"
+
+namespace fathom::bus::detail {
+
+template <>
+struct Mapping<UsblSample> {
+  using Wire = v1::UsblSample;
+  static constexpr const char* kTopic = "fathom/v1/usbl";
+  static constexpr const char* kType = "fathom::v1::UsblSample";
+
+  static void fields(auto& copy, auto& plain, auto& wire) {
+    copy_header(copy, plain.header, wire);
+    copy_enum<UsblFrame::vessel_frd, v1::USBL_FRAME_VESSEL_FRD>(copy, plain.frame, wire.frame());
+    copy(plain.transponder, wire.transponder());
+    copy(plain.latitude_rad, wire.latitude_rad());
+    copy(plain.longitude_rad, wire.longitude_rad());
+    copy(plain.depth_m, wire.depth_m());
+    copy(plain.relative_m, wire.relative_m());
+    copy(plain.sigma_m, wire.sigma_m());
+    copy(plain.travel_time_s, wire.travel_time_s());
+  }
+
+  static std::string key_text(const UsblSample& sample) { return vehicle_and_sensor(sample); }
+};
+
+}  // namespace fathom::bus::detail
+
+FATHOM_BUS_TOPIC(UsblSample)
