@@ -141,7 +141,8 @@ void describe(Schema<DepthSensorConfig>& s) {
       .range(-90, 90)
       .scaled(kDegree)
       .required();
-  s.field("atmosphere_Pa", &DepthSensorConfig::atmosphere_Pa, "pressure at the surface; 0 for a gauge sensor")
+  s.field("atmosphere_Pa", &DepthSensorConfig::atmosphere_Pa,
+          "air pressure at the surface, taken off the measured one")
       .unit("Pa")
       .range(0, 120'000);
   s.field("ascii", &DepthSensorConfig::ascii, "protocol ascii_depth: the line's shape");
@@ -202,5 +203,27 @@ template LoadedConfig<DepthBridgeConfig> load_service_config(const LoadRequest& 
 template LoadedConfig<HeadingBridgeConfig> load_service_config(const LoadRequest& request);
 template LoadedConfig<UsblBridgeConfig> load_service_config(const LoadRequest& request);
 template LoadedConfig<ActuatorBridgeConfig> load_service_config(const LoadRequest& request);
+
+ConfigKind imu_bridge_kind() {
+  return make_kind<ImuBridgeConfig>("imu_bridge");
+}
+ConfigKind dvl_bridge_kind() {
+  return make_kind<DvlBridgeConfig>("dvl_bridge");
+}
+ConfigKind gps_bridge_kind() {
+  return make_kind<GpsBridgeConfig>("gps_bridge");
+}
+ConfigKind depth_bridge_kind() {
+  return make_kind<DepthBridgeConfig>("depth_bridge");
+}
+ConfigKind heading_bridge_kind() {
+  return make_kind<HeadingBridgeConfig>("heading_bridge");
+}
+ConfigKind usbl_bridge_kind() {
+  return make_kind<UsblBridgeConfig>("usbl_bridge");
+}
+ConfigKind actuator_bridge_kind() {
+  return make_kind<ActuatorBridgeConfig>("actuator_bridge");
+}
 
 }  // namespace fathom::config

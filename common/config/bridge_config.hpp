@@ -8,6 +8,7 @@
 #include "base/name.hpp"
 #include "codec/registry.hpp"
 #include "config/common_config.hpp"
+#include "config/registry.hpp"
 #include "runtime/byte_source.hpp"
 #include "runtime/device_time.hpp"
 
@@ -111,6 +112,14 @@ using DepthBridgeConfig = BridgeConfig<DepthSensorConfig>;
 using HeadingBridgeConfig = BridgeConfig<HeadingSensorConfig>;
 using UsblBridgeConfig = BridgeConfig<UsblSensorConfig>;
 using ActuatorBridgeConfig = BridgeConfig<ActuatorSensorConfig>;
+
+[[nodiscard]] ConfigKind imu_bridge_kind();
+[[nodiscard]] ConfigKind dvl_bridge_kind();
+[[nodiscard]] ConfigKind gps_bridge_kind();
+[[nodiscard]] ConfigKind depth_bridge_kind();
+[[nodiscard]] ConfigKind heading_bridge_kind();
+[[nodiscard]] ConfigKind usbl_bridge_kind();
+[[nodiscard]] ConfigKind actuator_bridge_kind();
 
 /// What no working instrument of its kind can mean. Values beyond are refused.
 struct SampleLimits {

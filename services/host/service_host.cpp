@@ -58,6 +58,9 @@ std::string event_text(const bus::BusEvent& event) {
     case bus::BusEventKind::resource_limit:
       what = "resource limit reached";
       break;
+    case bus::BusEventKind::invalid_sample:
+      what = "invalid sample";
+      break;
   }
   return "bus: " + event.topic + ": " + what + (event.detail.empty() ? "" : ": " + event.detail);
 }

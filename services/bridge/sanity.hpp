@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "codec/codec.hpp"
+#include "config/bridge_config.hpp"
+
+namespace fathom::bridge {
+
+/// Why a decoded sample is not published.
+enum class Refusal : std::uint8_t {
+  not_finite = 0,  ///< infinite, or unknown where the sample is worth nothing without
+  impossible = 1,  ///< beyond the configured limits of what such an instrument can mean
+};
+inline constexpr std::size_t kRefusals = 2;
+[[nodiscard]] std::string_view to_string(Refusal refusal);
+
+/// Unknown (NaN) is a legal answer of an instrument that has lost its bottom or its satellites and is
+/// published, so that others see it alive; an inertial sample, a depth or a heading without its value is
+/// nothing.
+[[nodiscard]] std::optional<Refusal> refuse(const codec::AnySample& sample,
+                                            const config::SampleLimits& limits);
+
+/// Turns an inertial sample from instrument axes into the body: v_B = R_BS v_S (row-major).
+void rotate_into_body(ImuSample& sample, const std::array<double, 9>& R_BS);
+
+}  // namespace fathom::bridge

@@ -1,0 +1,256 @@
+#include "bridge/sensor_channel.hpp"
+
+#include <utility>
+
+#include "runtime/device_time.hpp"
+
+namespace fathom::bridge {
+namespace {
+
+using runtime::Arrival;
+using runtime::LogLevel;
+using runtime::SourceEvent;
+using runtime::SourceState;
+
+// A reason that was logged is logged again when it had not occurred for this long.
+constexpr DurationNs kQuiet = 60 * kNsPerSecond;
+
+SampleHeader& header_of(codec::AnySample& sample) {
+  return std::visit([](auto& value) -> SampleHeader& { return value.header; }, sample);
+}
+
+// Lets the first of a burst through.
+class Burst {
+ public:
+  bool first(TimeNs now_ns) {
+    const bool out = !last_ns_ || now_ns - *last_ns_ > kQuiet;
+    last_ns_ = now_ns;
+    return out;
+  }
+  void forget() { last_ns_.reset(); }
+
+ private:
+  std::optional<TimeNs> last_ns_;
+};
+
+}  // namespace
+
+struct SensorChannel::Impl : codec::Sink {
+  Impl(config::SensorPlan plan_in, std::string_view vehicle_in, const Clock& clock_in, runtime::Log& log_in,
+       Outlet& outlet_in)
+      : plan(std::move(plan_in)),
+        vehicle(vehicle_in),
+        clock(clock_in),
+        log(log_in),
+        outlet(outlet_in),
+        tracker(plan.sensor.time),
+        health(plan.sensor.rate_hz, config::stale_after_s(plan.sensor), clock.monotonic_ns()),
+        source(
+            plan.sensor.source, clock,
+            [this](std::span<const std::uint8_t> bytes, const Arrival& at) { on_bytes(bytes, at); },
+            [this](const SourceEvent& event) { on_event(event); }) {
+    plan.options.ascii_prefix = plan.ascii_prefix;
+    new_codec();
+  }
+
+  void new_codec() { codec = codec::find_protocol(plan.sensor.protocol)->make(plan.options); }
+  void on_bytes(std::span<const std::uint8_t> bytes, const Arrival& at);
+  void on_event(const SourceEvent& event);
+  void on_sample(const codec::Decoded& decoded) override;
+  void on_rejected(const codec::Rejected& rejected) override;
+
+  [[nodiscard]] bool is_ours(const codec::AnySample& sample) const;
+  void keep_pace(const DeviceTime& time);
+  void note_time(const runtime::Stamp& stamp);
+  void add_totals();
+
+  config::SensorPlan plan;
+  const Name vehicle;
+  const Clock& clock;
+  runtime::Log& log;
+  Outlet& outlet;
+
+  // Of the source's thread alone.
+  std::unique_ptr<codec::Codec> codec;
+  codec::Totals before;  ///< of the codec, as already counted
+  runtime::DeviceTimeTracker tracker;
+  Arrival arrival;
+  std::array<std::uint64_t, kSampleKinds> sequence{};
+  std::array<Burst, kRejectReasons> said_rejected;
+  std::array<Burst, kRefusals> said_refused;
+  Burst said_implausible;
+  Burst said_step;
+  std::optional<TimeNs> pace_device_ns;  ///< file: what the last frame's clock said ...
+  TimeNs pace_clock_ns = 0;              ///< ... and when it was due
+
+  mutable std::mutex mutex;  ///< guards the next three
+  ChannelCounters counters;
+  std::uint64_t waste_bytes = 0;
+  std::optional<TimeNs> last_sample_ns;
+
+  ChannelHealth health;        ///< of the thread that asks
+  runtime::ByteSource source;  ///< last: its thread ends before what it uses goes
+};
+
+bool SensorChannel::Impl::is_ours(const codec::AnySample& sample) const {
+  if (!outlet.takes(sample.index())) return false;
+  const auto* usbl = std::get_if<UsblSample>(&sample);
+  return usbl == nullptr || plan.transponder.empty() ||
+         usbl->transponder == Name(std::string_view(plan.transponder));
+}
+
+void SensorChannel::Impl::on_bytes(std::span<const std::uint8_t> bytes, const Arrival& at) {
+  arrival = at;
+  codec->feed(bytes, *this);
+  add_totals();
+}
+
+void SensorChannel::Impl::add_totals() {
+  const codec::Totals now = codec->totals();
+  const std::lock_guard lock(mutex);
+  counters.bytes += now.bytes - before.bytes;
+  counters.frames += (now.samples - before.samples) + (now.frames_ignored - before.frames_ignored);
+  counters.skipped_bytes += now.skipped_bytes - before.skipped_bytes;
+  waste_bytes += now.skipped_bytes - before.skipped_bytes;
+  before = now;
+}
+
+void SensorChannel::Impl::on_event(const SourceEvent& event) {
+  const std::string text = plan.sensor.name.str() + ": " + event.detail;
+  log.write(event.state == SourceState::connected || event.state == SourceState::finished ? LogLevel::info
+                                                                                          : LogLevel::warning,
+            text);
+  if (event.state == SourceState::lost || event.state == SourceState::finished) {
+    // Half a frame of the old connection must not meet half a frame of the new one.
+    codec->finish(*this);
+    add_totals();
+    new_codec();
+    before = {};
+    tracker.reset();
+    for (auto& burst : said_rejected) burst.forget();
+    for (auto& burst : said_refused) burst.forget();
+  }
+}
+
+void SensorChannel::Impl::keep_pace(const DeviceTime& time) {
+  const auto device = time.clock_ns ? time.clock_ns : time.utc_ns ? time.utc_ns : time.time_of_day_ns;
+  if (!device) return;
+  constexpr DurationNs kLongestGap = 10 * kNsPerSecond;
+  const TimeNs now = clock.monotonic_ns();
+  const DurationNs step = pace_device_ns ? *device - *pace_device_ns : 0;
+  // Time that jumps (a new day in a recording without dates, a damaged field) starts a new count.
+  pace_clock_ns = pace_device_ns && step >= 0 && step <= kLongestGap ? pace_clock_ns + step : now;
+  pace_device_ns = device;
+  if (pace_clock_ns > now) source.hold(pace_clock_ns - now);
+  arrival = {clock.utc_ns(), clock.monotonic_ns()};
+}
+
+void SensorChannel::Impl::note_time(const runtime::Stamp& stamp) {
+  if (stamp.implausible && said_implausible.first(arrival.monotonic_ns)) {
+    log.warning(plan.sensor.name.str() +
+                ": the device's UTC disagrees with the vehicle's; stamped by arrival");
+  }
+  if (stamp.clock_step && said_step.first(arrival.monotonic_ns)) {
+    log.warning(plan.sensor.name.str() + ": the device's clock was stepped; its offset was found anew");
+  }
+  const std::lock_guard lock(mutex);
+  counters.time_implausible += stamp.implausible ? 1 : 0;
+  counters.time_steps += stamp.clock_step ? 1 : 0;
+  counters.time_backwards += stamp.backwards ? 1 : 0;
+}
+
+void SensorChannel::Impl::on_sample(const codec::Decoded& decoded) {
+  if (!is_ours(decoded.sample)) {
+    const std::lock_guard lock(mutex);
+    ++counters.ignored;
+    return;
+  }
+  const auto& from = plan.sensor.source;
+  if (from.type == runtime::SourceType::file && from.pace == runtime::Pace::original) keep_pace(decoded.time);
+  const runtime::Stamp stamp = tracker.stamp(decoded.time, arrival);
+  note_time(stamp);
+
+  codec::AnySample sample = decoded.sample;
+  if (auto* imu = std::get_if<ImuSample>(&sample)) rotate_into_body(*imu, plan.R_BS);
+  if (const auto refusal = refuse(sample, plan.limits)) {
+    const auto index = static_cast<std::size_t>(*refusal);
+    if (said_refused[index].first(arrival.monotonic_ns)) {
+      log.warning(plan.sensor.name.str() + ": sample refused: " + std::string(to_string(*refusal)));
+    }
+    const std::lock_guard lock(mutex);
+    ++counters.refused[index];
+    return;
+  }
+  SampleHeader& header = header_of(sample);
+  header.vehicle = vehicle;
+  header.sensor = plan.sensor.name;
+  header.stamp_ns = stamp.utc_ns;
+  header.received_ns = arrival.utc_ns;
+  header.sequence = ++sequence[sample.index()];
+  const bool written = outlet.publish(sample);
+  const std::lock_guard lock(mutex);
+  if (written) {
+    ++counters.samples;
+    last_sample_ns = arrival.monotonic_ns;
+  } else {
+    ++counters.write_failed;
+  }
+}
+
+void SensorChannel::Impl::on_rejected(const codec::Rejected& rejected) {
+  const auto index = static_cast<std::size_t>(rejected.reason);
+  if (index >= kRejectReasons) return;
+  if (said_rejected[index].first(arrival.monotonic_ns)) {
+    log.warning(plan.sensor.name.str() + ": frame of " + std::to_string(rejected.length) +
+                " bytes refused: " + std::string(codec::to_string(rejected.reason)));
+  }
+  const std::lock_guard lock(mutex);
+  ++counters.rejected[index];
+  waste_bytes += rejected.length;
+}
+
+SensorChannel::SensorChannel(config::SensorPlan plan, std::string_view vehicle, const Clock& clock,
+                             runtime::Log& log, Outlet& outlet)
+    : impl_(std::make_unique<Impl>(std::move(plan), vehicle, clock, log, outlet)) {}
+
+SensorChannel::~SensorChannel() = default;
+
+void SensorChannel::start() {
+  impl_->source.start();
+}
+
+const config::SensorConfig& SensorChannel::sensor() const {
+  return impl_->plan.sensor;
+}
+
+ChannelCounters SensorChannel::counters() const {
+  const runtime::SourceStatus source = impl_->source.status();
+  const std::lock_guard lock(impl_->mutex);
+  ChannelCounters out = impl_->counters;
+  out.connects = source.connects;
+  out.source_errors = source.errors;
+  return out;
+}
+
+std::optional<std::string> SensorChannel::judge() {
+  const runtime::SourceStatus source = impl_->source.status();
+  ChannelTotals totals;
+  totals.state = source.state;
+  totals.detail = source.detail.empty()
+                      ? runtime::describe_source(impl_->plan.sensor.source) + ": not open yet"
+                      : source.detail;
+  {
+    const std::lock_guard lock(impl_->mutex);
+    totals.bytes = impl_->counters.bytes;
+    totals.waste_bytes = impl_->waste_bytes;
+    totals.samples = impl_->counters.samples;
+    totals.last_sample_ns = impl_->last_sample_ns;
+  }
+  return impl_->health.judge(totals, impl_->clock.monotonic_ns());
+}
+
+double SensorChannel::rate_hz() const {
+  return impl_->health.rate_hz();
+}
+
+}  // namespace fathom::bridge
