@@ -1,0 +1,211 @@
+// Water Linked, VectorNav, Paroscientific and Kongsberg recordings against what others read from them.
+#include <cmath>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "capture.hpp"
+
+namespace fathom::codec::capture {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Relative to the printed digits of a single-precision number.
+bool near_float(double expected, double got) {
+  return std::abs(expected - got) <= 1e-6 * std::abs(expected) + 1e-12;
+}
+
+TEST(WaterLinkedCaptures, AgreeWithTheRecordedTable) {
+  const auto file = root() / "waterlinked_json/20211217.ndjson";
+  const auto table = root() / "waterlinked_json/20211217-152655dvl_data_time.csv";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  const Harvest run = decode("waterlinked", load(file));
+  const auto dvl = of_kind<DvlSample>(run);
+  auto rows = lines(table);
+  const auto header = split(rows.at(0), ',');
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  rows.erase(rows.begin());
+  ASSERT_EQ(dvl.size(), rows.size());
+  EXPECT_EQ(run.totals.rejected, 0U);
+  std::size_t mismatches = 0;
+  std::size_t lost = 0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const auto f = split(rows[r], ',');
+    const DvlSample& s = dvl[r].second;
+    const bool valid = f[column("velocity_valid")] == "True";
+    lost += !valid;
+    std::vector<std::pair<double, double>> pairs;
+    const std::array<const char*, 3> axes{"vx", "vy", "vz"};
+    for (std::size_t i = 0; i < 3; ++i) {
+      pairs.emplace_back(valid ? std::stod(f[column(axes[i])]) : kUnknown, s.velocity_D_m_s[i]);
+    }
+    const double altitude = std::stod(f[column("altitude")]);
+    pairs.emplace_back(altitude >= 0.0 ? altitude : kUnknown, s.altitude_m);
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::string prefix = "transducers_" + std::to_string(i) + "_";
+      const bool beam = valid && f[column(prefix + "beam_valid")] == "True";
+      pairs.emplace_back(beam ? std::stod(f[column(prefix + "velocity")]) : kUnknown, s.beam_velocity_m_s[i]);
+      pairs.emplace_back(beam ? std::stod(f[column(prefix + "distance")]) : kUnknown, s.beam_range_m[i]);
+    }
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto [expected, got] = pairs[i];
+      const bool agrees = known(expected) ? expected == got : !known(got);
+      EXPECT_TRUE(agrees) << "report " << r << ", value " << i << ": " << expected << " and " << got;
+      mismatches += !agrees;
+    }
+  }
+  EXPECT_EQ(lost, 34U);
+  report(file, run, rows.size(), mismatches);
+}
+
+/// The instrument's own velocity lies on its beams as documented: outward, at 22.5 degrees, positive when the
+/// vehicle moves along them.
+TEST(WaterLinkedCaptures, BeamVelocityIsTheVehiclesAlongTheOutwardBeam) {
+  const auto file = root() / "waterlinked_json/20211217.ndjson";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  const Harvest run = decode("waterlinked", load(file));
+  std::size_t moving = 0;
+  double signal = 0.0;
+  double residual = 0.0;
+  for (const auto& [decoded, s] : of_kind<DvlSample>(run)) {
+    if (!known(s.velocity_D_m_s[0])) continue;
+    const std::array<double, 4> azimuth_deg{135.0, -135.0, -45.0, 45.0};
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (!known(s.beam_velocity_m_s[i])) continue;
+      const double azimuth = azimuth_deg[i] * 0.017453292519943295;
+      const double predicted = std::sin(s.beam_angle_rad) * (std::cos(azimuth) * s.velocity_D_m_s[0] +
+                                                             std::sin(azimuth) * s.velocity_D_m_s[1]) +
+                               std::cos(s.beam_angle_rad) * s.velocity_D_m_s[2];
+      signal += predicted * predicted;
+      residual += std::pow(predicted - s.beam_velocity_m_s[i], 2);
+      moving += std::abs(predicted) > 0.05;
+    }
+  }
+  EXPECT_GT(moving, 50U);
+  EXPECT_LT(residual, 0.01 * signal);
+}
+
+TEST(WaterLinkedCaptures, ObjectSpreadOverLines) {
+  const auto file = root() / "waterlinked_json/dvl.json";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  const Harvest run = decode("waterlinked", load(file));
+  const auto dvl = of_kind<DvlSample>(run);
+  ASSERT_EQ(dvl.size(), 1U);
+  std::ifstream in(file);
+  const Json expected = Json::parse(in);
+  EXPECT_EQ(dvl[0].second.velocity_D_m_s[0], expected["vx"].get<double>());
+  EXPECT_EQ(dvl[0].second.altitude_m, expected["altitude"].get<double>());
+  EXPECT_EQ(dvl[0].second.sigma_m_s, expected["fom"].get<double>());
+  EXPECT_EQ(run.totals.skipped_bytes, 0U);
+  report(file, run, 1, 0);
+}
+
+TEST(VectorNavCaptures, AgreeWithTheLoggersOwnParser) {
+  const auto file = root() / "vectornav/F00294";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  const Harvest run = decode("vectornav", load(file));
+  const auto imu = of_kind<ImuSample>(run);
+  EXPECT_EQ(run.totals.rejected, 0U);
+  ASSERT_EQ(imu.size(), 99U);
+  const auto rows = lines(root() / "vectornav/F00294_B");
+  // That parser lost one frame whose checksum is right.
+  constexpr std::size_t kLostByParser = 78;
+  std::size_t compared = 0;
+  std::size_t mismatches = 0;
+  for (std::size_t r = 1; r < rows.size(); ++r) {
+    if (rows[r].empty()) continue;
+    const auto f = split(rows[r], ',');
+    const ImuSample& s = imu.at(r - 1 < kLostByParser ? r - 1 : r).second;
+    bool agrees = near_float(std::stod(f[9]), s.temperature_degC);
+    for (std::size_t i = 0; i < 3; ++i) {
+      agrees = agrees && near_float(std::stod(f[3 + i]), s.specific_force_B_m_s2[i]);
+      agrees = agrees && near_float(std::stod(f[6 + i]), s.angular_rate_B_rad_s[i]);
+    }
+    EXPECT_TRUE(agrees) << "row " << r;
+    ++compared;
+    mismatches += !agrees;
+  }
+  EXPECT_EQ(compared, 98U);
+  report(file, run, compared, mismatches);
+}
+
+TEST(VectorNavCaptures, AsciiLines) {
+  const auto file = root() / "vectornav/vnymr_samples.txt";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  const Harvest run = decode("vectornav", load(file));
+  const auto imu = of_kind<ImuSample>(run);
+  std::size_t compared = 0;
+  for (const auto& line : lines(file)) {
+    const auto f = split(line.substr(0, line.find('*')), ',');
+    if (f.size() != 13) continue;
+    ASSERT_LT(compared, imu.size());
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_DOUBLE_EQ(imu[compared].second.specific_force_B_m_s2[i], std::stod(f[7 + i]));
+      EXPECT_DOUBLE_EQ(imu[compared].second.angular_rate_B_rad_s[i], std::stod(f[10 + i]));
+    }
+    ++compared;
+  }
+  EXPECT_EQ(compared, imu.size());
+  EXPECT_EQ(compared, 4U);
+  // The fifth line has attitude only, which $VNYMR never has.
+  ASSERT_EQ(run.rejected.size(), 1U);
+  EXPECT_EQ(run.rejected[0].reason, RejectReason::structure);
+  report(file, run, compared, 0);
+}
+
+TEST(PressureCaptures, AgreeWithTheValuesInTheLines) {
+  const auto file = root() / "pressure/paroscientific/digiquartz_samples.txt";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  std::ifstream in(root() / "pressure/paroscientific/digiquartz_samples.expected.json");
+  const Json expected = Json::parse(in);
+  CodecOptions options;
+  const Harvest run = decode("paroscientific", load(file), {}, options);
+  const auto depth = of_kind<DepthSample>(run);
+  ASSERT_EQ(depth.size(), expected.size());
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const double pressure_Pa = expected[i].at("value").get<double>() * options.pressure_unit_Pa;
+    EXPECT_NEAR(depth[i].second.pressure_Pa, pressure_Pa, 1e-6 * pressure_Pa);
+    if (expected[i].contains("temperature")) {
+      EXPECT_DOUBLE_EQ(depth[i].second.temperature_degC, expected[i]["temperature"].get<double>());
+    }
+  }
+  EXPECT_EQ(run.totals.rejected, 0U);
+  report(file, run, depth.size(), 0);
+}
+
+TEST(UsblCaptures, AgreeWithTheExpectedFixes) {
+  const auto file = root() / "usbl/psimssb/psimssb_samples.nmea";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  std::ifstream in(root() / "usbl/expected.json");
+  const Json expected = Json::parse(in).at("psimssb");
+  const Harvest run = decode("psimssb", load(file));
+  const auto usbl = of_kind<UsblSample>(run);
+  ASSERT_EQ(usbl.size(), expected.size());
+  for (std::size_t i = 0; i < usbl.size(); ++i) {
+    const UsblSample& s = usbl[i].second;
+    const Json& e = expected[i];
+    EXPECT_EQ(s.transponder.view(), e.at("tp").get<std::string>());
+    const bool use = e.at("use").is_boolean() && e["use"].get<bool>();
+    EXPECT_EQ(known(s.relative_m[0]), use) << "fix " << i;
+    if (!use) continue;
+    EXPECT_EQ(s.frame, UsblFrame::ned);
+    EXPECT_DOUBLE_EQ(s.relative_m[0], e.at("north").get<double>());
+    EXPECT_DOUBLE_EQ(s.relative_m[1], e.at("east").get<double>());
+    EXPECT_DOUBLE_EQ(s.relative_m[2], e.at("depth").get<double>());
+    EXPECT_DOUBLE_EQ(s.travel_time_s, e.at("add").at(1).get<double>());
+    const std::string t = e.at("t");
+    const double seconds =
+        3600.0 * std::stod(t.substr(0, 2)) + 60.0 * std::stod(t.substr(3, 2)) + std::stod(t.substr(6));
+    ASSERT_TRUE(usbl[i].first->time.time_of_day_ns.has_value());
+    EXPECT_NEAR(to_seconds(*usbl[i].first->time.time_of_day_ns), seconds, 1e-6);
+  }
+  EXPECT_EQ(run.totals.rejected, 0U);
+  report(file, run, usbl.size(), 0);
+}
+
+}  // namespace
+}  // namespace fathom::codec::capture
