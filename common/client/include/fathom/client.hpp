@@ -45,12 +45,12 @@ struct HealthLimits {
 
 struct ClientOptions {
   std::uint32_t domain = 0;
-  std::string vehicle;            ///< empty: the first vehicle heard, and only that one from then on
+  std::string vehicle{};          ///< empty: the first vehicle heard, and only that one from then on
   std::string name = "guidance";  ///< how this program shows up on the vehicle network
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses bound, nothing else is
   std::vector<std::string> peers{"127.0.0.1"};       ///< asked for discovery besides multicast
   /// Folder of the QoS XML. Empty: $FATHOM_DDS_DIR, else the folder that was installed with the package.
-  std::string profiles_dir;
+  std::string profiles_dir{};
   HealthLimits limits{};
   /// For accelerated simulations; must outlive the client. None: the host's clock.
   const Clock* clock = nullptr;
