@@ -85,6 +85,7 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "min_fix", sensor.min_fix, 0, 7);
   check.in(at + "gate_probability", sensor.gate_probability, 0.5, 1 - 1e-9);
   check.in(at + "robust_parameter", sensor.robust_parameter, 0.1, 1e3);
+  check.in(at + "robust_reject_ratio", sensor.robust_reject_ratio, 1, 1e12);
   check.in(at + "reacquire_s", sensor.reacquire_s, 0, 1e6);
   check.in(at + "frozen_change", sensor.frozen_change, 0, 1e6);
   check.in(at + "scale_m_s_per_rpm", sensor.scale_m_s_per_rpm, -10, 10);
@@ -95,6 +96,9 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
 void check_alignment(const AlignmentConfig& alignment, Check& check) {
   check.in("alignment.given_heading_rad", alignment.given_heading_rad, -kAngle, kAngle);
   check.in("alignment.given_heading_sigma_rad", alignment.given_heading_sigma_rad, 1e-5, 4);
+  check.in("alignment.given_latitude_rad", alignment.given_latitude_rad, -kAngle / 4, kAngle / 4);
+  check.in("alignment.given_longitude_rad", alignment.given_longitude_rad, -kAngle, kAngle);
+  check.in("alignment.given_altitude_m", alignment.given_altitude_m, -12000, 50000);
   check.in("alignment.averaging_s", alignment.averaging_s, 0.5, 3600);
   check.in("alignment.rate_spread_rad_s", alignment.rate_spread_rad_s, 1e-6, 10);
   check.in("alignment.force_spread_m_s2", alignment.force_spread_m_s2, 1e-5, 100);

@@ -109,8 +109,9 @@ struct SensorConfig {
   double gate_probability = 0.999;  ///< share of good measurements that pass
   GateMode gate_mode = GateMode::whole;
   RobustKind robust = RobustKind::none;
-  double robust_parameter = 5.0;  ///< student_t: degrees of freedom; huber: threshold in sigmas
-  double reacquire_s = 10.0;      ///< consistent rejections for this long are believed
+  double robust_parameter = 5.0;      ///< student_t: degrees of freedom; huber: threshold in sigmas
+  double robust_reject_ratio = 25.0;  ///< robust weighting ends where the plain test ratio exceeds this
+  double reacquire_s = 10.0;          ///< consistent rejections for this long are believed
   double frozen_change = 0.0;  ///< the same reading while the prediction moves by this much is frozen; 0: off
   double scale_m_s_per_rpm = 0.0;  ///< propulsion: water speed per shaft rpm; 0: not used
   double min_depth_m = 0.0;        ///< propulsion: shaft speed means nothing above it
@@ -152,7 +153,11 @@ struct AlignmentConfig {
   double aligned_tilt_sigma_rad = 5e-3;
   double aligned_heading_sigma_rad = 0.044;
   double aligned_hold_s = 1.0;
-  double timeout_s = 600.0;       ///< waiting and averaging longer than this is reported as timed_out
+  double timeout_s = 600.0;     ///< waiting and averaging longer than this is reported as timed_out
+  bool position_given = false;  ///< start there when no GPS fix is at hand
+  double given_latitude_rad = 0.0;
+  double given_longitude_rad = 0.0;
+  double given_altitude_m = 0.0;  ///< above the ellipsoid
   double position_sigma_m = 3.0;  ///< floor of the start position taken from GPS
 };
 

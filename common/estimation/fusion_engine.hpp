@@ -69,7 +69,7 @@ class FusionEngine {
   /// At the newest accepted inertial sample. header.sequence counts navigation states.
   [[nodiscard]] const NavState& nav_state() const;
 
-  /// The oldest verdict not yet taken. Drain after each call: when more than 4096 wait, the oldest is dropped
+  /// The oldest verdict not yet taken. Drain after each call: when more than 1024 wait, the oldest is dropped
   /// and counted.
   bool next_verdict(Verdict& verdict);
   [[nodiscard]] std::uint64_t verdicts_dropped() const;

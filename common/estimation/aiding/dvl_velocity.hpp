@@ -1,0 +1,82 @@
+#pragma once
+
+#include "estimation/aiding/model.hpp"
+#include "samples/dvl.hpp"
+
+namespace fathom::estimation {
+
+/// Velocity relative to the bottom, or to the water where the current is estimated, along the DVL's own axes
+/// D. Product form: scale and misalignment multiply (AID-DVL-1..4). Each component stands alone: the ones the
+/// instrument declared bad are left out.
+class DvlVelocity {
+ public:
+  static constexpr const char* kName = "dvl_velocity";
+
+  DvlVelocity(const AidingState& s, const SensorConfig& sensor, const DvlSample& sample)
+      : s_(s),
+        sensor_(sensor),
+        sample_(sample),
+        C_DB_(geo::to_matrix(geo::from_rpy(geo::vec(sensor.mounting_rpy_rad))).transpose()),
+        lever_B_(geo::vec(sensor.lever_B_m)) {
+    Vector3 through_N = s.state.nav.v_N_m_s;
+    if (sample.mode == DvlMode::water)
+      through_N -= Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0);
+    v_B_ = s.C_NB.transpose() * through_N + geo::cross(s.rate_nb_B_rad_s, lever_B_);
+    scale_ = Vector3::Constant(1.0 + s.value(Group::dvl_scale, 0)) + s.value3(Group::dvl_scale_xyz);
+    turn_ = Matrix3::Identity() - geo::skew(s.value3(Group::dvl_misalignment));
+    through_N_ = through_N;
+  }
+
+  [[nodiscard]] static Usable usable(const AidingState& s, const DvlSample& sample) {
+    bool any = false;
+    for (const double v : sample.velocity_D_m_s) {
+      if (known(v) && !(std::abs(v) < 50.0)) return Usable::out_of_range;
+      any = any || known(v);
+    }
+    if (!any) return Usable::out_of_range;
+    if (sample.mode == DvlMode::water && !s.index.has(Group::current)) return Usable::not_estimated;
+    return Usable::yes;
+  }
+  [[nodiscard]] int dimension() const { return 3; }
+  [[nodiscard]] Vector3 measured() const { return geo::vec(sample_.velocity_D_m_s); }
+  [[nodiscard]] Vector3 predicted() const {
+    // (AID-DVL-1)
+    return scale_.cwiseProduct(turn_ * (C_DB_ * v_B_)) + s_.value3(Group::dvl_bias);
+  }
+  void jacobian(Jacobian& h) const {
+    // (AID-DVL-2)
+    const Vector3 v_D = C_DB_ * v_B_;
+    const Matrix3 d = scale_.asDiagonal() * turn_ * C_DB_;
+    const Matrix3 to_D = d * s_.C_NB.transpose();
+    h.block(Group::velocity, to_D);
+    h.block(Group::attitude, -to_D * geo::skew(through_N_));
+    h.block(Group::gyro_bias, -d * geo::skew(lever_B_));
+    const Vector3 turned = turn_ * v_D;
+    h.block(Group::dvl_scale, -turned);
+    h.block(Group::dvl_scale_xyz, Matrix3((-turned).asDiagonal()));
+    h.block(Group::dvl_misalignment, -(scale_.asDiagonal() * geo::skew(v_D)));
+    h.block(Group::dvl_bias, -Matrix3::Identity());
+    if (sample_.mode == DvlMode::water) h.block(Group::current, to_D.leftCols<2>());
+  }
+  [[nodiscard]] Vector3 noise() const {
+    const double extra = sensor_.proportional_sigma * v_B_.norm();
+    Vector3 sigma;
+    for (std::size_t i = 0; i < 3; ++i)
+      sigma(static_cast<int>(i)) =
+          sigma_of(std::hypot(sensor_.sigma[i], extra), sample_.sigma_m_s, sensor_.use_sample_sigma);
+    return sigma;
+  }
+
+ private:
+  const AidingState& s_;
+  const SensorConfig& sensor_;
+  const DvlSample& sample_;
+  Matrix3 C_DB_;
+  Vector3 lever_B_;
+  Vector3 through_N_;
+  Vector3 v_B_;
+  Vector3 scale_;
+  Matrix3 turn_;
+};
+
+}  // namespace fathom::estimation

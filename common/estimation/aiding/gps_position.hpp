@@ -1,0 +1,54 @@
+#pragma once
+
+#include "estimation/aiding/model.hpp"
+#include "samples/gps.hpp"
+
+namespace fathom::estimation {
+
+/// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..3).
+class GpsPosition {
+ public:
+  static constexpr const char* kName = "gps_position";
+
+  GpsPosition(const AidingState& s, const SensorConfig& sensor, const GpsSample& sample)
+      : s_(s), sensor_(sensor), sample_(sample), lever_N_(s.C_NB * geo::vec(sensor.lever_B_m)) {}
+
+  [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
+    const bool fixed = static_cast<std::uint8_t>(sample.fix) >= sensor.min_fix;
+    const bool placed = std::abs(sample.latitude_rad) <= 1.5707963267948966 &&
+                        std::abs(sample.longitude_rad) <= 6.2831853071795865;
+    const bool high = !known(sample.altitude_m) || std::abs(sample.altitude_m) < 5e4;
+    return fixed && placed && high ? Usable::yes : Usable::out_of_range;
+  }
+  [[nodiscard]] int dimension() const { return 3; }
+  [[nodiscard]] Vector3 measured() const {
+    const geo::Geodetic& here = s_.state.nav.position;
+    const bool has_altitude = known(sample_.altitude_m);
+    Vector3 m = geo::difference_N(here, {sample_.latitude_rad, sample_.longitude_rad,
+                                         has_altitude ? sample_.altitude_m : here.altitude_m});
+    if (!has_altitude) m.z() = kUnknown;
+    return m;
+  }
+  [[nodiscard]] Vector3 predicted() const { return lever_N_ + s_.value3(Group::gps_position_bias); }
+  void jacobian(Jacobian& h) const {
+    // (AID-GPSP-2)
+    h.block(Group::position, Matrix3::Identity());
+    h.block(Group::attitude, geo::skew(lever_N_));
+    h.block(Group::gps_position_bias, -Matrix3::Identity());
+  }
+  [[nodiscard]] Vector3 noise() const {
+    Vector3 sigma;
+    for (std::size_t i = 0; i < 3; ++i)
+      sigma(static_cast<int>(i)) =
+          sigma_of(sensor_.sigma[i], sample_.position_sigma_N_m[i], sensor_.use_sample_sigma);
+    return sigma;
+  }
+
+ private:
+  const AidingState& s_;
+  const SensorConfig& sensor_;
+  const GpsSample& sample_;
+  Vector3 lever_N_;
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "estimation/aiding/model.hpp"
+#include "samples/gps.hpp"
+
+namespace fathom::estimation {
+
+/// Velocity of the GPS antenna along N (AID-GPSV-1..2).
+class GpsVelocity {
+ public:
+  static constexpr const char* kName = "gps_velocity";
+
+  GpsVelocity(const AidingState& s, const SensorConfig& sensor, const GpsSample& sample)
+      : s_(s),
+        sensor_(sensor),
+        sample_(sample),
+        lever_B_(geo::vec(sensor.lever_B_m)),
+        swing_N_(s.C_NB * geo::cross(s.rate_nb_B_rad_s, lever_B_)) {}
+
+  [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
+    if (static_cast<std::uint8_t>(sample.fix) < sensor.min_fix) return Usable::out_of_range;
+    bool any = false;
+    for (const double v : sample.velocity_N_m_s) {
+      if (known(v) && !(std::abs(v) < 1000.0)) return Usable::out_of_range;
+      any = any || known(v);
+    }
+    return any ? Usable::yes : Usable::out_of_range;
+  }
+  [[nodiscard]] int dimension() const { return 3; }
+  [[nodiscard]] Vector3 measured() const { return geo::vec(sample_.velocity_N_m_s); }
+  [[nodiscard]] Vector3 predicted() const { return s_.state.nav.v_N_m_s + swing_N_; }
+  void jacobian(Jacobian& h) const {
+    // (AID-GPSV-2)
+    h.block(Group::velocity, Matrix3::Identity());
+    h.block(Group::attitude, geo::skew(swing_N_));
+    h.block(Group::gyro_bias, -s_.C_NB * geo::skew(lever_B_));
+  }
+  [[nodiscard]] Vector3 noise() const {
+    Vector3 sigma;
+    for (std::size_t i = 0; i < 3; ++i)
+      sigma(static_cast<int>(i)) =
+          sigma_of(sensor_.velocity_sigma_m_s[i], sample_.velocity_sigma_N_m_s[i], sensor_.use_sample_sigma);
+    return sigma;
+  }
+
+ private:
+  const AidingState& s_;
+  const SensorConfig& sensor_;
+  const GpsSample& sample_;
+  Vector3 lever_B_;
+  Vector3 swing_N_;
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "estimation/aiding/model.hpp"
+#include "samples/heading.hpp"
+
+namespace fathom::estimation {
+
+/// Heading from true north of the sample; NaN when it is magnetic and no variation is known. The variation
+/// the instrument reports goes before the configured one.
+[[nodiscard]] inline double true_heading(const HeadingSample& sample, double configured_variation_rad) {
+  if (sample.north == North::true_north) return sample.heading_rad;
+  const double variation = known(sample.variation_rad) ? sample.variation_rad : configured_variation_rad;
+  return sample.heading_rad + variation;
+}
+
+/// Heading of the vehicle with the compass's deviation curve A to E (AID-HDG-1..2).
+class Heading {
+ public:
+  static constexpr const char* kName = "heading";
+
+  Heading(const AidingState& s, const SensorConfig& sensor, const HeadingSample& sample)
+      : s_(s), sensor_(sensor), sample_(sample), rpy_(geo::to_rpy(s.state.nav.q_NB)) {}
+
+  [[nodiscard]] static Usable usable(const AidingState& s, const HeadingSample& sample) {
+    if (!(std::abs(sample.heading_rad) <= 12.6)) return Usable::out_of_range;
+    if (!known(true_heading(sample, s.variation_rad))) return Usable::unknown_frame;
+    // Near the vertical the heading says nothing.
+    return s.C_NB.col(0).head<2>().norm() > 0.2 ? Usable::yes : Usable::out_of_range;
+  }
+  [[nodiscard]] int dimension() const { return 1; }
+  [[nodiscard]] Vector3 measured() const {
+    return {true_heading(sample_, s_.variation_rad) - sensor_.mounting_rpy_rad[2], 0.0, 0.0};
+  }
+  [[nodiscard]] Vector3 predicted() const {
+    // (AID-HDG-1)
+    const double psi = rpy_.z();
+    return {psi + s_.value(Group::heading_bias, 0) + s_.value(Group::heading_deviation, 0) * std::sin(psi) +
+                s_.value(Group::heading_deviation, 1) * std::cos(psi) +
+                s_.value(Group::heading_deviation, 2) * std::sin(2.0 * psi) +
+                s_.value(Group::heading_deviation, 3) * std::cos(2.0 * psi),
+            0.0, 0.0};
+  }
+  void jacobian(Jacobian& h) const {
+    // (AID-HDG-2)
+    const double psi = rpy_.z();
+    const double sine = std::sin(psi);
+    const double cosine = std::cos(psi);
+    const double slope = 1.0 + s_.value(Group::heading_deviation, 0) * cosine -
+                         s_.value(Group::heading_deviation, 1) * sine +
+                         2.0 * s_.value(Group::heading_deviation, 2) * std::cos(2.0 * psi) -
+                         2.0 * s_.value(Group::heading_deviation, 3) * std::sin(2.0 * psi);
+    const double tilt = std::tan(rpy_.y());
+    h.set(0, Group::attitude, 0, -slope * cosine * tilt);
+    h.set(0, Group::attitude, 1, -slope * sine * tilt);
+    h.set(0, Group::attitude, 2, -slope);
+    h.set(0, Group::heading_bias, 0, -1.0);
+    h.set(0, Group::heading_deviation, 0, -sine);
+    h.set(0, Group::heading_deviation, 1, -cosine);
+    h.set(0, Group::heading_deviation, 2, -std::sin(2.0 * psi));
+    h.set(0, Group::heading_deviation, 3, -std::cos(2.0 * psi));
+  }
+  [[nodiscard]] Vector3 noise() const {
+    return {sigma_of(sensor_.sigma[0], sample_.sigma_rad, sensor_.use_sample_sigma), 0.0, 0.0};
+  }
+  [[nodiscard]] static double wrapped(double difference_rad) { return geo::wrap_pi(difference_rad); }
+
+ private:
+  const AidingState& s_;
+  const SensorConfig& sensor_;
+  const HeadingSample& sample_;
+  Vector3 rpy_;
+};
+
+}  // namespace fathom::estimation

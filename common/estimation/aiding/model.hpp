@@ -1,0 +1,106 @@
+#pragma once
+
+#include <cmath>
+
+#include "estimation/nav_solution.hpp"
+#include "estimation/observation.hpp"
+
+namespace fathom::estimation {
+
+/// What an aiding model may look at. Models never see the filter or its covariance.
+struct AidingState {
+  const StateIndex& index;
+  const FilterState& state;
+  Eigen::Matrix3d C_NB;
+  Eigen::Vector3d rate_nb_B_rad_s;  ///< of B relative to N, bias-corrected
+  double variation_rad;             ///< magnetic variation of the configuration, NaN when unknown
+
+  AidingState(const StateIndex& states, const FilterState& filter, const Eigen::Vector3d& rate_ib_B_rad_s,
+              double magnetic_variation_rad)
+      : index(states),
+        state(filter),
+        C_NB(geo::to_matrix(filter.nav.q_NB)),
+        rate_nb_B_rad_s(rate_ib_B_rad_s -
+                        C_NB.transpose() * (geo::earth_rate_N(filter.nav.position.latitude_rad) +
+                                            geo::transport_rate_N(filter.nav.position, filter.nav.v_N_m_s))),
+        variation_rad(magnetic_variation_rad) {}
+
+  /// Value of the states of a group, `fallback` where the group is not estimated.
+  [[nodiscard]] double value(Group group, int component, double fallback = 0.0) const {
+    const int start = index.of(group);
+    return start < 0 ? fallback : state.x[static_cast<std::size_t>(start + component)];
+  }
+  [[nodiscard]] Eigen::Vector3d value3(Group group) const {
+    return {value(group, 0), value(group, 1), value(group, 2)};
+  }
+};
+
+/// What a model can do with a sample.
+enum class Usable : std::uint8_t { yes, out_of_range, unknown_frame, not_estimated };
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+
+/// Rows of H of one model, addressed by state group; groups that are not estimated are left out.
+class Jacobian {
+ public:
+  Jacobian(const StateIndex& index, Observation& observation, int first_row)
+      : index_(index), observation_(observation), first_row_(first_row) {}
+
+  void set(int row, Group group, int component, double value) {
+    const int start = index_.of(group);
+    if (start < 0) return;
+    observation_.h[static_cast<std::size_t>(first_row_ + row)][static_cast<std::size_t>(start + component)] =
+        value;
+  }
+  /// Rows 0..2 of a three-component model.
+  template <class Derived>
+  void block(Group group, const Eigen::MatrixBase<Derived>& values) {
+    for (int i = 0; i < values.rows(); ++i)
+      for (int j = 0; j < values.cols(); ++j) set(i, group, j, values(i, j));
+  }
+
+ private:
+  const StateIndex& index_;
+  Observation& observation_;
+  int first_row_;
+};
+
+/// Appends the components of a model that are known to an observation. A model offers
+///   int dimension() const
+///   Vector3 measured() const, predicted() const, noise() const    (noise: sigmas)
+///   void jacobian(Jacobian&) const                                 d(predicted - measured)/dx
+///   double wrapped(double) const      only where the innovation is an angle
+template <class Model>
+void observe(const Model& model, const StateIndex& index, Observation& out) {
+  const int first = out.rows;
+  Jacobian rows(index, out, first);
+  model.jacobian(rows);
+  const Vector3 measured = model.measured();
+  const Vector3 predicted = model.predicted();
+  const Vector3 sigma = model.noise();
+  for (int i = 0; i < model.dimension(); ++i) {
+    double z = predicted(i) - measured(i);
+    if constexpr (requires { model.wrapped(z); }) z = model.wrapped(z);
+    const auto from = static_cast<std::size_t>(first + i);
+    const auto to = static_cast<std::size_t>(out.rows);
+    if (!std::isfinite(z)) {
+      out.h[from].fill(0.0);
+      continue;
+    }
+    if (from != to) {
+      out.h[to] = out.h[from];
+      out.h[from].fill(0.0);
+    }
+    out.innovation[to] = z;
+    out.sigma[to] = sigma(i);
+    ++out.rows;
+  }
+}
+
+/// The larger of the configured sigma and the one the sample carries.
+[[nodiscard]] inline double sigma_of(double configured, double reported, bool use_reported) {
+  return use_reported && std::isfinite(reported) && reported > configured ? reported : configured;
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,93 @@
+#include "estimation/aiding/registry.hpp"
+
+#include "estimation/aiding/airspeed.hpp"
+#include "estimation/aiding/depth.hpp"
+#include "estimation/aiding/dvl_velocity.hpp"
+#include "estimation/aiding/gps_position.hpp"
+#include "estimation/aiding/gps_velocity.hpp"
+#include "estimation/aiding/heading.hpp"
+#include "estimation/aiding/speed_log.hpp"
+#include "estimation/aiding/usbl_position.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+/// Appends the model's rows; a sample none of whose components is finite is out of range.
+template <class Model>
+Usable append(const Model& model, const AidingInput& in, Observation& out) {
+  const int before = out.rows;
+  observe(model, in.state.index, out);
+  return out.rows > before ? Usable::yes : Usable::out_of_range;
+}
+
+Usable gps_position(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<GpsSample>(any);
+  if (!in.sensor.use_position) return Usable::not_estimated;
+  const Usable usable = GpsPosition::usable(in.sensor, sample);
+  return usable == Usable::yes ? append(GpsPosition(in.state, in.sensor, sample), in, out) : usable;
+}
+
+Usable gps_velocity(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<GpsSample>(any);
+  if (!in.sensor.use_velocity) return Usable::not_estimated;
+  const Usable usable = GpsVelocity::usable(in.sensor, sample);
+  return usable == Usable::yes ? append(GpsVelocity(in.state, in.sensor, sample), in, out) : usable;
+}
+
+Usable dvl_velocity(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<DvlSample>(any);
+  const Usable usable = DvlVelocity::usable(in.state, sample);
+  return usable == Usable::yes ? append(DvlVelocity(in.state, in.sensor, sample), in, out) : usable;
+}
+
+Usable depth(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<DepthSample>(any);
+  const Usable usable = Depth::usable(sample);
+  return usable == Usable::yes ? append(Depth(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
+                               : usable;
+}
+
+Usable heading(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<HeadingSample>(any);
+  const Usable usable = Heading::usable(in.state, sample);
+  return usable == Usable::yes ? append(Heading(in.state, in.sensor, sample), in, out) : usable;
+}
+
+Usable usbl_position(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<UsblSample>(any);
+  const Usable usable = UsblPosition::usable(sample);
+  return usable == Usable::yes
+             ? append(UsblPosition(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
+             : usable;
+}
+
+Usable airspeed(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<AirspeedSample>(any);
+  const Usable usable = Airspeed::usable(in.state, sample);
+  return usable == Usable::yes ? append(Airspeed(in.state, in.sensor, sample), in, out) : usable;
+}
+
+Usable speed_log(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<PropulsionSample>(any);
+  const Usable usable = SpeedLog::usable(in.state, in.sensor, sample, in.surface_altitude_m);
+  return usable == Usable::yes ? append(SpeedLog(in.state, in.sensor, sample), in, out) : usable;
+}
+
+constexpr std::array<AidingEntry, 8> kRegistry{{
+    {SourceKind::gps, GpsPosition::kName, gps_position},
+    {SourceKind::gps, GpsVelocity::kName, gps_velocity},
+    {SourceKind::dvl, DvlVelocity::kName, dvl_velocity},
+    {SourceKind::depth, Depth::kName, depth},
+    {SourceKind::heading, Heading::kName, heading},
+    {SourceKind::usbl, UsblPosition::kName, usbl_position},
+    {SourceKind::airspeed, Airspeed::kName, airspeed},
+    {SourceKind::propulsion, SpeedLog::kName, speed_log},
+}};
+
+}  // namespace
+
+std::span<const AidingEntry> aiding_registry() {
+  return kRegistry;
+}
+
+}  // namespace fathom::estimation

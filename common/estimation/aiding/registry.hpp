@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "estimation/aiding/model.hpp"
+#include "estimation/measurement.hpp"
+
+namespace fathom::estimation {
+
+/// All that an aiding model is given.
+struct AidingInput {
+  const AidingState& state;
+  const SensorConfig& sensor;
+  double surface_altitude_m;  ///< used where it is not estimated
+};
+
+/// One model in the list. `observe` appends its rows when the sample is usable.
+struct AidingEntry {
+  SourceKind source;
+  const char* name;
+  Usable (*observe)(const AidingInput& input, const AnySample& sample, Observation& out);
+};
+
+/// Every aiding model there is. A new one is one header in this folder and one line in registry.cpp. A sample
+/// goes through all the entries of its source; their rows are judged together.
+[[nodiscard]] std::span<const AidingEntry> aiding_registry();
+
+}  // namespace fathom::estimation

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "estimation/aiding/model.hpp"
+#include "samples/actuator.hpp"
+
+namespace fathom::estimation {
+
+/// Speed through the water from the propulsor's shaft speed, and the knowledge that such a vehicle moves
+/// along its own axis: along x the speed, across it zero, each with its sigma (AID-LOG-1..2). Without current
+/// states the water is taken to stand still.
+class SpeedLog {
+ public:
+  static constexpr const char* kName = "speed_log";
+
+  SpeedLog(const AidingState& s, const SensorConfig& sensor, const PropulsionSample& sample)
+      : s_(s),
+        sensor_(sensor),
+        speed_m_s_(sensor.scale_m_s_per_rpm * sample.rpm),
+        lever_B_(geo::vec(sensor.lever_B_m)),
+        through_N_(s.state.nav.v_N_m_s -
+                   Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0)) {}
+
+  [[nodiscard]] static Usable usable(const AidingState& s, const SensorConfig& sensor,
+                                     const PropulsionSample& sample, double surface_altitude_m) {
+    if (sensor.scale_m_s_per_rpm == 0.0) return Usable::not_estimated;
+    if (!(std::abs(sample.rpm) > 1.0 && std::abs(sample.rpm) < 1e5)) return Usable::out_of_range;
+    const double depth =
+        s.value(Group::surface_altitude, 0, surface_altitude_m) - s.state.nav.position.altitude_m;
+    return sensor.min_depth_m <= 0.0 || depth >= sensor.min_depth_m ? Usable::yes : Usable::out_of_range;
+  }
+  [[nodiscard]] int dimension() const { return 3; }
+  [[nodiscard]] Vector3 measured() const {
+    return {speed_m_s_ * (1.0 + s_.value(Group::log_scale, 0)), 0.0, 0.0};
+  }
+  [[nodiscard]] Vector3 predicted() const {
+    return s_.C_NB.transpose() * through_N_ + geo::cross(s_.rate_nb_B_rad_s, lever_B_);
+  }
+  void jacobian(Jacobian& h) const {
+    // (AID-LOG-2)
+    const Matrix3 to_B = s_.C_NB.transpose();
+    h.block(Group::velocity, to_B);
+    h.block(Group::attitude, -to_B * geo::skew(through_N_));
+    h.block(Group::gyro_bias, -geo::skew(lever_B_));
+    h.block(Group::current, to_B.leftCols<2>());
+    h.set(0, Group::log_scale, 0, speed_m_s_);
+  }
+  [[nodiscard]] Vector3 noise() const {
+    const double extra = sensor_.proportional_sigma * std::abs(speed_m_s_);
+    return {std::hypot(sensor_.sigma[0], extra), std::hypot(sensor_.sigma[1], extra),
+            std::hypot(sensor_.sigma[2], extra)};
+  }
+
+ private:
+  const AidingState& s_;
+  const SensorConfig& sensor_;
+  double speed_m_s_;
+  Vector3 lever_B_;
+  Vector3 through_N_;
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "estimation/aiding/model.hpp"
+#include "samples/usbl.hpp"
+
+namespace fathom::estimation {
+
+/// Absolute acoustic fix of the vehicle's transponder: NED metres relative to the estimated position of the
+/// IMU (AID-USBL-1..2). A fix relative to a transceiver whose own position is not known cannot be placed.
+class UsblPosition {
+ public:
+  static constexpr const char* kName = "usbl_position";
+
+  UsblPosition(const AidingState& s, const SensorConfig& sensor, const UsblSample& sample,
+               double surface_altitude_m)
+      : s_(s),
+        sensor_(sensor),
+        sample_(sample),
+        surface_m_(s.value(Group::surface_altitude, 0, surface_altitude_m)),
+        lever_N_(s.C_NB * geo::vec(sensor.lever_B_m)) {}
+
+  [[nodiscard]] static Usable usable(const UsblSample& sample) {
+    if (sample.frame != UsblFrame::geodetic) return Usable::unknown_frame;
+    const bool placed = std::abs(sample.latitude_rad) <= 1.5707963267948966 &&
+                        std::abs(sample.longitude_rad) <= 6.2831853071795865;
+    const bool deep = !known(sample.depth_m) || (sample.depth_m > -50.0 && sample.depth_m < 12000.0);
+    return placed && deep ? Usable::yes : Usable::out_of_range;
+  }
+  [[nodiscard]] int dimension() const { return 3; }
+  [[nodiscard]] Vector3 measured() const {
+    const geo::Geodetic& here = s_.state.nav.position;
+    Vector3 m = geo::difference_N(here, {sample_.latitude_rad, sample_.longitude_rad, here.altitude_m});
+    m.z() = sample_.depth_m;
+    return m;
+  }
+  [[nodiscard]] Vector3 predicted() const {
+    return {lever_N_.x() + s_.value(Group::usbl_bias, 0), lever_N_.y() + s_.value(Group::usbl_bias, 1),
+            surface_m_ - s_.state.nav.position.altitude_m + lever_N_.z()};
+  }
+  void jacobian(Jacobian& h) const {
+    // (AID-USBL-2)
+    h.block(Group::position, Matrix3::Identity());
+    h.block(Group::attitude, geo::skew(lever_N_));
+    h.set(0, Group::usbl_bias, 0, -1.0);
+    h.set(1, Group::usbl_bias, 1, -1.0);
+    h.set(2, Group::surface_altitude, 0, -1.0);
+  }
+  [[nodiscard]] Vector3 noise() const {
+    const double horizontal = sigma_of(sensor_.sigma[0], sample_.sigma_m, sensor_.use_sample_sigma);
+    return {horizontal, horizontal, sigma_of(sensor_.sigma[2], sample_.sigma_m, sensor_.use_sample_sigma)};
+  }
+
+ private:
+  const AidingState& s_;
+  const SensorConfig& sensor_;
+  const UsblSample& sample_;
+  double surface_m_;
+  Vector3 lever_N_;
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,229 @@
+#include "estimation/core.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::estimation {
+
+using Eigen::Vector3d;
+
+namespace {
+
+void fill(std::array<double, kMaxStates>& values, const StateIndex& index, Group group, double value) {
+  const int start = index.of(group);
+  for (int i = 0; start >= 0 && i < group_size(group); ++i)
+    values[static_cast<std::size_t>(start + i)] = value;
+}
+
+/// A first-order Gauss-Markov process of the given steady state.
+void markov(Setup& setup, Group group, double sigma, double time_constant_s) {
+  fill(setup.walk, setup.index, group, 2.0 * sigma * sigma / time_constant_s);
+  fill(setup.decay_per_s, setup.index, group, 1.0 / time_constant_s);
+}
+
+}  // namespace
+
+Setup::Setup(const EngineConfig& engine_config)
+    : config(engine_config),
+      index(engine_config.groups),
+      q_B_imu(geo::from_rpy(geo::vec(engine_config.imu.mounting_rpy_rad))) {
+  for (std::size_t i = 0; i < config.sensors.size() && i < limits.size(); ++i)
+    limits[i] = gate_limits(config.sensors[i]);
+
+  const ImuConfig& imu = config.imu;
+  const StateModelConfig& model = config.states;
+  const auto sigma = [&](Group group, double value) { fill(initial_sigma, index, group, value); };
+  sigma(Group::accel_bias, imu.accel_bias_sigma_m_s2);
+  sigma(Group::gyro_bias, imu.gyro_bias_sigma_rad_s);
+  // The turn-on part does not decay, so the in-run part is a random walk of the same growth.
+  const double accel = imu.accel_bias_instability_m_s2;
+  const double gyro = imu.gyro_bias_instability_rad_s;
+  fill(walk, index, Group::accel_bias, 2.0 * accel * accel / imu.accel_bias_time_constant_s);
+  fill(walk, index, Group::gyro_bias, 2.0 * gyro * gyro / imu.gyro_bias_time_constant_s);
+  sigma(Group::accel_scale, imu.accel_scale_sigma);
+  sigma(Group::gyro_scale, imu.gyro_scale_sigma);
+  sigma(Group::accel_misalignment, imu.accel_misalignment_sigma_rad);
+  sigma(Group::gyro_misalignment, imu.gyro_misalignment_sigma_rad);
+  sigma(Group::dvl_scale, model.dvl_scale_sigma);
+  sigma(Group::dvl_scale_xyz, model.dvl_scale_sigma);
+  sigma(Group::dvl_misalignment, model.dvl_misalignment_sigma_rad);
+  sigma(Group::dvl_bias, model.dvl_bias_sigma_m_s);
+  sigma(Group::current, model.current_sigma_m_s);
+  markov(*this, Group::current, model.current_sigma_m_s, model.current_time_constant_s);
+  sigma(Group::depth_bias, model.depth_bias_sigma_m);
+  sigma(Group::surface_altitude, model.surface_altitude_sigma_m);
+  fill(walk, index, Group::surface_altitude,
+       model.surface_altitude_walk_m_sqrt_s * model.surface_altitude_walk_m_sqrt_s);
+  sigma(Group::heading_bias, model.heading_bias_sigma_rad);
+  if (model.heading_bias_time_constant_s > 0.0)
+    markov(*this, Group::heading_bias, model.heading_bias_sigma_rad, model.heading_bias_time_constant_s);
+  sigma(Group::heading_deviation, model.heading_deviation_sigma_rad);
+  sigma(Group::usbl_bias, model.usbl_bias_sigma_m);
+  sigma(Group::gps_position_bias, model.gps_bias_sigma_m);
+  markov(*this, Group::gps_position_bias, model.gps_bias_sigma_m, model.gps_bias_time_constant_s);
+  if (const int bias = index.of(Group::gps_position_bias); bias >= 0) {
+    initial_sigma[static_cast<std::size_t>(bias + 2)] *= 2.0;
+    walk[static_cast<std::size_t>(bias + 2)] *= 4.0;
+  }
+  sigma(Group::log_scale, model.log_scale_sigma);
+}
+
+Core::Core(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {
+  for (std::size_t i = 0; i < setup.config.sensors.size(); ++i)
+    sensors_[i].enabled = setup.config.sensors[i].enabled;
+}
+
+ProcessNoise Core::process_noise() const {
+  // (NOISE-1): white noise, and as equivalent noise the scale and misalignment that are not estimated.
+  const ImuConfig& imu = setup_->config.imu;
+  ProcessNoise noise;
+  noise.walk = setup_->walk;
+  noise.decay_per_s = setup_->decay_per_s;
+  const Eigen::Matrix3d c = geo::to_matrix(state_.nav.q_NB);
+  const auto unmodelled = [&](const Vector3d& input, bool scale, double scale_sigma, bool misalignment,
+                              double misalignment_sigma) {
+    const Vector3d squares = input.cwiseAbs2();
+    Vector3d variance = Vector3d::Zero();
+    if (!scale) variance += scale_sigma * scale_sigma * squares;
+    if (!misalignment)
+      variance += misalignment_sigma * misalignment_sigma * (Vector3d::Constant(squares.sum()) - squares);
+    return Vector3d(imu.equivalent_noise_time_s * variance);
+  };
+  const StateGroups& groups = setup_->config.groups;
+  const Vector3d rate = unmodelled(rate_B_, groups.gyro_scale, imu.gyro_scale_sigma, groups.gyro_misalignment,
+                                   imu.gyro_misalignment_sigma_rad);
+  // Gravity is always there and looks like a bias; only the changing part of the force counts.
+  const Vector3d acceleration_B = force_B_ + c.transpose() * Vector3d(0.0, 0.0, 9.81);
+  const Vector3d force = unmodelled(acceleration_B, groups.accel_scale, imu.accel_scale_sigma,
+                                    groups.accel_misalignment, imu.accel_misalignment_sigma_rad);
+  const double arw = imu.angle_random_walk_rad_sqrt_s;
+  const double vrw = imu.velocity_random_walk_m_s_sqrt_s;
+  noise.attitude = c * rate.asDiagonal() * c.transpose() + arw * arw * Eigen::Matrix3d::Identity();
+  noise.velocity = c * force.asDiagonal() * c.transpose() + vrw * vrw * Eigen::Matrix3d::Identity();
+  return noise;
+}
+
+void Core::advance(const ImuStep& step, TimeNs until_ns) {
+  const double whole_s = step.increments.dt_s;
+  const double fraction =
+      static_cast<double>(until_ns - now_ns_) / static_cast<double>(step.to_ns - step.from_ns);
+  now_ns_ = until_ns;
+  if (!(fraction > 0.0)) return;
+  const auto& x = state_.x;
+  const StateIndex& index = setup_->index;
+  rate_B_ = corrected_rate(index, x, step.increments.dtheta_rad / whole_s);
+  force_B_ = corrected_force(index, x, step.increments.dv_m_s / whole_s);
+  if (!navigating_) return;
+
+  Increments in;
+  in.dt_s = whole_s;
+  in.dtheta_rad = whole_s * rate_B_;
+  in.dv_m_s = whole_s * force_B_;
+  in.dtheta_before_rad = whole_s * corrected_rate(index, x, step.increments.dtheta_before_rad / whole_s);
+  in.dv_before_m_s = whole_s * corrected_force(index, x, step.increments.dv_before_m_s / whole_s);
+  const double dt = fraction * whole_s;
+
+  const Eigen::Matrix3d c = geo::to_matrix(state_.nav.q_NB);
+  const Matrix9 f = error_dynamics(state_.nav, c * force_B_);
+  const ImuColumns g = imu_error_columns(index, c, rate_B_, force_B_);
+  const ProcessNoise noise = process_noise();
+  const Vector3d v_before = state_.nav.v_N_m_s;
+  state_.nav = mechanise(state_.nav, correct(in, fraction));
+  travelled_N_m_ += 0.5 * dt * (v_before + state_.nav.v_N_m_s);
+  filter_.propagate(f, g, dt, noise);
+  for (int i = kNavStates; i < index.size(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (noise.decay_per_s[at] > 0.0) state_.x[at] *= std::exp(-noise.decay_per_s[at] * dt);
+  }
+}
+
+void Core::finish(const ImuStep& step) {
+  const ImuConfig& imu = setup_->config.imu;
+  if (step.gap_s > 0.0) {
+    if (step.gap_s > imu.lost_gap_s) {
+      lose_attitude();
+    } else if (navigating_) {
+      const double velocity = imu.gap_acceleration_sigma_m_s2 * step.gap_s;
+      const double angle = imu.gap_rate_sigma_rad_s * step.gap_s;
+      for (int i = 0; i < 3; ++i) {
+        filter_.widen(i, 0.25 * velocity * velocity * step.gap_s * step.gap_s);
+        filter_.widen(3 + i, velocity * velocity);
+        filter_.widen(6 + i, angle * angle);
+      }
+    }
+    window_.reset();
+  }
+  if (!navigating_) {
+    align(step);
+    return;
+  }
+  if (now_ns_ < rest_until_ns_ && now_ns_ >= next_zero_velocity_ns_) {
+    next_zero_velocity_ns_ = now_ns_ + kNsPerSecond;
+    apply_zero_velocity();
+  }
+  watch_alignment();
+}
+
+void Core::rebase(TimeNs now_ns, double unobserved_s) {
+  const DurationNs shift = now_ns - now_ns_ - from_seconds(unobserved_s);
+  const auto move = [shift](TimeNs& stamp) {
+    if (stamp != 0) stamp += shift;
+  };
+  for (TimeNs* stamp :
+       {&gps_used_ns_, &usbl_used_ns_, &dvl_used_ns_, &velocity_used_ns_, &rest_until_ns_,
+        &next_zero_velocity_ns_, &phase_since_ns_, &waiting_since_ns_, &hold_since_ns_, &gps_seen_ns_})
+    move(*stamp);
+  for (Sensor& sensor : sensors_) {
+    move(sensor.used_ns);
+    move(sensor.rejected_since_ns);
+    sensor.stamp_ns = 0;
+  }
+  now_ns_ = now_ns;
+  ImuStep silence;
+  silence.gap_s = unobserved_s;
+  if (unobserved_s > 0.0 && navigating_) finish(silence);
+}
+
+void Core::lose_attitude() {
+  navigating_ = false;
+  levelled_ = false;
+  window_.reset();
+  smooth_time_s_ = 0.0;
+  fast_fixes_ = 0;
+  enter(AlignmentPhase::lost);
+  waiting_since_ns_ = now_ns_;
+}
+
+AidingState Core::aiding_state() const {
+  const EngineConfig& config = setup_->config;
+  return {setup_->index, state_, rate_B_,
+          config.magnetic_variation_known ? config.magnetic_variation_rad : kUnknown};
+}
+
+NavMode Core::mode() const {
+  const EngineConfig& config = setup_->config;
+  if (!navigating_) return levelled_ ? NavMode::aligning : NavMode::none;
+  // Comparisons with NaN are false: never used.
+  if (since(gps_used_ns_) <= config.gps_timeout_s) return NavMode::gps_aided;
+  if (since(usbl_used_ns_) <= config.usbl_timeout_s) return NavMode::acoustic_aided;
+  if (since(velocity_used_ns_) <= config.velocity_timeout_s) return NavMode::dead_reckoning;
+  return NavMode::inertial;
+}
+
+Vector3d Core::rpy_sigma_rad() const {
+  if (!navigating_) return Vector3d::Constant(kUnknown);
+  // (OUT-1): how roll, pitch and yaw turn with the attitude error about N.
+  const Vector3d rpy = geo::to_rpy(state_.nav.q_NB);
+  const double cosine = std::cos(rpy.z());
+  const double sine = std::sin(rpy.z());
+  const double level = std::max(std::abs(std::cos(rpy.y())), 1e-3);
+  Eigen::Matrix3d j;
+  j << -cosine / level, -sine / level, 0.0, sine, -cosine, 0.0, -cosine * std::tan(rpy.y()),
+      -sine * std::tan(rpy.y()), -1.0;
+  Eigen::Matrix3d p;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) p(i, k) = filter_(6 + i, 6 + k);
+  return (j * p * j.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,169 @@
+#pragma once
+
+#include <optional>
+
+#include "estimation/aiding/registry.hpp"
+#include "estimation/alignment/rest_window.hpp"
+#include "estimation/error_filter.hpp"
+#include "estimation/gate.hpp"
+#include "estimation/measurement.hpp"
+#include "estimation/strapdown.hpp"
+#include "samples/nav_state.hpp"
+
+namespace fathom::estimation {
+
+inline constexpr int kMaxSensors = 24;
+
+/// What never changes after construction: the configuration and what is made from it once.
+struct Setup {
+  explicit Setup(const EngineConfig& engine_config);
+
+  EngineConfig config;
+  StateIndex index;
+  std::array<GateLimits, kMaxSensors> limits{};
+  std::array<double, kMaxStates> initial_sigma{};  ///< of the states from index 9 on
+  std::array<double, kMaxStates> walk{};
+  std::array<double, kMaxStates> decay_per_s{};
+  geo::Quaternion q_B_imu;  ///< from the unit's own axes into B
+};
+
+/// One inertial interval as the mechanisation takes it. Increments are along B, not yet corrected for bias.
+struct ImuStep {
+  TimeNs from_ns = 0;
+  TimeNs to_ns = 0;
+  Increments increments;
+  double gap_s = 0.0;  ///< part of the interval during which nothing was measured
+};
+
+/// Why a start is not possible yet, or that it is.
+struct StartConditions {
+  bool window_full = false;
+  bool quiet = false;
+  bool slow = false;
+  bool heading = false;
+  bool position = false;
+};
+
+/// The navigator as a value: a deterministic function of the inertial steps and events applied to it so far.
+/// Copying it is taking a snapshot; that is what makes late measurements possible (history.hpp). Nothing here
+/// knows about arrival order, verdict queues or wall clocks.
+class Core {
+ public:
+  /// What is remembered about one sensor.
+  struct Sensor {
+    bool enabled = true;
+    TimeNs stamp_ns = 0;  ///< of the last measurement, 0 before the first
+    TimeNs used_ns = 0;
+    // Readings that repeat.
+    std::array<double, 3> reading{kUnknown, kUnknown, kUnknown};
+    Eigen::Vector3d first_prediction = Eigen::Vector3d::Zero();
+    bool repeats = false;
+    // Rejections that agree with each other.
+    TimeNs rejected_since_ns = 0;
+    int rejections = 0;
+    std::array<double, 6> rejected_innovation{};
+  };
+
+  explicit Core(const Setup& setup);
+
+  /// Integrates within the interval, from now_ns() until an instant in it.
+  void advance(const ImuStep& step, TimeNs until_ns);
+  /// Called once at the end of each interval: alignment, phases, zero velocity.
+  void finish(const ImuStep& step);
+  /// Applies one event at the present instant.
+  Judgement apply(const Measurement& measurement);
+  void order(const Command& command);
+  /// Starts at `now_ns` from a given state.
+  void start(const InitialState& initial, TimeNs now_ns);
+  /// Puts the present instant elsewhere on the time axis, after a step of the stamps.
+  void rebase(TimeNs now_ns, double unobserved_s);
+
+  [[nodiscard]] bool navigating() const { return navigating_; }
+  [[nodiscard]] bool levelled() const { return levelled_; }
+  [[nodiscard]] TimeNs now_ns() const { return now_ns_; }
+  [[nodiscard]] const FilterState& state() const { return state_; }
+  [[nodiscard]] const ErrorFilter& filter() const { return filter_; }
+  [[nodiscard]] const Eigen::Vector3d& rate_B_rad_s() const { return rate_B_; }
+  [[nodiscard]] const Eigen::Vector3d& force_B_m_s2() const { return force_B_; }
+  [[nodiscard]] AlignmentPhase phase() const { return phase_; }
+  [[nodiscard]] TimeNs phase_since_ns() const { return phase_since_ns_; }
+  [[nodiscard]] TimeNs aligned_hold_since_ns() const { return hold_since_ns_; }
+  [[nodiscard]] const RestWindow& window() const { return window_; }
+  [[nodiscard]] StartConditions conditions() const;
+  [[nodiscard]] double gps_speed_m_s() const { return gps_speed_m_s_; }
+  [[nodiscard]] NavMode mode() const;
+  /// Since the last use, NaN before the first.
+  [[nodiscard]] double gps_outage_s() const { return since(gps_used_ns_); }
+  [[nodiscard]] double dvl_outage_s() const { return since(dvl_used_ns_); }
+  [[nodiscard]] std::uint32_t reset_counter() const { return reset_counter_; }
+  [[nodiscard]] const Eigen::Vector3d& last_reset_N_m() const { return last_reset_N_m_; }
+  /// Sigmas of roll, pitch and yaw.
+  [[nodiscard]] Eigen::Vector3d rpy_sigma_rad() const;
+  [[nodiscard]] const Sensor& sensor(int index) const { return sensors_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] ProcessNoise process_noise() const;
+
+ private:
+  [[nodiscard]] double since(TimeNs stamp_ns) const {
+    return stamp_ns == 0 ? kUnknown : to_seconds(now_ns_ - stamp_ns);
+  }
+  [[nodiscard]] AidingState aiding_state() const;
+  void enter(AlignmentPhase phase);
+  void lose_attitude();
+
+  // core_judge.cpp
+  Judgement judge(const Measurement& measurement);
+  bool frozen(const Measurement& measurement, const SensorConfig& config, Sensor& sensor,
+              const Observation& observation) const;
+  bool believe_rejections(Sensor& sensor, const SensorConfig& config, const Observation& observation);
+  void make_room(SourceKind source, const Observation& observation);
+  void mark_used(const Measurement& measurement, bool with_position);
+  void apply_zero_velocity();
+
+  // core_align.cpp
+  void align(const ImuStep& step);
+  void notice(const Measurement& measurement);
+  void start_at_rest();
+  void start_in_motion();
+  void begin(const FilterState& state, const std::array<double, kMaxStates>& sigma);
+  [[nodiscard]] std::optional<geo::Geodetic> start_position() const;
+  void watch_alignment();
+
+  const Setup* setup_;
+  TimeNs now_ns_ = 0;
+  bool navigating_ = false;
+  bool levelled_ = false;
+  FilterState state_;
+  ErrorFilter filter_;
+  Eigen::Vector3d rate_B_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_B_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d travelled_N_m_ = Eigen::Vector3d::Zero();  ///< integral of the velocity
+  std::array<Sensor, kMaxSensors> sensors_{};
+  TimeNs gps_used_ns_ = 0;
+  TimeNs usbl_used_ns_ = 0;
+  TimeNs dvl_used_ns_ = 0;
+  TimeNs velocity_used_ns_ = 0;
+  std::uint32_t reset_counter_ = 0;
+  Eigen::Vector3d last_reset_N_m_ = Eigen::Vector3d::Zero();
+  TimeNs rest_until_ns_ = 0;
+  TimeNs next_zero_velocity_ns_ = 0;
+
+  // Alignment.
+  AlignmentPhase phase_ = AlignmentPhase::none;
+  TimeNs phase_since_ns_ = 0;
+  TimeNs waiting_since_ns_ = 0;
+  TimeNs hold_since_ns_ = 0;
+  RestWindow window_;
+  Eigen::Vector3d smooth_force_ = Eigen::Vector3d::Zero();
+  double smooth_time_s_ = 0.0;
+  TimeNs gps_seen_ns_ = 0;
+  geo::Geodetic gps_position_;
+  Eigen::Vector3d gps_velocity_N_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gps_sigma_N_m_ = Eigen::Vector3d::Zero();
+  double gps_speed_m_s_ = kUnknown;
+  int fast_fixes_ = 0;
+  bool position_set_ = false;  ///< by an order
+  geo::Geodetic set_position_;
+  double set_sigma_m_ = 0.0;
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,310 @@
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/aiding/zero_velocity.hpp"
+#include "estimation/core.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::size_t kStride = Observation::kMaxRows;
+constexpr int kRejectionsToBelieve = 3;
+
+VerdictKind verdict_of(Usable usable) {
+  switch (usable) {
+    case Usable::yes:
+      return VerdictKind::used;
+    case Usable::out_of_range:
+      return VerdictKind::out_of_range;
+    case Usable::unknown_frame:
+      return VerdictKind::unknown_frame;
+    case Usable::not_estimated:
+      break;
+  }
+  return VerdictKind::source_disabled;
+}
+
+/// What a frozen instrument would keep repeating; NaN where the sample has nothing to say.
+std::array<double, 3> reading_of(const AnySample& any) {
+  if (const auto* gps = std::get_if<GpsSample>(&any))
+    return {gps->latitude_rad, gps->longitude_rad, gps->altitude_m};
+  if (const auto* dvl = std::get_if<DvlSample>(&any)) return dvl->velocity_D_m_s;
+  if (const auto* depth = std::get_if<DepthSample>(&any)) return {depth->depth_m, 0.0, 0.0};
+  if (const auto* heading = std::get_if<HeadingSample>(&any)) return {heading->heading_rad, 0.0, 0.0};
+  if (const auto* usbl = std::get_if<UsblSample>(&any))
+    return {usbl->latitude_rad, usbl->longitude_rad, usbl->depth_m};
+  if (const auto* air = std::get_if<AirspeedSample>(&any)) return {air->airspeed_m_s, 0.0, 0.0};
+  return {kUnknown, kUnknown, kUnknown};
+}
+
+bool same(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  bool any = false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::isnan(a[i]) != std::isnan(b[i])) return false;
+    if (!std::isnan(a[i]) && a[i] != b[i]) return false;
+    any = any || !std::isnan(a[i]);
+  }
+  return any;
+}
+
+bool measures_position(SourceKind source) {
+  return source == SourceKind::gps || source == SourceKind::usbl;
+}
+
+/// Largest weight with which a row looks at one of three states.
+double weight(const Observation& observation, int row, int first_state) {
+  double largest = 0.0;
+  for (int i = 0; i < 3; ++i)
+    largest = std::max(
+        largest,
+        std::abs(observation.h[static_cast<std::size_t>(row)][static_cast<std::size_t>(first_state + i)]));
+  return largest;
+}
+
+}  // namespace
+
+Judgement Core::apply(const Measurement& measurement) {
+  if (measurement.command) {
+    order(std::get<Command>(measurement.sample));
+    return {};
+  }
+  return judge(measurement);
+}
+
+Judgement Core::judge(const Measurement& measurement) {
+  Judgement out;
+  const auto slot = static_cast<std::size_t>(measurement.sensor);
+  const SensorConfig& config = setup_->config.sensors[slot];
+  Sensor& sensor = sensors_[slot];
+  if (!sensor.enabled) {
+    out.kind = VerdictKind::source_disabled;
+    return out;
+  }
+  if (sensor.stamp_ns == measurement.stamp_ns && sensor.stamp_ns != 0) {
+    out.kind = VerdictKind::duplicate;
+    return out;
+  }
+  sensor.stamp_ns = measurement.stamp_ns;
+  notice(measurement);
+  if (!navigating_) return out;
+
+  const AidingState state = aiding_state();
+  const AidingInput input{state, config, setup_->config.states.surface_altitude_m};
+  Observation observation;
+  bool with_position = false;
+  Usable first_refusal = Usable::yes;
+  for (const AidingEntry& entry : aiding_registry()) {
+    if (entry.source != measurement.source) continue;
+    const Usable usable = entry.observe(input, measurement.sample, observation);
+    if (usable == Usable::yes) {
+      with_position = with_position || measures_position(entry.source);
+      if (out.model.empty()) out.model = entry.name;
+    } else if (first_refusal == Usable::yes) {
+      first_refusal = usable;
+    }
+  }
+  if (observation.rows == 0) {
+    out.kind = first_refusal == Usable::yes ? VerdictKind::source_disabled : verdict_of(first_refusal);
+    return out;
+  }
+  with_position = with_position && weight(observation, 0, 0) > 0.0;
+  observation.list_columns(setup_->index.size());
+
+  const Observation whole = observation;
+  bool stepped = false;
+  InnovationStatistics statistics;
+  GateResult result = gate(filter_, config, setup_->limits[slot], observation, statistics);
+  if (frozen(measurement, config, sensor, whole)) {
+    out.kind = VerdictKind::frozen;
+  } else if (result.pass) {
+    out.kind = VerdictKind::used;
+    sensor.rejections = 0;
+  } else {
+    out.kind = VerdictKind::rejected;
+    if (believe_rejections(sensor, config, whole)) {
+      // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
+      make_room(measurement.source, whole);
+      observation = whole;
+      result = gate(filter_, config, setup_->limits[slot], observation, statistics);
+      if (result.pass) {
+        out.kind = VerdictKind::used;
+        sensor.rejections = 0;
+        stepped = with_position;
+      }
+    }
+  }
+  out.dimensions = static_cast<std::uint32_t>(whole.rows);
+  InnovationStatistics plain;
+  filter_.statistics(whole, 1.0, plain);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(whole.rows); ++i) {
+    out.innovation[i] = whole.innovation[i];
+    out.innovation_sigma[i] = std::sqrt(plain.s[i * kStride + i]);
+  }
+  out.test_ratio = result.test_ratio;
+  out.limit = result.limit;
+  if (out.kind != VerdictKind::used) return out;
+
+  std::array<double, kMaxStates> x{};
+  if (!filter_.update(observation, statistics, x)) {
+    out.kind = VerdictKind::rejected;
+    return out;
+  }
+  remove_error(x, setup_->index.size(), state_);
+  if (stepped) {
+    ++reset_counter_;
+    last_reset_N_m_ = -Vector3d(x[0], x[1], x[2]);
+  }
+  sensor.rejected_since_ns = 0;
+  sensor.used_ns = now_ns_;
+  mark_used(measurement, with_position);
+  return out;
+}
+
+bool Core::frozen(const Measurement& measurement, const SensorConfig& config, Sensor& sensor,
+                  const Observation& observation) const {
+  if (config.frozen_change <= 0.0) return false;
+  const auto reading = reading_of(measurement.sample);
+  Vector3d prediction = Vector3d::Zero();
+  if (measures_position(measurement.source)) {
+    // The path counts: the estimate itself may already have been pulled to the frozen fix.
+    prediction = travelled_N_m_;
+  } else {
+    for (int i = 0; i < std::min(3, observation.rows); ++i)
+      prediction(i) = observation.innovation[static_cast<std::size_t>(i)];
+  }
+  if (!same(reading, sensor.reading)) {
+    sensor.reading = reading;
+    sensor.first_prediction = prediction;
+    return false;
+  }
+  return (prediction - sensor.first_prediction).norm() > config.frozen_change;
+}
+
+bool Core::believe_rejections(Sensor& sensor, const SensorConfig& config, const Observation& observation) {
+  // (GATE-3): rejections that agree with each other for long enough.
+  double size = 0.0;
+  double change = 0.0;
+  double noise = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(observation.rows); ++i) {
+    const double z = observation.innovation[i];
+    size += z * z;
+    change += (z - sensor.rejected_innovation[i]) * (z - sensor.rejected_innovation[i]);
+    noise += observation.sigma[i] * observation.sigma[i];
+  }
+  const bool agrees =
+      sensor.rejections > 0 && std::sqrt(change) < 0.5 * std::sqrt(size) + 4.0 * std::sqrt(noise);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(observation.rows); ++i)
+    sensor.rejected_innovation[i] = observation.innovation[i];
+  if (!agrees) {
+    sensor.rejections = 1;
+    sensor.rejected_since_ns = now_ns_;
+    return false;
+  }
+  ++sensor.rejections;
+  return config.reacquire_s > 0.0 && sensor.rejections >= kRejectionsToBelieve &&
+         to_seconds(now_ns_ - sensor.rejected_since_ns) >= config.reacquire_s;
+}
+
+void Core::make_room(SourceKind source, const Observation& observation) {
+  for (int row = 0; row < observation.rows; ++row) {
+    const auto r = static_cast<std::size_t>(row);
+    const double squared = observation.innovation[r] * observation.innovation[r];
+    int first = 6;
+    if (weight(observation, row, 0) > 0.0) {
+      first = 0;
+    } else if (weight(observation, row, 3) > 0.0) {
+      first = 3;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const double h = observation.h[r][static_cast<std::size_t>(first + i)];
+      // A heading says nothing about tilt, however its row looks when the vehicle is pitched.
+      if (source == SourceKind::heading && i < 2) continue;
+      filter_.widen(first + i, squared * h * h);
+    }
+  }
+}
+
+void Core::mark_used(const Measurement& measurement, bool with_position) {
+  switch (measurement.source) {
+    case SourceKind::gps:
+      if (with_position) gps_used_ns_ = now_ns_;
+      velocity_used_ns_ = now_ns_;
+      break;
+    case SourceKind::usbl:
+      usbl_used_ns_ = now_ns_;
+      break;
+    case SourceKind::dvl:
+      dvl_used_ns_ = now_ns_;
+      velocity_used_ns_ = now_ns_;
+      break;
+    case SourceKind::airspeed:
+    case SourceKind::propulsion:
+      velocity_used_ns_ = now_ns_;
+      break;
+    default:
+      break;
+  }
+}
+
+void Core::apply_zero_velocity() {
+  // (AID-ZUPT-1)
+  const AidingState state = aiding_state();
+  Observation observation;
+  observe(ZeroVelocity(state, setup_->config.zero_velocity_sigma_m_s), setup_->index, observation);
+  observation.list_columns(setup_->index.size());
+  InnovationStatistics statistics;
+  filter_.statistics(observation, 1.0, statistics);
+  std::array<double, kMaxStates> x{};
+  // Somebody's word is not better than the instruments: nothing is believed that is far from possible.
+  if (statistics.squared_distance > 100.0 || !filter_.update(observation, statistics, x)) return;
+  remove_error(x, setup_->index.size(), state_);
+  velocity_used_ns_ = now_ns_;
+}
+
+void Core::order(const Command& command) {
+  const auto& sensors = setup_->config.sensors;
+  switch (command.kind) {
+    case CommandKind::enable_source:
+    case CommandKind::disable_source:
+      for (std::size_t i = 0; i < sensors.size(); ++i)
+        if (command.target == Name(sensors[i].sensor))
+          sensors_[i].enabled = command.kind == CommandKind::enable_source;
+      break;
+    case CommandKind::mark_at_rest:
+      rest_until_ns_ = now_ns_ + from_seconds(command.value_s);
+      next_zero_velocity_ns_ = now_ns_;
+      break;
+    case CommandKind::realign:
+      lose_attitude();
+      enter(AlignmentPhase::waiting);
+      break;
+    case CommandKind::set_position: {
+      geo::Geodetic wanted = state_.nav.position;
+      wanted.latitude_rad = command.latitude_rad;
+      wanted.longitude_rad = command.longitude_rad;
+      const AidingState state = aiding_state();
+      const double surface =
+          state.value(Group::surface_altitude, 0, setup_->config.states.surface_altitude_m);
+      if (known(command.depth_m)) wanted.altitude_m = surface - command.depth_m;
+      if (!navigating_) {
+        position_set_ = true;
+        set_position_ = wanted;
+        set_sigma_m_ = command.sigma_m;
+        break;
+      }
+      wanted = geo::moved_by(wanted, -(state.C_NB * geo::vec(setup_->config.output_lever_B_m)));
+      if (!known(command.depth_m)) wanted.altitude_m = state_.nav.position.altitude_m;
+      last_reset_N_m_ = geo::difference_N(state_.nav.position, wanted);
+      ++reset_counter_;
+      state_.nav.position = wanted;
+      for (int i = 0; i < (known(command.depth_m) ? 3 : 2); ++i) filter_.forget(i, command.sigma_m);
+      break;
+    }
+    case CommandKind::acknowledge_alarm:
+      break;
+  }
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,200 @@
+#include "estimation/error_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fathom::estimation {
+namespace {
+
+constexpr int kRows = Observation::kMaxRows;
+constexpr std::size_t kStride = Observation::kMaxRows;
+
+/// Lower Cholesky factor in place; false when not positive definite.
+bool factorise(std::array<double, kStride * kStride>& a, int n) {
+  const auto at = [](int i, int j) {
+    return static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j);
+  };
+  for (int j = 0; j < n; ++j) {
+    double diagonal = a[at(j, j)];
+    for (int k = 0; k < j; ++k) diagonal -= a[at(j, k)] * a[at(j, k)];
+    if (!(diagonal > 0.0)) return false;
+    const double root = std::sqrt(diagonal);
+    a[at(j, j)] = root;
+    for (int i = j + 1; i < n; ++i) {
+      double value = a[at(i, j)];
+      for (int k = 0; k < j; ++k) value -= a[at(i, k)] * a[at(j, k)];
+      a[at(i, j)] = value / root;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+void ErrorFilter::reset(const std::array<double, kMaxStates>& sigma) {
+  std::fill(p_.begin(), p_.end(), 0.0);
+  for (int i = 0; i < n_; ++i) {
+    const double s = sigma[static_cast<std::size_t>(i)];
+    p_[at(i, i)] = s * s;
+  }
+}
+
+void ErrorFilter::forget(int state, double sigma) {
+  for (int j = 0; j < n_; ++j) set(state, j, 0.0);
+  p_[at(state, state)] = sigma * sigma;
+}
+
+void ErrorFilter::propagate(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise) {
+  // (KF-1)
+  const int driven = kNavStates + static_cast<int>(g.cols());
+  const Matrix9 half = Matrix9::Identity() + (0.5 * dt_s) * f;
+  Matrix9 a;
+  a.noalias() = dt_s * (half * f);
+  a += Matrix9::Identity();
+  ImuColumns b(kNavStates, g.cols());
+  b.noalias() = dt_s * (half * g);
+
+  std::array<double, static_cast<std::size_t>(kNavStates) * kMaxStates> t{};
+  const auto n = static_cast<std::size_t>(n_);
+  for (int i = 0; i < kNavStates; ++i) {
+    double* row = t.data() + static_cast<std::size_t>(i) * n;
+    for (int k = 0; k < driven; ++k) {
+      const double factor = k < kNavStates ? a(i, k) : b(i, k - kNavStates);
+      if (factor == 0.0) continue;
+      const double* source = p_.data() + static_cast<std::size_t>(k) * n;
+      for (std::size_t j = 0; j < n; ++j) row[j] += factor * source[j];
+    }
+  }
+  for (int i = 0; i < kNavStates; ++i) {
+    const double* row = t.data() + static_cast<std::size_t>(i) * n;
+    for (int j = 0; j <= i; ++j) {
+      double sum = 0.0;
+      for (int k = 0; k < kNavStates; ++k) sum += row[k] * a(j, k);
+      for (int k = kNavStates; k < driven; ++k) sum += row[k] * b(j, k - kNavStates);
+      if (i >= 3 && i < 6 && j >= 3) sum += dt_s * noise.velocity(i - 3, j - 3);
+      if (i >= 6 && j >= 6) sum += dt_s * noise.attitude(i - 6, j - 6);
+      set(i, j, sum);
+    }
+  }
+  // The others keep what they share with each other, and with the navigation rows what those now carry.
+  std::array<double, kMaxStates> keep{};
+  bool decaying = false;
+  for (int i = kNavStates; i < n_; ++i) {
+    const double rate = noise.decay_per_s[static_cast<std::size_t>(i)];
+    keep[static_cast<std::size_t>(i)] = rate > 0.0 ? std::exp(-rate * dt_s) : 1.0;
+    decaying = decaying || rate > 0.0;
+  }
+  for (int i = kNavStates; i < n_; ++i) {
+    const double own = keep[static_cast<std::size_t>(i)];
+    for (int j = 0; j < kNavStates; ++j)
+      set(i, j, own * t[static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i)]);
+    if (decaying) {
+      for (int j = kNavStates; j <= i; ++j) set(i, j, own * keep[static_cast<std::size_t>(j)] * p_[at(i, j)]);
+    }
+    p_[at(i, i)] += dt_s * noise.walk[static_cast<std::size_t>(i)];
+  }
+}
+
+void ErrorFilter::statistics(const Observation& observation, double noise_scale,
+                             InnovationStatistics& out) const {
+  // (KF-2)
+  const int m = observation.rows;
+  const auto n = static_cast<std::size_t>(n_);
+  out.rows = m;
+  out.s.fill(0.0);
+  for (int i = 0; i < m; ++i) {
+    double* ph = out.ph.data() + static_cast<std::size_t>(i) * kMaxStates;
+    std::fill(ph, ph + n, 0.0);
+    const auto& h = observation.h[static_cast<std::size_t>(i)];
+    for (int c = 0; c < observation.column_count; ++c) {
+      const auto column = observation.columns[static_cast<std::size_t>(c)];
+      const double factor = h[column];
+      if (factor == 0.0) continue;
+      const double* row = p_.data() + column * n;
+      for (std::size_t j = 0; j < n; ++j) ph[j] += factor * row[j];
+    }
+  }
+  for (int i = 0; i < m; ++i) {
+    const double* ph = out.ph.data() + static_cast<std::size_t>(i) * kMaxStates;
+    for (int j = 0; j <= i; ++j) {
+      const auto& h = observation.h[static_cast<std::size_t>(j)];
+      double sum = 0.0;
+      for (int c = 0; c < observation.column_count; ++c) {
+        const auto column = observation.columns[static_cast<std::size_t>(c)];
+        sum += h[column] * ph[column];
+      }
+      const double sigma = observation.sigma[static_cast<std::size_t>(i)];
+      if (i == j) sum += noise_scale * sigma * sigma;
+      out.s[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j)] = sum;
+      out.s[static_cast<std::size_t>(j) * kStride + static_cast<std::size_t>(i)] = sum;
+    }
+  }
+  auto lower = out.s;
+  out.squared_distance = 0.0;
+  if (!factorise(lower, m)) {
+    out.squared_distance = std::numeric_limits<double>::infinity();
+    return;
+  }
+  std::array<double, kRows> y{};
+  for (int i = 0; i < m; ++i) {
+    double value = observation.innovation[static_cast<std::size_t>(i)];
+    for (int k = 0; k < i; ++k)
+      value -= lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(k)] *
+               y[static_cast<std::size_t>(k)];
+    value /= lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
+    y[static_cast<std::size_t>(i)] = value;
+    out.squared_distance += value * value;
+  }
+}
+
+bool ErrorFilter::update(const Observation& observation, const InnovationStatistics& statistics,
+                         std::array<double, kMaxStates>& x) {
+  // (KF-3): with S = L L', V = L^-1 (P H')' and y = L^-1 innovation: x = V' y and P <- P - V' V.
+  const int m = statistics.rows;
+  const auto n = static_cast<std::size_t>(n_);
+  auto lower = statistics.s;
+  if (!factorise(lower, m)) return false;
+  std::array<double, static_cast<std::size_t>(kRows)* kMaxStates> v = statistics.ph;
+  std::array<double, kRows> y{};
+  for (int i = 0; i < m; ++i) {
+    double* row = v.data() + static_cast<std::size_t>(i) * kMaxStates;
+    double value = observation.innovation[static_cast<std::size_t>(i)];
+    for (int k = 0; k < i; ++k) {
+      const double factor = lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(k)];
+      const double* other = v.data() + static_cast<std::size_t>(k) * kMaxStates;
+      for (std::size_t j = 0; j < n; ++j) row[j] -= factor * other[j];
+      value -= factor * y[static_cast<std::size_t>(k)];
+    }
+    const double inverse = 1.0 / lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
+    for (std::size_t j = 0; j < n; ++j) row[j] *= inverse;
+    y[static_cast<std::size_t>(i)] = value * inverse;
+  }
+  x.fill(0.0);
+  for (int i = 0; i < m; ++i) {
+    const double* row = v.data() + static_cast<std::size_t>(i) * kMaxStates;
+    for (std::size_t j = 0; j < n; ++j) x[j] += row[j] * y[static_cast<std::size_t>(i)];
+    for (std::size_t r = 0; r < n; ++r) {
+      const double factor = row[r];
+      if (factor == 0.0) continue;
+      double* target = p_.data() + r * n;
+      for (std::size_t j = 0; j < n; ++j) target[j] -= factor * row[j];
+    }
+  }
+  // Rounding must not make a variance vanish: a state is never known better than to a millionth of a
+  // millionth.
+  for (int i = 0; i < n_; ++i) p_[at(i, i)] = std::max(p_[at(i, i)], 1e-24);
+  return true;
+}
+
+void remove_error(const std::array<double, kMaxStates>& x, int states, FilterState& state) {
+  // (KF-4)
+  NavSolution& nav = state.nav;
+  nav.position = geo::moved_by(nav.position, -Eigen::Vector3d(x[0], x[1], x[2]));
+  nav.v_N_m_s -= Eigen::Vector3d(x[3], x[4], x[5]);
+  nav.q_NB = geo::normalized(geo::exp(Eigen::Vector3d(x[6], x[7], x[8])) * nav.q_NB);
+  for (int i = kNavStates; i < states; ++i)
+    state.x[static_cast<std::size_t>(i)] += x[static_cast<std::size_t>(i)];
+}
+
+}  // namespace fathom::estimation

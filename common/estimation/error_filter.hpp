@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+
+#include "estimation/error_dynamics.hpp"
+#include "estimation/observation.hpp"
+
+namespace fathom::estimation {
+
+/// Covariance of an innovation and what follows from it.
+struct InnovationStatistics {
+  int rows = 0;
+  /// S = H P H' + R, row-major with stride kMaxRows.
+  std::array<double, Observation::kMaxRows * Observation::kMaxRows> s{};
+  std::array<double, Observation::kMaxRows * kMaxStates> ph{};  ///< row i: (P H')' of component i
+  double squared_distance = 0.0;                                ///< innovation' S^-1 innovation
+};
+
+/// Noise that enters during one step, per second.
+struct ProcessNoise {
+  Eigen::Matrix3d velocity = Eigen::Matrix3d::Zero();  ///< m^2/s^3
+  Eigen::Matrix3d attitude = Eigen::Matrix3d::Zero();  ///< rad^2/s
+  std::array<double, kMaxStates> walk{};               ///< of the states from index 9 on, unit^2/s
+  std::array<double, kMaxStates> decay_per_s{};        ///< 1/time constant, 0 for a constant or walk
+};
+
+/// Error-state covariance with the structure of an inertial navigator: only the nine navigation rows move,
+/// driven by the states up to StateIndex::imu_end(); the rest keep still or decay one by one. Fixed size,
+/// nothing allocated, trivially copyable. The matrix is exactly symmetric at all times.
+class ErrorFilter {
+ public:
+  explicit ErrorFilter(int states = 0) : n_(states) {}
+
+  [[nodiscard]] int size() const { return n_; }
+  [[nodiscard]] double operator()(int row, int column) const { return p_[at(row, column)]; }
+  void set(int row, int column, double value) {
+    p_[at(row, column)] = value;
+    p_[at(column, row)] = value;
+  }
+  /// Everything to zero but `sigma` squared on the diagonal.
+  void reset(const std::array<double, kMaxStates>& sigma);
+  /// Forgets what is known about one state.
+  void forget(int state, double sigma);
+  /// Adds variance to one state.
+  void widen(int state, double variance) { p_[at(state, state)] += variance; }
+
+  /// P <- Phi P Phi' + Q dt with Phi = I + F dt + F^2 dt^2/2 (KF-1). `f` and `g` from error_dynamics.hpp.
+  void propagate(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise);
+
+  /// (KF-2). With `noise_scale` R is multiplied by it.
+  void statistics(const Observation& observation, double noise_scale, InnovationStatistics& out) const;
+
+  /// P <- P - K S K' and the estimated error x = K innovation (KF-3). False, with nothing changed, when S is
+  /// not positive.
+  bool update(const Observation& observation, const InnovationStatistics& statistics,
+              std::array<double, kMaxStates>& x);
+
+ private:
+  [[nodiscard]] std::size_t at(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(n_) + static_cast<std::size_t>(column);
+  }
+
+  int n_;
+  std::array<double, kMaxStates * kMaxStates> p_{};
+};
+
+/// Moves the estimate by the estimated error and so makes the error zero (KF-4): navigation errors are
+/// estimate minus truth, all others truth minus estimate; the quaternion is multiplied, not added to.
+void remove_error(const std::array<double, kMaxStates>& x, int states, FilterState& state);
+
+}  // namespace fathom::estimation

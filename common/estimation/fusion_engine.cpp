@@ -1,0 +1,280 @@
+#include "estimation/fusion_engine.hpp"
+
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "estimation/forecaster.hpp"
+#include "estimation/history.hpp"
+#include "estimation/imu_intake.hpp"
+#include "estimation/output.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+constexpr std::size_t kVerdictsKept = 1024;
+
+EngineConfig checked(const EngineConfig& config) {
+  const std::string complaint = config.validate();
+  if (!complaint.empty()) throw std::invalid_argument(complaint);
+  return config;
+}
+
+}  // namespace
+
+class FusionEngine::Impl final : public VerdictSink {
+ public:
+  explicit Impl(const EngineConfig& config)
+      : setup_(checked(config)),
+        intake_(setup_),
+        history_(setup_),
+        forecaster_(setup_),
+        verdicts_(kVerdictsKept) {
+    nav_.header.vehicle = std::string_view(setup_.config.vehicle);
+    nav_.header.sensor = std::string_view(setup_.config.sensor);
+    for (const SensorConfig& one : setup_.config.sensors) names_.emplace_back(one.sensor);
+  }
+
+  bool add(const ImuSample& sample) {
+    const ImuIntake::Result result = intake_.take(sample);
+    switch (result.outcome) {
+      case ImuIntake::Outcome::refused: {
+        Judgement judgement;
+        judgement.kind = result.refusal;
+        push(sample.header, SourceKind::imu, judgement);
+        return false;
+      }
+      case ImuIntake::Outcome::first:
+        history_.begin(sample.header.stamp_ns);
+        break;
+      case ImuIntake::Outcome::rebased:
+        history_.rebase(sample.header.stamp_ns, result.unobserved_s, *this);
+        break;
+      case ImuIntake::Outcome::step:
+        history_.advance(result.step, *this);
+        break;
+    }
+    if (pending_start_ && sample.header.stamp_ns >= pending_start_->stamp_ns) {
+      history_.begin_given(*pending_start_, sample.header.stamp_ns, *this);
+      pending_start_.reset();
+    }
+    nav_.header.stamp_ns = sample.header.stamp_ns;
+    nav_.header.received_ns = sample.header.received_ns;
+    ++nav_.header.sequence;
+    estimation::fill(setup_, history_.core(), nav_);
+    return true;
+  }
+
+  template <class Sample>
+  void add(const Sample& sample, SourceKind source) {
+    Judgement judgement;
+    const int sensor = find(sample.header.sensor, source);
+    if (sensor < 0) {
+      judgement.kind = VerdictKind::source_disabled;
+      push(sample.header, source, judgement);
+      return;
+    }
+    Measurement& one = incoming_;
+    one.stamp_ns = sample.header.stamp_ns -
+                   from_seconds(setup_.config.sensors[static_cast<std::size_t>(sensor)].latency_s);
+    one.command = false;
+    one.judged = false;
+    one.source = source;
+    one.sensor = sensor;
+    one.sequence = sample.header.sequence;
+    one.sample = sample;
+    switch (history_.insert(one)) {
+      case History::Placing::taken:
+        forecaster_.remember(sensor, one.sample);
+        return;
+      case History::Placing::late:
+        judgement.kind = VerdictKind::late;
+        break;
+      case History::Placing::duplicate:
+        judgement.kind = VerdictKind::duplicate;
+        break;
+      case History::Placing::from_the_future:
+        judgement.kind = VerdictKind::from_the_future;
+        break;
+      case History::Placing::not_started:
+        judgement.kind = VerdictKind::not_aligned;
+        break;
+    }
+    push(sample.header, source, judgement);
+  }
+
+  bool apply(const Command& command) {
+    switch (command.kind) {
+      case CommandKind::enable_source:
+      case CommandKind::disable_source: {
+        bool any = false;
+        for (const Name& name : names_) any = any || name == command.target;
+        if (!any) return false;
+        break;
+      }
+      case CommandKind::set_position:
+        if (!(std::abs(command.latitude_rad) < 1.5707) || !(std::abs(command.longitude_rad) <= 6.2832) ||
+            !(command.sigma_m > 0.0) || std::isinf(command.sigma_m) || std::isinf(command.depth_m))
+          return false;
+        break;
+      case CommandKind::mark_at_rest:
+        if (!(command.value_s >= 0.0 && command.value_s < 1e6)) return false;
+        break;
+      case CommandKind::realign:
+        break;
+      default:
+        return false;
+    }
+    Measurement& one = incoming_;
+    one.command = true;
+    one.judged = true;
+    one.source = SourceKind::imu;
+    one.sensor = -1;
+    one.sequence = ++commands_;
+    one.stamp_ns = history_.core().now_ns() + 1;
+    one.sample = command;
+    return history_.insert(one) == History::Placing::taken;
+  }
+
+  void start_from(const InitialState& state) {
+    history_.clear(*this);
+    intake_ = ImuIntake(setup_);
+    pending_start_ = state;
+  }
+
+  void judged(const Measurement& measurement, const Judgement& judgement) override {
+    push(measurement.header(), measurement.source, judgement);
+  }
+
+  bool next_verdict(Verdict& verdict) {
+    if (verdict_count_ == 0) return false;
+    verdict = verdicts_[first_verdict_];
+    first_verdict_ = (first_verdict_ + 1) % verdicts_.size();
+    --verdict_count_;
+    return true;
+  }
+
+  template <class Out>
+  void fill(Out& out) const {
+    stamp(out.header);
+    estimation::fill(setup_, history_.core(), out);
+  }
+
+  void fill(Forecast& out) {
+    stamp(out.header);
+    forecaster_.fill(history_.core(), out);
+  }
+
+  [[nodiscard]] const NavState& nav_state() const { return nav_; }
+  [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  [[nodiscard]] int find(const Name& sensor, SourceKind source) const {
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (names_[i] == sensor && setup_.config.sensors[i].kind == source) return static_cast<int>(i);
+    return -1;
+  }
+
+  void stamp(SampleHeader& header) const {
+    header.vehicle = nav_.header.vehicle;
+    header.sensor = nav_.header.sensor;
+    header.stamp_ns = nav_.header.stamp_ns;
+    header.received_ns = nav_.header.received_ns;
+  }
+
+  void push(const SampleHeader& header, SourceKind source, const Judgement& judgement) {
+    if (verdict_count_ == verdicts_.size()) {
+      first_verdict_ = (first_verdict_ + 1) % verdicts_.size();
+      --verdict_count_;
+      ++dropped_;
+    }
+    Verdict& verdict = verdicts_[(first_verdict_ + verdict_count_) % verdicts_.size()];
+    verdict = Verdict{};
+    verdict.header = header;
+    verdict.source = source;
+    verdict.model = judgement.model;
+    verdict.kind = judgement.kind;
+    verdict.dimensions = judgement.dimensions;
+    for (std::size_t i = 0; i < judgement.dimensions; ++i) {
+      verdict.innovation[i] = judgement.innovation[i];
+      verdict.innovation_sigma[i] = judgement.innovation_sigma[i];
+    }
+    verdict.test_ratio = judgement.test_ratio;
+    verdict.limit = judgement.limit;
+    ++verdict_count_;
+  }
+
+  Setup setup_;
+  ImuIntake intake_;
+  History history_;
+  Forecaster forecaster_;
+  NavState nav_;
+  Measurement incoming_;
+  std::uint64_t commands_ = 0;
+  std::vector<Name> names_;
+  std::vector<Verdict> verdicts_;
+  std::size_t first_verdict_ = 0;
+  std::size_t verdict_count_ = 0;
+  std::uint64_t dropped_ = 0;
+  std::optional<InitialState> pending_start_;
+};
+
+FusionEngine::FusionEngine(const EngineConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+FusionEngine::~FusionEngine() = default;
+FusionEngine::FusionEngine(FusionEngine&&) noexcept = default;
+FusionEngine& FusionEngine::operator=(FusionEngine&&) noexcept = default;
+
+bool FusionEngine::add(const ImuSample& sample) {
+  return impl_->add(sample);
+}
+void FusionEngine::add(const GpsSample& sample) {
+  impl_->add(sample, SourceKind::gps);
+}
+void FusionEngine::add(const DvlSample& sample) {
+  impl_->add(sample, SourceKind::dvl);
+}
+void FusionEngine::add(const DepthSample& sample) {
+  impl_->add(sample, SourceKind::depth);
+}
+void FusionEngine::add(const HeadingSample& sample) {
+  impl_->add(sample, SourceKind::heading);
+}
+void FusionEngine::add(const UsblSample& sample) {
+  impl_->add(sample, SourceKind::usbl);
+}
+void FusionEngine::add(const AirspeedSample& sample) {
+  impl_->add(sample, SourceKind::airspeed);
+}
+void FusionEngine::add(const PropulsionSample& sample) {
+  impl_->add(sample, SourceKind::propulsion);
+}
+void FusionEngine::add(const FinsSample& sample) {
+  impl_->add(sample, SourceKind::fins);
+}
+bool FusionEngine::apply(const Command& command) {
+  return impl_->apply(command);
+}
+void FusionEngine::start_from(const InitialState& state) {
+  impl_->start_from(state);
+}
+const NavState& FusionEngine::nav_state() const {
+  return impl_->nav_state();
+}
+bool FusionEngine::next_verdict(Verdict& verdict) {
+  return impl_->next_verdict(verdict);
+}
+std::uint64_t FusionEngine::verdicts_dropped() const {
+  return impl_->dropped();
+}
+void FusionEngine::fill(NavDetail& detail) const {
+  impl_->fill(detail);
+}
+void FusionEngine::fill(AlignmentStatus& status) const {
+  impl_->fill(status);
+}
+void FusionEngine::fill(Forecast& forecast) {
+  impl_->fill(forecast);
+}
+
+}  // namespace fathom::estimation

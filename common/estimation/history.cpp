@@ -1,0 +1,175 @@
+#include "estimation/history.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace fathom::estimation {
+namespace {
+
+std::size_t step_capacity(const EngineConfig& config) {
+  const double span = config.horizon_s + 2.0 * config.snapshot_interval_s;
+  return static_cast<std::size_t>(std::ceil(1.5 * span * config.imu.nominal_rate_hz)) + 64;
+}
+
+std::size_t snapshot_capacity(const EngineConfig& config) {
+  return static_cast<std::size_t>(std::ceil(config.horizon_s / config.snapshot_interval_s)) + 4;
+}
+
+}  // namespace
+
+History::History(const Setup& setup)
+    : setup_(&setup),
+      core_(setup),
+      steps_(step_capacity(setup.config)),
+      snapshots_(snapshot_capacity(setup.config), Snapshot{0, Core(setup)}),
+      pool_(setup.config.measurement_capacity),
+      order_(setup.config.measurement_capacity) {
+  for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint16_t>(i);
+}
+
+std::size_t History::first_after(TimeNs stamp_ns) const {
+  const auto begin = order_.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(event_count_);
+  const auto found = std::upper_bound(begin, end, stamp_ns, [this](TimeNs stamp, std::uint16_t place) {
+    return stamp < pool_[place].stamp_ns;
+  });
+  return static_cast<std::size_t>(found - begin);
+}
+
+History::Placing History::insert(const Measurement& measurement) {
+  if (!started_) return Placing::not_started;
+  const TimeNs newest = core_.now_ns();
+  const TimeNs stamp = measurement.stamp_ns;
+  if (stamp > newest + from_seconds(setup_->config.future_tolerance_s)) return Placing::from_the_future;
+  const TimeNs horizon = newest - from_seconds(setup_->config.horizon_s);
+  if (stamp < horizon || stamp <= snapshot(0).core.now_ns()) return Placing::late;
+  if (event_count_ == order_.size()) {
+    // Full: the oldest goes, and with it the snapshots before it, which could no longer be repeated truly.
+    std::size_t kept = 0;
+    while (kept < snapshot_count_ && snapshot(kept).core.now_ns() < event(0).stamp_ns) ++kept;
+    if (kept == snapshot_count_) return Placing::late;
+    const TimeNs floor = snapshot(kept).core.now_ns();
+    if (stamp <= floor || (dirty_ns_ != 0 && dirty_ns_ <= floor)) return Placing::late;
+    for (std::size_t i = 0; i < kept; ++i) drop_oldest_snapshot();
+    drop_before(floor);
+  }
+  const auto begin = order_.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(event_count_);
+  const auto key = measurement.key();
+  const auto place = std::lower_bound(
+      begin, end, key, [this](std::uint16_t one, const auto& wanted) { return pool_[one].key() < wanted; });
+  if (place != end && pool_[*place].key() == key) return Placing::duplicate;
+  const std::uint16_t slot = order_[event_count_];
+  pool_[slot] = measurement;
+  std::move_backward(place, end, end + 1);
+  *place = slot;
+  ++event_count_;
+  if (stamp <= newest && (dirty_ns_ == 0 || stamp < dirty_ns_)) dirty_ns_ = stamp;
+  return Placing::taken;
+}
+
+void History::advance(const ImuStep& step, VerdictSink& sink) {
+  steps_[steps_done_ % steps_.size()] = step;
+  const std::uint64_t target = steps_done_ + 1;
+  if (dirty_ns_ != 0) {
+    // Back to the newest snapshot before the earliest of the late events. insert() has seen to it that there
+    // is one.
+    while (snapshot_count_ > 1 && snapshot(snapshot_count_ - 1).core.now_ns() >= dirty_ns_) --snapshot_count_;
+    const Snapshot& from = snapshot(snapshot_count_ - 1);
+    repeated_steps_ += steps_done_ - from.after_step;
+    core_ = from.core;
+    steps_done_ = from.after_step;
+    saved_ns_ = core_.now_ns();
+    dirty_ns_ = 0;
+  }
+  while (steps_done_ < target) {
+    const ImuStep& next = steps_[steps_done_ % steps_.size()];
+    run(next, sink);
+    ++steps_done_;
+    const std::uint64_t unsaved = steps_done_ - snapshot(snapshot_count_ - 1).after_step;
+    if (core_.now_ns() - saved_ns_ >= from_seconds(setup_->config.snapshot_interval_s) ||
+        unsaved >= steps_.size() / 4)
+      save();
+    // A snapshot from which some step since is no longer held is of no use.
+    while (snapshot_count_ > 1 && steps_done_ - snapshot(0).after_step >= steps_.size()) {
+      drop_oldest_snapshot();
+      drop_before(snapshot(0).core.now_ns());
+    }
+  }
+}
+
+void History::run(const ImuStep& step, VerdictSink& sink) {
+  for (std::size_t rank = first_after(step.from_ns); rank < event_count_; ++rank) {
+    Measurement& one = event(rank);
+    if (one.stamp_ns > step.to_ns) break;
+    core_.advance(step, one.stamp_ns);
+    const Judgement judgement = core_.apply(one);
+    if (!one.judged && !one.command) sink.judged(one, judgement);
+    one.judged = true;
+  }
+  core_.advance(step, step.to_ns);
+  core_.finish(step);
+}
+
+void History::save() {
+  if (snapshot_count_ == snapshots_.size()) drop_oldest_snapshot();
+  Snapshot& slot = snapshot(snapshot_count_);
+  slot.after_step = steps_done_;
+  slot.core = core_;
+  ++snapshot_count_;
+  saved_ns_ = core_.now_ns();
+  drop_before(snapshot(0).core.now_ns());
+}
+
+void History::drop_oldest_snapshot() {
+  first_snapshot_ = (first_snapshot_ + 1) % snapshots_.size();
+  --snapshot_count_;
+}
+
+void History::drop_before(TimeNs stamp_ns) {
+  const std::size_t count = first_after(stamp_ns);
+  if (count == 0) return;
+  const auto begin = order_.begin();
+  std::rotate(begin, begin + static_cast<std::ptrdiff_t>(count),
+              begin + static_cast<std::ptrdiff_t>(event_count_));
+  event_count_ -= count;
+}
+
+void History::forget_past(VerdictSink& sink, VerdictKind verdict) {
+  Judgement unjudged;
+  unjudged.kind = verdict;
+  for (std::size_t rank = 0; rank < event_count_; ++rank)
+    if (!event(rank).judged && !event(rank).command) sink.judged(event(rank), unjudged);
+  event_count_ = 0;
+  snapshot_count_ = 0;
+  steps_done_ = 0;
+  dirty_ns_ = 0;
+}
+
+void History::begin(TimeNs now_ns) {
+  core_.rebase(now_ns, 0.0);
+  started_ = true;
+  save();
+}
+
+void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink) {
+  forget_past(sink, VerdictKind::not_aligned);
+  core_.start(initial, now_ns);
+  started_ = true;
+  save();
+}
+
+void History::rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink) {
+  forget_past(sink, VerdictKind::late);
+  core_.rebase(now_ns, unobserved_s);
+  save();
+}
+
+void History::clear(VerdictSink& sink) {
+  forget_past(sink, VerdictKind::not_aligned);
+  core_ = Core(*setup_);
+  started_ = false;
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "estimation/core.hpp"
+
+namespace fathom::estimation {
+
+/// Receives the judgements as they are made.
+class VerdictSink {
+ public:
+  virtual void judged(const Measurement& measurement, const Judgement& judgement) = 0;
+
+ protected:
+  ~VerdictSink() = default;
+};
+
+/// Keeps the inertial steps, events and snapshots of the last horizon_s and puts every event at its own
+/// instant. The state is a function of the sorted events alone: an event that comes late takes the navigator
+/// back to the newest snapshot before it, and everything since is applied again in the one order of
+/// Measurement::key(). All storage is made by the constructor.
+class History {
+ public:
+  enum class Placing : std::uint8_t { taken, late, duplicate, from_the_future, not_started };
+
+  explicit History(const Setup& setup);
+
+  [[nodiscard]] const Core& core() const { return core_; }
+  [[nodiscard]] bool started() const { return started_; }
+
+  /// Takes an event in; it acts with the next step.
+  Placing insert(const Measurement& measurement);
+  /// One inertial interval, with all the repetition that late events ask for.
+  void advance(const ImuStep& step, VerdictSink& sink);
+  /// Lets the present instant be this one, with no past.
+  void begin(TimeNs now_ns);
+  void begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink);
+  void rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink);
+  /// Back to before the first sample.
+  void clear(VerdictSink& sink);
+
+  /// Steps done again because of late events, since construction.
+  [[nodiscard]] std::uint64_t repeated_steps() const { return repeated_steps_; }
+
+ private:
+  struct Snapshot {
+    std::uint64_t after_step = 0;  ///< number of steps applied
+    Core core;
+  };
+
+  /// Events that have not acted yet get this verdict.
+  void forget_past(VerdictSink& sink, VerdictKind verdict);
+  void run(const ImuStep& step, VerdictSink& sink);
+  void save();
+  void drop_oldest_snapshot();
+  void drop_before(TimeNs stamp_ns);
+  [[nodiscard]] Snapshot& snapshot(std::size_t age_order) {
+    return snapshots_[(first_snapshot_ + age_order) % snapshots_.size()];
+  }
+  [[nodiscard]] Measurement& event(std::size_t rank) { return pool_[order_[rank]]; }
+  [[nodiscard]] std::size_t first_after(TimeNs stamp_ns) const;
+
+  const Setup* setup_;
+  Core core_;
+  bool started_ = false;
+  std::uint64_t steps_done_ = 0;
+  TimeNs dirty_ns_ = 0;  ///< earliest event that has not acted although its instant is past; 0: none
+  TimeNs saved_ns_ = 0;
+  std::vector<ImuStep> steps_;  ///< ring, by step number
+  std::vector<Snapshot> snapshots_;
+  std::size_t first_snapshot_ = 0;
+  std::size_t snapshot_count_ = 0;
+  std::vector<Measurement> pool_;
+  std::vector<std::uint16_t> order_;  ///< ranks to places in the pool; the first event_count_ are in use
+  std::size_t event_count_ = 0;
+  std::uint64_t repeated_steps_ = 0;
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <tuple>
+#include <variant>
+
+#include "samples/actuator.hpp"
+#include "samples/airspeed.hpp"
+#include "samples/command.hpp"
+#include "samples/depth.hpp"
+#include "samples/dvl.hpp"
+#include "samples/gps.hpp"
+#include "samples/heading.hpp"
+#include "samples/usbl.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::estimation {
+
+using AnySample = std::variant<Command, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
+                               AirspeedSample, PropulsionSample, FinsSample>;
+
+/// Something that happens to the filter at an instant: a measurement or an order.
+struct Measurement {
+  TimeNs stamp_ns = 0;   ///< validity, latency taken off
+  bool command = false;  ///< an order: no verdict
+  bool judged = false;   ///< its verdict has been given
+  SourceKind source = SourceKind::gps;
+  int sensor = -1;  ///< index in EngineConfig::sensors
+  std::uint64_t sequence = 0;
+  AnySample sample;
+
+  [[nodiscard]] const SampleHeader& header() const {
+    return std::visit([](const auto& s) -> const SampleHeader& { return s.header; }, sample);
+  }
+  /// The one order in which events are applied, whatever the order of their arrival. Orders come first.
+  [[nodiscard]] auto key() const {
+    return std::make_tuple(stamp_ns, command ? 0 : 1, static_cast<int>(source), sensor, sequence);
+  }
+};
+
+/// What the filter says to a measurement.
+struct Judgement {
+  VerdictKind kind = VerdictKind::not_aligned;
+  Name model;
+  std::uint32_t dimensions = 0;
+  std::array<double, 6> innovation{};
+  std::array<double, 6> innovation_sigma{};
+  double test_ratio = kUnknown;
+  double limit = kUnknown;
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "estimation/core.hpp"
+#include "samples/alignment_status.hpp"
+#include "samples/nav_detail.hpp"
+
+namespace fathom::estimation {
+
+/// What the navigator says of itself, as samples. Headers are left to the caller.
+void fill(const Setup& setup, const Core& core, NavState& out);
+void fill(const Setup& setup, const Core& core, NavDetail& out);
+void fill(const Setup& setup, const Core& core, AlignmentStatus& out);
+
+}  // namespace fathom::estimation

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "estimation/engine_config.hpp"
+
+namespace fathom::estimation {
+
+/// Room for error states. All storage is of this size; loops run over the active ones.
+inline constexpr int kMaxStates = 64;
+
+/// States that belong together, in the order in which they stand in the error vector. Everything from
+/// accel_bias to gyro_misalignment drives the navigation error (see error_dynamics.hpp); what follows is only
+/// seen by measurements.
+enum class Group : std::uint8_t {
+  position,
+  velocity,
+  attitude,
+  accel_bias,
+  gyro_bias,
+  accel_scale,
+  gyro_scale,
+  accel_misalignment,
+  gyro_misalignment,
+  dvl_scale,
+  dvl_scale_xyz,
+  dvl_misalignment,
+  dvl_bias,
+  current,
+  depth_bias,
+  surface_altitude,
+  heading_bias,
+  heading_deviation,
+  usbl_bias,
+  gps_position_bias,
+  log_scale,
+};
+inline constexpr int kGroups = 21;
+inline constexpr int kNavStates = 9;  ///< position, velocity, attitude
+
+[[nodiscard]] int group_size(Group group);
+
+/// Where each active group begins.
+class StateIndex {
+ public:
+  explicit StateIndex(const StateGroups& groups);
+
+  [[nodiscard]] int size() const { return size_; }
+  /// One past the last state that drives the navigation error.
+  [[nodiscard]] int imu_end() const { return imu_end_; }
+  /// Index of the group's first state, -1 when it is not estimated.
+  [[nodiscard]] int of(Group group) const { return start_[static_cast<std::size_t>(group)]; }
+  [[nodiscard]] bool has(Group group) const { return of(group) >= 0; }
+  /// E.g. "gyro_bias_x_rad_s" for a state index below size().
+  [[nodiscard]] std::string_view name(int state) const;
+
+ private:
+  std::array<int, kGroups> start_{};
+  int size_ = 0;
+  int imu_end_ = 0;
+};
+
+}  // namespace fathom::estimation
