@@ -221,6 +221,9 @@ void describe(Schema<SensorConfig>& s) {
   s.field("robust_parameter", &C::robust_parameter,
           "student_t: degrees of freedom; huber: threshold in sigmas")
       .range(0.1, 1e3);
+  s.field("robust_reject_ratio", &C::robust_reject_ratio,
+          "a robustly weighted measurement is refused all the same above this plain test ratio")
+      .range(1, 1e9);
   s.field("reacquire_s", &C::reacquire_s, "consistent rejections for this long are believed")
       .unit("s")
       .range(0, 1e6);
@@ -303,6 +306,19 @@ void describe(Schema<AlignmentConfig>& s) {
   s.field("timeout_s", &C::timeout_s, "waiting and averaging longer is reported as timed out")
       .unit("s")
       .range(1, 1e6);
+  s.field("position_given", &C::position_given, "start at the given position when no GPS fix is at hand");
+  s.field("given_latitude_deg", &C::given_latitude_rad, "for position_given")
+      .unit("deg")
+      .range(-90, 90)
+      .scaled(kRadPerDeg);
+  s.field("given_longitude_deg", &C::given_longitude_rad, "for position_given")
+      .unit("deg")
+      .range(-360, 360)
+      .scaled(kRadPerDeg);
+  s.field("given_altitude_m", &C::given_altitude_m,
+          "for position_given: height above the WGS-84 ellipsoid, up")
+      .unit("m")
+      .range(-12'000, 100'000);
   s.field("position_sigma_m", &C::position_sigma_m, "floor of a start position taken from GPS")
       .unit("m")
       .range(1e-3, 1e4);

@@ -35,8 +35,8 @@
 /// Any file may have t_received_s, the instant of arrival; without it a measurement arrives when it is valid.
 /// A missing file is a missing sensor. Other columns are ignored. A blank field or "nan" is unknown, except
 /// in t_s. Rows are sorted by t_s, or by t_received_s where that column exists; equal times are allowed (they
-/// are duplicates for the estimator to judge). `fix`: 0 none, 1 RTK fixed, 2 RTK float, 3 or 4 differential,
-/// 5 single, 6 precise point positioning.
+/// are duplicates for the estimator to judge). `fix`: 0 none, 1 RTK fixed, 2 RTK float,
+/// 3 or 4 differential, 5 and above an ordinary fix.
 namespace fathom::dataset {
 
 /// The folder or a file in it cannot be used. what() is "FILE:LINE: what is wrong, what was expected", or

@@ -7,15 +7,16 @@
 
 namespace fathom::dataset {
 
-/// The `fix` column: the quality numbers of post-processing tools (1 best), 0 for none. Nothing for any other
-/// number; unknown is taken as an ordinary fix.
+/// The `fix` column: 0 for none, else the quality numbers of post-processing tools (1 best). Recordings also
+/// use it for a count of satellites, so that every number from 5 on is taken as an ordinary fix, and so is a
+/// blank. Nothing for what is not a whole number from 0 to 99.
 [[nodiscard]] inline std::optional<GpsFix> fix_from_code(double code) {
   if (std::isnan(code)) return GpsFix::fix_3d;
   if (code == 0.0) return GpsFix::none;
   if (code == 1.0) return GpsFix::rtk_fixed;
   if (code == 2.0) return GpsFix::rtk_float;
-  if (code == 3.0 || code == 4.0 || code == 6.0) return GpsFix::differential;
-  if (code == 5.0) return GpsFix::fix_3d;
+  if (code == 3.0 || code == 4.0) return GpsFix::differential;
+  if (code >= 5.0 && code <= 99.0 && code == std::floor(code)) return GpsFix::fix_3d;
   return std::nullopt;
 }
 

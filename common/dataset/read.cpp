@@ -121,7 +121,8 @@ void read_rows(SensorFile& file, std::vector<GpsSample>& out) {
     if (count >= 0.0 && count < 1000.0) sample.satellites = static_cast<std::int32_t>(count);
     const auto quality = fix_from_code(csv.number(fix));
     if (!quality) {
-      csv.fail("column fix: '" + std::string(csv.text(fix)) + "' is not a fix quality, expected 0 to 6");
+      csv.fail("column fix: '" + std::string(csv.text(fix)) +
+               "' is not a fix quality, expected a whole number from 0");
     }
     // Without a position there is no fix, whatever the column says; a blank column vouches for the position.
     const bool has_position = known(sample.latitude_rad) && known(sample.longitude_rad);

@@ -31,7 +31,9 @@ std::string error_of_reading(const TemporaryFolder& folder) {
 TEST(ReadDataset, GivesEverySensorItsUnitsAndTimes) {
   const TemporaryFolder folder;
   folder.file("imu.csv", kImuHeader + "1.0000,0.1,0.2,0.3,1,2,-9.8\n1.0100,,nan,0.3,1,2,+9.8\n");
-  folder.file("gps.csv", kGpsHeader + "-2.5010,40.5,-105.25,1601.4,0.01,0.02,0.03,1,2,3,1\n0,,,,,,,,,,0\n");
+  folder.file("gps.csv", kGpsHeader +
+                             "-2.5010,40.5,-105.25,1601.4,0.01,0.02,0.03,1,2,3,1\n0,,,,,,,,,,0\n1,40,-105,,,,"
+                             ",,,,9\n2,40,-105,,,,,,,,\n");
   folder.zipped("dvl.csv.gz",
                 "t_s,vx_m_s,vy_m_s,vz_m_s,extra,valid,mode,b1_m_s,b2_m_s,b3_m_s,b4_m_s,t_received_s\n"
                 "2,1.5,-0.5,0.25,what ever,1,bottom,1,2,,4,2.25\n3,1,1,1,,0,water,,,,,3.5\n");
@@ -59,7 +61,7 @@ TEST(ReadDataset, GivesEverySensorItsUnitsAndTimes) {
   EXPECT_FALSE(known(data.imu[1].angular_rate_B_rad_s[1]));
   EXPECT_EQ(data.imu[1].specific_force_B_m_s2[2], 9.8);
 
-  ASSERT_EQ(data.gps.size(), 2U);
+  ASSERT_EQ(data.gps.size(), 4U);
   EXPECT_EQ(data.gps[0].header.stamp_ns, epoch - 2'501'000'000);
   EXPECT_DOUBLE_EQ(data.gps[0].latitude_rad, 40.5 * kRadPerDeg);
   EXPECT_DOUBLE_EQ(data.gps[0].longitude_rad, -105.25 * kRadPerDeg);
@@ -68,6 +70,8 @@ TEST(ReadDataset, GivesEverySensorItsUnitsAndTimes) {
   EXPECT_EQ(data.gps[0].velocity_N_m_s[1], 2.0);
   EXPECT_EQ(data.gps[0].satellites, -1);
   EXPECT_EQ(data.gps[1].fix, GpsFix::none);
+  EXPECT_EQ(data.gps[2].fix, GpsFix::fix_3d);
+  EXPECT_EQ(data.gps[3].fix, GpsFix::fix_3d);
 
   ASSERT_EQ(data.dvl.size(), 2U);
   EXPECT_EQ(data.dvl[0].header.received_ns, epoch + 2'250'000'000);
@@ -153,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "gps.csv:2: column lat_deg: latitude"},
         BadFile{"longitude", "gps.csv", kGpsHeader + "0,1,500,0,,,,,,,1\n",
                 "gps.csv:2: column lon_deg: longitude"},
-        BadFile{"fix", "gps.csv", kGpsHeader + "0,1,2,0,,,,,,,17\n", "gps.csv:2: column fix: '17'"},
+        BadFile{"fix", "gps.csv", kGpsHeader + "0,1,2,0,,,,,,,1.5\n", "gps.csv:2: column fix: '1.5'"},
         BadFile{"valid", "dvl.csv", "t_s,vx_m_s,vy_m_s,vz_m_s,valid\n0,1,1,1,2\n",
                 "dvl.csv:2: column valid: '2'"},
         BadFile{"mode", "dvl.csv", "t_s,vx_m_s,vy_m_s,vz_m_s,mode\n0,1,1,1,air\n",
