@@ -1,0 +1,42 @@
+#include "demo/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+namespace fathom::demo {
+
+Parsed parse(int argc, char** argv) {
+  Parsed out;
+  Options& options = out.options;
+  CLI::App app{
+      "Shows a vehicle navigating: simulated instruments, bridges, fusion, monitor and guidance over DDS.\n"
+      "Exit code 0 only if every service stayed healthy and the scenario's limits held."};
+  app.name("deploy/demo");
+  auto* scenario = app.add_option("--scenario", options.scenario, "name of a file in deploy/config/scenarios")
+                       ->capture_default_str();
+  auto* dataset =
+      app.add_option("--dataset", options.dataset, "play this recorded vehicle through the same bridges")
+          ->check(CLI::ExistingDirectory)
+          ->excludes(scenario);
+  app.add_option("--config", options.config, "fusion configuration for --dataset")
+      ->check(CLI::ExistingFile)
+      ->needs(dataset);
+  app.add_option("--duration", options.duration_s,
+                 "vehicle seconds; default: as the scenario or the data set says")
+      ->check(CLI::Range(1.0, 1e6));
+  app.add_option("--speed", options.speed, "vehicle seconds per second")->check(CLI::Range(0.1, 100.0));
+  app.add_option("--report", options.report, "write the report to this file");
+  app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230));
+  app.add_flag("--console,!--no-console", options.console,
+               "with the operator console, where this build has one");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& answered) {
+    out.exit = app.exit(answered);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    out.exit = static_cast<int>(ExitCode::bad_configuration);
+  }
+  return out;
+}
+
+}  // namespace fathom::demo

@@ -1,0 +1,175 @@
+#include "demo/plan.hpp"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "base/clock.hpp"
+#include "config/monitor_config.hpp"
+#include "config/scenario_config.hpp"
+#include "config/scenario_wiring.hpp"
+#include "config/service_config.hpp"
+#include "dataset/dataset.hpp"
+#include "demo/recording.hpp"
+#include "sim/device_encoder.hpp"
+
+namespace fathom::demo {
+namespace {
+
+using nlohmann::json;
+using Sets = std::vector<std::string>;
+
+// Serial number of the demonstration's own network ports: two domains, two demonstrations side by side.
+constexpr int kPortsPerDomain = 16;
+
+// Host seconds that services get to find each other before a recording is played.
+constexpr double kStartUpS = 8.0;
+
+struct Places {
+  std::filesystem::path executables;
+  std::filesystem::path config;
+};
+
+Places find_places() {
+  // The scenarios are found beside the executable or where installed; the services' files lie one folder up.
+  return {std::filesystem::read_symlink("/proc/self/exe").parent_path(),
+          std::filesystem::path(config::scenario_directory()).parent_path()};
+}
+
+class Builder {
+ public:
+  Builder(const Options& options, Plan& plan) : places_(find_places()), plan_(plan) {
+    common_.push_back("bus.domain=" + std::to_string(options.domain));
+    if (options.speed != 1.0) {
+      plan.epoch_ns = SystemClock().utc_ns();
+      common_.push_back("clock.rate=" + json(options.speed).dump());
+      common_.push_back("clock.epoch_ns=" + std::to_string(plan.epoch_ns));
+    }
+  }
+
+  [[nodiscard]] std::filesystem::path file(const std::string& service) const {
+    return places_.config / (service + ".json");
+  }
+
+  void add(const std::string& service, const Sets& sets, const std::filesystem::path& configuration = {}) {
+    std::string executable = "fathom-" + service;
+    std::replace(executable.begin(), executable.end(), '_', '-');
+    Program program{service, places_.executables / executable, {}};
+    program.arguments = {"--config", configuration.empty() ? file(service).string() : configuration.string()};
+    const auto append = [&program](const Sets& list) {
+      for (const std::string& set : list) {
+        program.arguments.emplace_back("--set");
+        program.arguments.push_back(set);
+      }
+    };
+    append(common_);
+    append(sets);
+    plan_.programs.push_back(std::move(program));
+    plan_.demands.services.push_back(service);
+  }
+
+  [[nodiscard]] const Places& places() const { return places_; }
+
+ private:
+  Places places_;
+  Plan& plan_;
+  Sets common_;
+};
+
+// What the monitor has to expect of this vehicle: every service but itself, every instrument that is always
+// heard.
+Sets monitor_sets(const Plan& plan, const sim::Scenario& scenario, const std::vector<std::string>& bridges,
+                  const Sets& scenario_sets) {
+  json sensors = json::array();
+  for (const char* kind : {"imu", "dvl", "gps", "depth", "heading"}) {
+    const sim::SensorCommon& sensor = *sim::find_sensor(scenario.sensors, kind);
+    if (std::find(bridges.begin(), bridges.end(), kind) == bridges.end() || !sensor.enabled) continue;
+    json entry = {{"name", kind}, {"kind", kind}, {"rate_hz", sensor.rate_hz}};
+    if (std::string_view(kind) == "imu") entry["severity"] = "critical";
+    sensors.push_back(std::move(entry));
+  }
+  json services = json::array();
+  for (const std::string& name : plan.demands.services) {
+    json entry = {{"name", name}};
+    if (name == "fusion" || name == "imu_bridge") entry["severity"] = "critical";
+    services.push_back(std::move(entry));
+  }
+  Sets out{"sensors=" + sensors.dump(), "services=" + services.dump(),
+           "navigation.rate_hz=" + json(scenario.sensors.imu.rate_hz).dump()};
+  if (std::find(bridges.begin(), bridges.end(), "gps") == bridges.end())
+    out.emplace_back("gps.expected=false");
+  out.insert(out.end(), scenario_sets.begin(), scenario_sets.end());
+  return out;
+}
+
+}  // namespace
+
+Plan make_plan(const Options& options, const std::filesystem::path& run_directory) {
+  Plan plan;
+  Builder builder(options, plan);
+  // A recorded vehicle's instruments get the devices of the survey scenario.
+  sim::Scenario scenario = config::load_scenario({config::scenario_file(options.scenario), {}});
+  const config::Wiring wiring{(run_directory / "devices").string(), options.domain * kPortsPerDomain};
+  Sets simulator{"link_dir=" + wiring.link_dir, "port_offset=" + std::to_string(wiring.port_offset)};
+  Sets fusion;
+  std::filesystem::path fusion_file;
+  std::vector<std::string> bridges = scenario.bridges;
+
+  if (options.dataset.empty()) {
+    plan.title = scenario.name;
+    plan.duration_s = options.duration_s > 0.0 ? options.duration_s : scenario.duration_s;
+    plan.demands.limits = scenario.limits;
+    plan.demands.whole_run = true;
+    simulator.push_back("scenario=" + scenario.name);
+  } else {
+    const Recording recording = describe_recording(options.dataset, options.config, builder.places().config);
+    scenario.services.clear();
+    scenario.sensors.imu.rate_hz = recording.imu_rate_hz;
+    scenario.sensors.gps.rate_hz = recording.rate_hz("gps", scenario.sensors.gps.rate_hz);
+    scenario.sensors.dvl.rate_hz = recording.rate_hz("dvl", scenario.sensors.dvl.rate_hz);
+    scenario.sensors.depth.rate_hz = recording.rate_hz("depth", scenario.sensors.depth.rate_hz);
+    scenario.sensors.heading.rate_hz = recording.rate_hz("heading", scenario.sensors.heading.rate_hz);
+    plan.title = std::filesystem::path(options.dataset).lexically_normal().string();
+    plan.duration_s = options.duration_s > 0.0 ? options.duration_s : recording.duration_s;
+    plan.demands.limits = {};
+    plan.demands.limits.horizontal_rms_m = kUnknown;
+    plan.demands.end_error_share = recording.end_error_limit;
+    plan.demands.gps_expected = recording.has("gps");
+    bridges = recording.bridges;
+    fusion_file = recording.fusion_file;
+    // The recording begins when every service has had time to come up; fusion starts from the reference
+    // there.
+    const TimeNs now_ns = plan.epoch_ns != 0 ? plan.epoch_ns : SystemClock().utc_ns();
+    const TimeNs start_ns = now_ns + from_seconds(kStartUpS * options.speed);
+    plan.duration_s += kStartUpS * options.speed;
+    simulator.push_back("scenario=" + scenario.name);
+    simulator.push_back("dataset=" + std::filesystem::absolute(options.dataset).string());
+    simulator.push_back("epoch_ns=" + std::to_string(start_ns));
+    fusion = start_sets(recording, start_ns);
+  }
+
+  auto overrides = config::service_overrides(scenario, wiring);
+  const Sets& scenario_fusion = overrides["fusion"];
+  fusion.insert(fusion.end(), scenario_fusion.begin(), scenario_fusion.end());
+
+  for (const std::string& kind : bridges) builder.add(kind + "_bridge", overrides[kind + "_bridge"]);
+  builder.add("fusion", fusion, fusion_file);
+  builder.add("guidance_example", overrides["guidance_example"]);
+  builder.add("simulator", simulator);
+  const Sets monitor = monitor_sets(plan, scenario, bridges, overrides["monitor"]);
+  builder.add("monitor", monitor);
+  // The simulator last: instruments speak when everyone listens.
+  const auto simulator_at = std::find_if(plan.programs.begin(), plan.programs.end(),
+                                         [](const Program& program) { return program.name == "simulator"; });
+  std::rotate(simulator_at, simulator_at + 1, plan.programs.end());
+
+  const auto monitor_config =
+      config::load_service_config<config::MonitorConfig>({builder.file("monitor").string(), monitor});
+  plan.observer.gps_limit_s = monitor_config.value.health.gps.outage.limit_s;
+  plan.observer.score_from_s = plan.demands.limits.score_from_s;
+  plan.demands.gps_limit_s = plan.observer.gps_limit_s;
+  plan.demands.nav_rate_hz = scenario.sensors.imu.rate_hz;
+  return plan;
+}
+
+}  // namespace fathom::demo

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/time.hpp"
+#include "demo/observer.hpp"
+#include "demo/options.hpp"
+#include "demo/report.hpp"
+#include "demo/supervisor.hpp"
+
+namespace fathom::demo {
+
+/// Everything that a run consists of, worked out before anything starts.
+struct Plan {
+  std::string title;              ///< scenario name, or the data set's folder
+  double duration_s = 0.0;        ///< vehicle time
+  TimeNs epoch_ns = 0;            ///< UTC at which an accelerated clock starts; 0: the host's own clock
+  std::vector<Program> programs;  ///< in the order of their start
+  Observer::Options observer;
+  Demands demands;
+};
+
+/// `run_directory`: for pseudo-terminals and logs. Throws config::ConfigError or dataset::DatasetError.
+[[nodiscard]] Plan make_plan(const Options& options, const std::filesystem::path& run_directory);
+
+}  // namespace fathom::demo
