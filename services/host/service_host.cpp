@@ -66,11 +66,11 @@ std::string event_text(const bus::BusEvent& event) {
 }
 
 void append_bus_counters(const bus::BusCounters& counters, ServiceStatus& status) {
-  const std::pair<const char*, std::uint64_t> all[] = {{"bus_incompatible_qos", counters.incompatible_qos},
-                                                       {"bus_deadline_missed", counters.deadline_missed},
-                                                       {"bus_writer_lost", counters.writer_lost},
-                                                       {"bus_sample_lost", counters.sample_lost},
-                                                       {"bus_write_failed", counters.write_failed}};
+  const std::pair<const char*, std::uint64_t> all[] = {
+      {"bus_incompatible_qos", counters.incompatible_qos}, {"bus_deadline_missed", counters.deadline_missed},
+      {"bus_writer_lost", counters.writer_lost},           {"bus_sample_lost", counters.sample_lost},
+      {"bus_write_failed", counters.write_failed},         {"bus_resource_limit", counters.resource_limit},
+      {"bus_invalid_sample", counters.invalid_sample}};
   // The bus's counters are the same for every service and must not be crowded out.
   status.counters.resize(std::min(status.counters.size(), kMostCounters - std::size(all)));
   for (const auto& [name, value] : all) status.counters.push_back({name, value});
