@@ -1,0 +1,172 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.hpp"
+#include "cli/solve_metrics.hpp"
+#include "cli/solve_outage.hpp"
+#include "cli/solve_run.hpp"
+#include "config/fusion_config.hpp"
+#include "dataset/dataset.hpp"
+#include "dataset/nav_csv.hpp"
+#include "dataset/score.hpp"
+
+namespace fathom::cli {
+namespace {
+
+struct SolveOptions {
+  std::string directory;
+  std::string config;
+  std::vector<std::string> sets;
+  std::string out;
+  std::string metrics;
+  std::string outages;
+  std::string start;
+  double rate_hz = 0.0;
+  bool smooth = false;
+  bool json = false;
+};
+
+// Passes every n-th state so that rows come at a steady rate; all of them at rate 0.
+class Thinning {
+ public:
+  explicit Thinning(double rate_hz) : period_ns_(rate_hz > 0.0 ? from_seconds(1.0 / rate_hz) : 0) {}
+  bool pass(TimeNs stamp_ns) {
+    if (period_ns_ == 0) return true;
+    if (next_ns_ && stamp_ns < *next_ns_) return false;
+    const TimeNs due_ns = next_ns_.value_or(stamp_ns);
+    // The grid stays where it began; a gap does not cause a burst behind it.
+    next_ns_ = due_ns + period_ns_ * ((stamp_ns - due_ns) / period_ns_ + 1);
+    return true;
+  }
+
+ private:
+  DurationNs period_ns_;
+  std::optional<TimeNs> next_ns_;
+};
+
+dataset::Dataset read_dataset(const std::string& directory, const config::FusionConfig& config) {
+  dataset::Dataset data;
+  try {
+    data = dataset::read(directory, {dataset::kDefaultEpochNs, Name(config.common.vehicle)});
+  } catch (const dataset::DatasetError& error) {
+    throw Failure(ExitCode::bad_input, error.what());
+  }
+  if (data.imu.empty()) {
+    throw Failure(ExitCode::bad_input,
+                  directory + "/imu.csv: no inertial samples, expected at least one row");
+  }
+  adopt_sensor_names(data, config);
+  return data;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written: " + std::strerror(errno));
+}
+
+SolveReport solve(const SolveOptions& options) {
+  if (options.smooth) {
+    throw Failure(ExitCode::bad_configuration, "--smooth: the smoother is not available in this version");
+  }
+  std::optional<OutageRequest> outages;
+  if (!options.outages.empty()) outages = parse_outages(options.outages);
+
+  config::LoadedConfig<config::FusionConfig> loaded;
+  try {
+    loaded = config::load_service_config<config::FusionConfig>({options.config, options.sets});
+  } catch (const config::ConfigError& error) {
+    throw Failure(ExitCode::bad_configuration, error.what());
+  }
+  const dataset::Dataset data = read_dataset(options.directory, loaded.value);
+  const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
+
+  Passage passage;
+  passage.config = &loaded.value;
+  passage.data = &data;
+  passage.arrivals = &arrivals;
+  passage.label = "solve";
+  if (options.start == "reference")
+    passage.start = start_from_reference(data, loaded.value, options.directory);
+  if (outages) {
+    passage.gps_removed = first_windows(data, *outages, dataset::kDefaultEpochNs, options.directory);
+  }
+
+  const dataset::TruthTrack truth(data.reference);
+  dataset::Scorer scorer;
+  dataset::NavCsv csv(options.out, dataset::kDefaultEpochNs);
+  Thinning rows(options.rate_hz);
+  passage.on_state = [&](const NavState& state, estimation::FusionEngine&) {
+    // The file begins with the first position.
+    if (!known(state.latitude_rad)) return;
+    if (rows.pass(state.header.stamp_ns)) csv.add(state);
+    if (state.mode == NavMode::none || state.mode == NavMode::aligning) return;
+    if (const auto at = truth.at(state.header.stamp_ns)) scorer.add(dataset::error_of(state, *at));
+  };
+
+  SolveReport report;
+  report.dataset = options.directory;
+  report.config = options.config;
+  report.config_hash = loaded.hash;
+  report.start = passage.start ? "reference" : "configured";
+  report.passage = run(passage);
+  csv.close();
+  report.score = scorer.score();
+  if (report.score.count > 0)
+    report.distance_m = truth.distance_m(report.score.first_ns, report.score.last_ns);
+  if (outages) report.outages = run_outages(passage, *outages, dataset::kDefaultEpochNs, options.directory);
+  return report;
+}
+
+}  // namespace
+
+void add_solve(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<SolveOptions>();
+  CLI::App* command =
+      app.add_subcommand("solve", "Run a recorded data set through the fusion engine, offline.");
+  command
+      ->add_option("directory", options->directory,
+                   "data set: a folder with imu.csv and others, plain or .gz")
+      ->required();
+  command->add_option("--config", options->config, "configuration of the fusion service")->required();
+  command->add_option("--set", options->sets, "override: key.sub=value, may be repeated")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--out", options->out, "navigation solution (CSV); compressed when the name ends in .gz")
+      ->required();
+  command->add_option("--metrics", options->metrics,
+                      "errors against the reference, consistency, verdicts, timing (JSON)");
+  command->add_option(
+      "--gps-outage", options->outages,
+      "T1,T2,...[@start[:recover]]: remove GPS for T s at a time from `start` on (seconds of the data "
+      "set; default 60 s after motion begins), with `recover` s of GPS in between (default 40), and "
+      "compare with the removed fixes, pooled over start, +13, +26 and +39 s; the solution written is "
+      "that of the first duration and start");
+  command->add_option("--start", options->start, "\"reference\": from the first row of reference.csv")
+      ->check(CLI::IsMember({"reference"}));
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "rows per second of the solution; one per inertial sample otherwise")
+      ->check(CLI::Range(1e-3, 1e5));
+  command->add_flag("--smooth", options->smooth, "smooth backwards in time after filtering");
+  command->add_flag("--json", options->json, "print the metrics as JSON");
+  command->callback([options, &exit_code] {
+    const SolveReport report = solve(*options);
+    if (!options->metrics.empty()) write_text(options->metrics, to_json(report));
+    std::fputs((options->json ? to_json(report) : to_text(report)).c_str(), stdout);
+    if (report.passage.nav_states == 0) exit_code = ExitCode::no;
+  });
+}
+
+}  // namespace fathom::cli

@@ -1,0 +1,158 @@
+#include "cli/solve_metrics.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/build_info.hpp"
+
+namespace fathom::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+json number(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json figures(const dataset::ErrorFigures& f, double factor = 1.0) {
+  return {{"rms", number(f.rms * factor)},
+          {"p95", number(f.p95 * factor)},
+          {"max", number(f.max * factor)},
+          {"end", number(f.end * factor)}};
+}
+
+json figures3(const std::array<dataset::ErrorFigures, 3>& f, const std::array<const char*, 3>& names,
+              double factor = 1.0) {
+  json out = json::object();
+  for (std::size_t i = 0; i < 3; ++i) out[names[i]] = figures(f[i], factor);
+  return out;
+}
+
+json nees(const dataset::Nees& n) {
+  return {{"degrees_of_freedom", n.dof},
+          {"mean", number(n.mean)},
+          {"band_95", {n.band_95[0], n.band_95[1]}},
+          {"inside_band", number(n.inside)},
+          {"count", n.count}};
+}
+
+json verdicts(const VerdictCounts& counts) {
+  json out = json::object();
+  for (const auto& [source, kinds] : counts) {
+    json& entry = out[std::string(to_string(source))];
+    for (std::size_t i = 0; i < kVerdictKinds; ++i) {
+      entry[std::string(to_string(static_cast<VerdictKind>(i)))] = kinds[i];
+    }
+  }
+  return out;
+}
+
+json outage(const OutageFigures& f) {
+  json list = json::array();
+  for (const OutageWindow& window : f.windows) {
+    json limits = json::object();
+    for (const auto& [name, time_s] : window.time_to_limit_s) limits[name] = number(time_s);
+    list.push_back({{"start_s", number(window.start_s)},
+                    {"end_s", number(window.end_s)},
+                    {"horizontal_error_m", number(window.horizontal_error_m)},
+                    {"predicted_95_m", number(window.predicted_95_m)},
+                    {"forecast_95_m", number(window.forecast_95_m)},
+                    {"forecast_time_to_limit_s", limits}});
+  }
+  return {
+      {"duration_s", f.duration_s},
+      {"count", f.windows.size()},
+      {"horizontal_error_m", {{"rms", number(f.rms_m)}, {"p95", number(f.p95_m)}, {"max", number(f.max_m)}}},
+      {"windows", list}};
+}
+
+double percent(double part, double whole) {
+  return whole > 0.0 ? 100.0 * part / whole : kUnknown;
+}
+
+double us_per_sample(const PassageResult& passage) {
+  return passage.imu_samples > 0 ? 1e6 * passage.wall_s / static_cast<double>(passage.imu_samples) : kUnknown;
+}
+
+template <class... Arguments>
+std::string line(const char* format, Arguments... arguments) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, arguments...);
+  return std::string(text.data()) + "\n";
+}
+
+}  // namespace
+
+std::string to_json(const SolveReport& report) {
+  json out;
+  out["dataset"] = report.dataset;
+  out["config"] = report.config;
+  out["config_hash"] = report.config_hash;
+  out["version"] = std::string(runtime::version());
+  out["start"] = report.start;
+  out["imu_samples"] = report.passage.imu_samples;
+  out["nav_states"] = report.passage.nav_states;
+  out["wall_time_s"] = report.passage.wall_s;
+  out["time_per_imu_sample_us"] = number(us_per_sample(report.passage));
+  out["verdicts"] = verdicts(report.passage.verdicts);
+  const dataset::Score& score = report.score;
+  out["scored"] = score.count;
+  if (score.count > 0) {
+    out["scored_s"] = to_seconds(score.last_ns - score.first_ns);
+    out["distance_m"] = number(report.distance_m);
+    out["horizontal_error_m"] = figures(score.horizontal_m);
+    out["position_error_m"] = figures3(score.position_N_m, {"north", "east", "down"});
+    out["distance_3d_error_m"] = figures(score.distance_3d_m);
+    out["velocity_error_m_s"] = figures3(score.velocity_N_m_s, {"north", "east", "down"});
+    out["attitude_error_deg"] = figures3(score.rpy_rad, {"roll", "pitch", "yaw"}, kDegPerRad);
+    out["horizontal_error_percent"] = {{"end", number(percent(score.horizontal_m.end, report.distance_m))},
+                                       {"rms", number(percent(score.horizontal_m.rms, report.distance_m))},
+                                       {"max", number(percent(score.horizontal_m.max, report.distance_m))}};
+    out["nees"] = {{"horizontal", nees(score.nees_horizontal)},
+                   {"position", nees(score.nees_position)},
+                   {"velocity", nees(score.nees_velocity)}};
+  }
+  if (!report.outages.empty()) {
+    out["gps_outages"] = json::array();
+    for (const OutageFigures& f : report.outages) out["gps_outages"].push_back(outage(f));
+  }
+  return out.dump(2) + "\n";
+}
+
+std::string to_text(const SolveReport& report) {
+  std::string out = line("%s: %llu inertial samples in %.2f s, %.1f us each", report.dataset.c_str(),
+                         static_cast<unsigned long long>(report.passage.imu_samples), report.passage.wall_s,
+                         us_per_sample(report.passage));
+  for (const auto& [source, kinds] : report.passage.verdicts) {
+    std::string words = std::string(to_string(source)) + ":";
+    for (std::size_t i = 0; i < kVerdictKinds; ++i) {
+      if (kinds[i] == 0) continue;
+      words += " " + std::to_string(kinds[i]) + " " + std::string(to_string(static_cast<VerdictKind>(i)));
+    }
+    out += words + "\n";
+  }
+  const dataset::Score& score = report.score;
+  if (score.count > 0) {
+    out += line("horizontal error: rms %.2f m, 95 %% %.2f m, end %.2f m, %.3f %% of %.0f m",
+                score.horizontal_m.rms, score.horizontal_m.p95, score.horizontal_m.end,
+                percent(score.horizontal_m.end, report.distance_m), report.distance_m);
+    out += line("attitude error rms: roll %.3f, pitch %.3f, yaw %.3f deg", score.rpy_rad[0].rms * kDegPerRad,
+                score.rpy_rad[1].rms * kDegPerRad, score.rpy_rad[2].rms * kDegPerRad);
+    out += line("horizontal NEES %.2f, consistent from %.2f to %.2f", score.nees_horizontal.mean,
+                score.nees_horizontal.band_95[0], score.nees_horizontal.band_95[1]);
+  }
+  for (const OutageFigures& f : report.outages) {
+    out +=
+        line("GPS outage %g s: horizontal error at its end rms %.2f m, 95 %% %.2f m, max %.2f m, %zu windows",
+             f.duration_s, f.rms_m, f.p95_m, f.max_m, f.windows.size());
+  }
+  return out;
+}
+
+}  // namespace fathom::cli

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/solve_outage.hpp"
+#include "cli/solve_run.hpp"
+#include "dataset/score.hpp"
+
+namespace fathom::cli {
+
+/// Everything that `fathom solve` found out.
+struct SolveReport {
+  std::string dataset;
+  std::string config;
+  std::string config_hash;
+  std::string start;  ///< "configured" or "reference"
+  PassageResult passage;
+  dataset::Score score;          ///< against the reference; count 0 without one
+  double distance_m = kUnknown;  ///< horizontal, of the reference while it was scored
+  std::vector<OutageFigures> outages;
+};
+
+/// metrics.json, indented, with a line end. Unknown figures are null.
+[[nodiscard]] std::string to_json(const SolveReport& report);
+
+/// A few lines for a person.
+[[nodiscard]] std::string to_text(const SolveReport& report);
+
+}  // namespace fathom::cli

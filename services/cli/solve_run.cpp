@@ -1,0 +1,111 @@
+#include "cli/solve_run.hpp"
+
+#include <algorithm>
+#include <type_traits>
+
+#include "base/clock.hpp"
+#include "base/unknown.hpp"
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "estimation/fusion_engine.hpp"
+
+namespace fathom::cli {
+namespace {
+
+bool removed(const Passage& passage, TimeNs stamp_ns) {
+  return std::any_of(passage.gps_removed.begin(), passage.gps_removed.end(),
+                     [stamp_ns](const GpsWindow& window) { return window.contains(stamp_ns); });
+}
+
+template <class T>
+void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig& config) {
+  for (const estimation::SensorConfig& sensor : config.engine.sensors) {
+    if (sensor.kind != kind) continue;
+    for (T& sample : stream) sample.header.sensor = sensor.sensor;
+    return;
+  }
+}
+
+}  // namespace
+
+PassageResult run(const Passage& passage) {
+  estimation::FusionEngine engine(config::engine_config(*passage.config));
+  if (passage.start) {
+    engine.start_from(*passage.start);
+  } else if (passage.config->start.mode == estimation::StartMode::given) {
+    engine.start_from(config::initial_state(*passage.config));
+  }
+  PassageResult result;
+  Progress progress(passage.label, passage.arrivals->size());
+  const SystemClock clock;
+  const TimeNs begin_ns = clock.monotonic_ns();
+  Verdict verdict;
+  std::uint64_t done = 0;
+  for (const dataset::Arrival& arrival : *passage.arrivals) {
+    progress.update(++done);
+    dataset::visit(*passage.data, arrival, [&](const auto& sample) {
+      using Sample = std::decay_t<decltype(sample)>;
+      if constexpr (std::is_same_v<Sample, ImuSample>) {
+        ++result.imu_samples;
+        if (engine.add(sample)) {
+          ++result.nav_states;
+          if (passage.on_state) passage.on_state(engine.nav_state(), engine);
+        }
+      } else {
+        if (std::is_same_v<Sample, GpsSample> && removed(passage, sample.header.stamp_ns)) return;
+        engine.add(sample);
+      }
+    });
+    while (engine.next_verdict(verdict))
+      ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+  }
+  result.wall_s = to_seconds(clock.monotonic_ns() - begin_ns);
+  return result;
+}
+
+void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config) {
+  rename(data.gps, SourceKind::gps, config);
+  rename(data.dvl, SourceKind::dvl, config);
+  rename(data.depth, SourceKind::depth, config);
+  rename(data.heading, SourceKind::heading, config);
+  rename(data.usbl, SourceKind::usbl, config);
+  rename(data.airspeed, SourceKind::airspeed, config);
+  rename(data.propulsion, SourceKind::propulsion, config);
+  rename(data.fins, SourceKind::fins, config);
+}
+
+estimation::InitialState start_from_reference(const dataset::Dataset& data,
+                                              const config::FusionConfig& config,
+                                              const std::string& directory) {
+  const TimeNs first_ns = data.imu.front().header.stamp_ns;
+  const auto row = std::find_if(data.reference.begin(), data.reference.end(),
+                                [first_ns](const Truth& truth) { return truth.header.stamp_ns >= first_ns; });
+  const std::string file = directory + "/reference.csv: ";
+  if (row == data.reference.end()) {
+    throw Failure(ExitCode::bad_input,
+                  file + "no row at or after the first inertial sample, expected one to start from");
+  }
+  estimation::InitialState state;
+  state.stamp_ns = row->header.stamp_ns;
+  state.latitude_rad = row->latitude_rad;
+  state.longitude_rad = row->longitude_rad;
+  state.altitude_m = row->altitude_m;
+  state.velocity_N_m_s = row->velocity_N_m_s;
+  state.rpy_rad = row->rpy_rad;
+  state.position_sigma_N_m = config.start.sigma.position_N_m;
+  state.velocity_sigma_N_m_s = config.start.sigma.velocity_N_m_s;
+  state.attitude_sigma_rad = config.start.sigma.attitude_rad;
+  bool complete = known(state.latitude_rad) && known(state.longitude_rad) && known(state.altitude_m);
+  for (std::size_t i = 0; i < 3; ++i)
+    complete = complete && known(state.velocity_N_m_s[i]) && known(state.rpy_rad[i]);
+  if (!complete) {
+    throw Failure(
+        ExitCode::bad_input,
+        file +
+            "the first row after the first inertial sample has blanks, expected position, velocity and "
+            "attitude to start from");
+  }
+  return state;
+}
+
+}  // namespace fathom::cli

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/time.hpp"
+#include "config/fusion_config.hpp"
+#include "dataset/dataset.hpp"
+#include "estimation/engine_config.hpp"
+#include "samples/forecast.hpp"
+#include "samples/nav_state.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::estimation {
+class FusionEngine;
+}
+
+namespace fathom::cli {
+
+/// Verdicts counted per kind of source.
+using VerdictCounts = std::map<SourceKind, std::array<std::uint64_t, kVerdictKinds>>;
+
+/// A span of time without GPS, [begin_ns, end_ns).
+struct GpsWindow {
+  TimeNs begin_ns = 0;
+  TimeNs end_ns = 0;
+  [[nodiscard]] bool contains(TimeNs stamp_ns) const { return stamp_ns >= begin_ns && stamp_ns < end_ns; }
+};
+
+/// One passage of a data set through the engine.
+struct Passage {
+  const config::FusionConfig* config = nullptr;
+  const dataset::Dataset* data = nullptr;
+  const std::vector<dataset::Arrival>* arrivals = nullptr;
+  std::optional<estimation::InitialState> start;  ///< instead of what the configuration says
+  std::vector<GpsWindow> gps_removed;             ///< fixes with stamps in these never reach the engine
+  std::string label;                              ///< of the progress bar
+  /// Called with each navigation state. The engine may be asked for more.
+  std::function<void(const NavState&, estimation::FusionEngine&)> on_state;
+};
+
+struct PassageResult {
+  VerdictCounts verdicts;
+  std::uint64_t imu_samples = 0;
+  std::uint64_t nav_states = 0;
+  double wall_s = 0.0;
+};
+
+/// Hands every sample to the engine in the order of its arrival: what the fusion service does on the network.
+[[nodiscard]] PassageResult run(const Passage& passage);
+
+/// Gives each stream the name of the first configured sensor of its kind, so that one configuration serves
+/// the vehicle and its recordings.
+void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config);
+
+/// The state at the first row of the reference at or after the first inertial sample, with the configured
+/// sigmas. Throws Failure when the reference cannot give it.
+[[nodiscard]] estimation::InitialState start_from_reference(const dataset::Dataset& data,
+                                                            const config::FusionConfig& config,
+                                                            const std::string& directory);
+
+}  // namespace fathom::cli
