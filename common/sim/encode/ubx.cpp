@@ -68,7 +68,11 @@ std::uint8_t fix_flags(GpsFix fix) {
 
 std::vector<std::uint8_t> ubx_frame(std::uint8_t message_class, std::uint8_t message_id,
                                     std::span<const std::uint8_t> payload) {
-  std::vector<std::uint8_t> frame{codec::kUbxSync1, codec::kUbxSync2, message_class, message_id};
+  std::vector<std::uint8_t> frame;
+  frame.reserve(payload.size() + 8);
+  for (const std::uint8_t byte : {codec::kUbxSync1, codec::kUbxSync2, message_class, message_id}) {
+    frame.push_back(byte);
+  }
   codec::append_le<std::uint16_t>(frame, static_cast<std::uint16_t>(payload.size()));
   frame.insert(frame.end(), payload.begin(), payload.end());
   const auto [a, b] = codec::ubx_checksum(std::span<const std::uint8_t>(frame).subspan(2));
