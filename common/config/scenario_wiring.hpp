@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/scenario.hpp"
+
+namespace fathom::config {
+
+struct Wiring {
+  std::string link_dir = "/tmp/fathom/devices";  ///< as the simulator's
+  int port_offset = 0;                           ///< as the simulator's
+};
+
+/// What each service has to be told by --set so that it fits a simulated vehicle: bridges get source,
+/// protocol, rate and time mode of their first instrument from the scenario's devices; then come the
+/// scenario's own overrides. Key: service, e.g. "imu_bridge"; value: `key.sub=value` in order.
+[[nodiscard]] std::map<std::string, std::vector<std::string>> service_overrides(const sim::Scenario& scenario,
+                                                                                const Wiring& wiring);
+
+}  // namespace fathom::config

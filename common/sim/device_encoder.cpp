@@ -1,0 +1,125 @@
+#include "sim/device_encoder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+
+#include "codec/registry.hpp"
+#include "sim/encode/depth.hpp"
+#include "sim/encode/nmea.hpp"
+#include "sim/encode/pd0.hpp"
+#include "sim/encode/ubx.hpp"
+#include "sim/encode/vectornav.hpp"
+#include "sim/encode/waterlinked.hpp"
+
+namespace fathom::sim {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes bytes_of(const std::string& text) {
+  return {text.begin(), text.end()};
+}
+
+/// The registry's own name of a protocol given by name or alias.
+std::string_view canonical(std::string_view protocol) {
+  const codec::Protocol* found = codec::find_protocol(protocol);
+  return found == nullptr ? std::string_view{} : found->name;
+}
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOutputs{{
+    {"imu", "vectornav"},
+    {"gps", "nmea0183"},
+    {"gps", "ubx"},
+    {"dvl", "pd0"},
+    {"dvl", "waterlinked"},
+    {"depth", "paroscientific"},
+    {"depth", "ascii_depth"},
+    {"heading", "nmea0183"},
+    {"usbl", "psimssb"},
+    {"propulsion", "nmea0183"},
+    {"fins", "nmea0183"},
+}};
+
+}  // namespace
+
+const SensorCommon* find_sensor(const SensorSuite& suite, std::string_view kind) {
+  const std::array<std::pair<std::string_view, const SensorCommon*>, 9> sensors{
+      {{"imu", &suite.imu},
+       {"gps", &suite.gps},
+       {"dvl", &suite.dvl},
+       {"depth", &suite.depth},
+       {"heading", &suite.heading},
+       {"usbl", &suite.usbl},
+       {"propulsion", &suite.propulsion},
+       {"fins", &suite.fins},
+       {"airspeed", &suite.airspeed}}};
+  for (const auto& [name, sensor] : sensors) {
+    if (name == kind) return sensor;
+  }
+  return nullptr;
+}
+
+bool can_encode(std::string_view kind, std::string_view protocol) {
+  const auto name = canonical(protocol);
+  return std::any_of(kOutputs.begin(), kOutputs.end(),
+                     [&](const auto& output) { return output.first == kind && output.second == name; });
+}
+
+DeviceEncoder::DeviceEncoder(const Scenario& scenario, TimeNs power_on_ns)
+    : scenario_(scenario), power_on_ns_(power_on_ns) {}
+
+Bytes DeviceEncoder::encode(const Measurement& measurement) {
+  const SensorSuite& sensors = scenario_.sensors;
+  const TimeNs valid_ns = header_of(measurement).stamp_ns;
+  const TimeNs sent_ns = header_of(measurement).received_ns;
+
+  if (const auto* imu = std::get_if<ImuSample>(&measurement);
+      imu != nullptr && !sensors.imu.protocol.empty()) {
+    return encode::vectornav(*imu, valid_ns - power_on_ns_);
+  }
+  if (const auto* gps = std::get_if<GpsSample>(&measurement);
+      gps != nullptr && !sensors.gps.protocol.empty()) {
+    if (canonical(sensors.gps.protocol) == "ubx") return encode::ubx_nav_pvt(*gps, valid_ns);
+    return bytes_of(encode::nmea_gps(*gps, valid_ns));
+  }
+  if (const auto* dvl = std::get_if<DvlSample>(&measurement);
+      dvl != nullptr && !sensors.dvl.protocol.empty()) {
+    if (canonical(sensors.dvl.protocol) == "waterlinked") {
+      const double since_ms = last_dvl_ns_ == 0 ? kUnknown : to_seconds(valid_ns - last_dvl_ns_) * 1e3;
+      last_dvl_ns_ = valid_ns;
+      return bytes_of(encode::waterlinked(*dvl, {valid_ns, sent_ns, since_ms}));
+    }
+    encode::Pd0Options options;
+    options.ensemble = ++ensemble_;
+    return encode::pd0(*dvl, valid_ns, options);
+  }
+  if (const auto* depth = std::get_if<DepthSample>(&measurement);
+      depth != nullptr && !sensors.depth.protocol.empty()) {
+    codec::CodecOptions options;
+    options.latitude_rad = scenario_.start.latitude_rad;
+    if (canonical(sensors.depth.protocol) == "ascii_depth")
+      return bytes_of(encode::ascii_depth(*depth, options));
+    return bytes_of(encode::paroscientific(*depth, options));
+  }
+  if (const auto* heading = std::get_if<HeadingSample>(&measurement);
+      heading != nullptr && !sensors.heading.protocol.empty()) {
+    return bytes_of(encode::nmea_heading(*heading));
+  }
+  if (const auto* usbl = std::get_if<UsblSample>(&measurement);
+      usbl != nullptr && !sensors.usbl.protocol.empty()) {
+    return bytes_of(encode::psimssb(*usbl, valid_ns));
+  }
+  if (const auto* propulsion = std::get_if<PropulsionSample>(&measurement);
+      propulsion != nullptr && !sensors.propulsion.protocol.empty()) {
+    return bytes_of(encode::nmea_rpm(*propulsion));
+  }
+  if (const auto* fins = std::get_if<FinsSample>(&measurement);
+      fins != nullptr && !sensors.fins.protocol.empty()) {
+    return bytes_of(encode::nmea_fins(*fins));
+  }
+  return {};
+}
+
+}  // namespace fathom::sim

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "base/time.hpp"
+#include "sim/scenario.hpp"
+#include "sim/simulation.hpp"
+
+namespace fathom::sim {
+
+/// The sensor's part of a suite by the kind's name ("imu", "gps", ...); null for others.
+[[nodiscard]] const SensorCommon* find_sensor(const SensorSuite& suite, std::string_view kind);
+
+/// Whether the simulator speaks this protocol for this kind of sensor. Names and aliases of
+/// codec/registry.hpp.
+[[nodiscard]] bool can_encode(std::string_view kind, std::string_view protocol);
+
+/// Turns measurements into the bytes that the configured devices send for them. Device clocks: the IMU counts
+/// since `power_on_ns`, the DVL's calendar clock and Water Linked times show UTC, GPS and USBL carry UTC.
+class DeviceEncoder {
+ public:
+  DeviceEncoder(const Scenario& scenario, TimeNs power_on_ns);
+
+  /// Empty when the sensor has no device output.
+  [[nodiscard]] std::vector<std::uint8_t> encode(const Measurement& measurement);
+
+ private:
+  Scenario scenario_;
+  TimeNs power_on_ns_;
+  std::uint32_t ensemble_ = 0;
+  TimeNs last_dvl_ns_ = 0;
+};
+
+}  // namespace fathom::sim
