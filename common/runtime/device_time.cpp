@@ -124,7 +124,7 @@ std::optional<DurationNs> DeviceTimeTracker::track(TimeNs device_ns, TimeNs arri
   suspects_ = 0;
 
   bound_ns_ = std::min(bound_ns_ + drift, offset);
-  window_min_ns_ = std::min(window_min_ns_, offset);
+  window_min_ns_ = std::min(window_min_ns_ + drift, offset);
   if (++window_count_ >= kFewestInWindow && arrival_ns - window_start_ns_ > from_seconds(config_.window_s)) {
     // Not one frame in a whole window came near the bound: no delay lasts that long, the clock was set back.
     if (window_min_ns_ - bound_ns_ > jump) {

@@ -1,0 +1,135 @@
+#include "bridge/sanity.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace fathom::bridge {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+const config::SampleLimits kLimits;
+
+ImuSample good_imu() {
+  ImuSample out;
+  out.angular_rate_B_rad_s = {0.01, -0.02, 0.03};
+  out.specific_force_B_m_s2 = {0.1, 0.2, -9.81};
+  return out;
+}
+
+TEST(Refuse, ImuNeedsEveryComponentFiniteAndPossible) {
+  EXPECT_FALSE(refuse(good_imu(), kLimits));
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double bad : {kUnknown, kInf, -kInf}) {
+      ImuSample imu = good_imu();
+      imu.angular_rate_B_rad_s[axis] = bad;
+      EXPECT_EQ(refuse(imu, kLimits), Refusal::not_finite);
+      imu = good_imu();
+      imu.specific_force_B_m_s2[axis] = bad;
+      EXPECT_EQ(refuse(imu, kLimits), Refusal::not_finite);
+    }
+    ImuSample imu = good_imu();
+    imu.angular_rate_B_rad_s[axis] = -36.0;
+    EXPECT_EQ(refuse(imu, kLimits), Refusal::impossible);
+    imu = good_imu();
+    imu.specific_force_B_m_s2[axis] = 401.0;
+    EXPECT_EQ(refuse(imu, kLimits), Refusal::impossible);
+  }
+  ImuSample imu = good_imu();
+  imu.delta_time_s = 0.0;
+  EXPECT_EQ(refuse(imu, kLimits), Refusal::impossible);
+}
+
+TEST(Refuse, LostBottomAndLostSkyArePublished) {
+  EXPECT_FALSE(refuse(DvlSample{}, kLimits));
+  EXPECT_FALSE(refuse(GpsSample{}, kLimits));
+}
+
+TEST(Refuse, ImpossibleValuesOfEachKind) {
+  DvlSample dvl;
+  dvl.velocity_D_m_s = {kUnknown, 25.0, kUnknown};
+  EXPECT_EQ(refuse(dvl, kLimits), Refusal::impossible);
+  dvl.velocity_D_m_s[1] = kInf;
+  EXPECT_EQ(refuse(dvl, kLimits), Refusal::not_finite);
+
+  GpsSample gps;
+  gps.latitude_rad = 1.6;
+  EXPECT_EQ(refuse(gps, kLimits), Refusal::impossible);
+  gps.latitude_rad = 0.5;
+  gps.longitude_rad = -3.2;
+  EXPECT_EQ(refuse(gps, kLimits), Refusal::impossible);
+  gps.longitude_rad = -3.1;
+  EXPECT_FALSE(refuse(gps, kLimits));
+  gps.altitude_m = -5000.0;
+  EXPECT_EQ(refuse(gps, kLimits), Refusal::impossible);
+  gps.altitude_m = 18.0;
+  gps.velocity_N_m_s = {301.0, 0.0, 0.0};
+  EXPECT_EQ(refuse(gps, kLimits), Refusal::impossible);
+
+  DepthSample depth;
+  EXPECT_EQ(refuse(depth, kLimits), Refusal::not_finite);
+  depth.depth_m = -0.4;  // in the air above the water
+  EXPECT_FALSE(refuse(depth, kLimits));
+  depth.depth_m = 12'000.0;
+  EXPECT_EQ(refuse(depth, kLimits), Refusal::impossible);
+
+  HeadingSample heading;
+  EXPECT_EQ(refuse(heading, kLimits), Refusal::not_finite);
+  heading.heading_rad = 2.0 * std::numbers::pi;
+  EXPECT_EQ(refuse(heading, kLimits), Refusal::impossible);
+  heading.heading_rad = 0.0;
+  EXPECT_FALSE(refuse(heading, kLimits));
+
+  UsblSample usbl;
+  EXPECT_EQ(refuse(usbl, kLimits), Refusal::not_finite);
+  usbl.latitude_rad = 0.6;
+  EXPECT_EQ(refuse(usbl, kLimits), Refusal::not_finite);
+  usbl.longitude_rad = 2.2;
+  EXPECT_FALSE(refuse(usbl, kLimits));
+  usbl = {};
+  usbl.frame = UsblFrame::ned;
+  usbl.relative_m = {10.0, 20.0, kUnknown};
+  EXPECT_FALSE(refuse(usbl, kLimits));
+  usbl.relative_m[1] = 30'000.0;
+  EXPECT_EQ(refuse(usbl, kLimits), Refusal::impossible);
+
+  PropulsionSample propulsion;
+  EXPECT_EQ(refuse(propulsion, kLimits), Refusal::not_finite);
+  propulsion.rpm = -1200.0;
+  EXPECT_FALSE(refuse(propulsion, kLimits));
+  propulsion.rpm = 1e6;
+  EXPECT_EQ(refuse(propulsion, kLimits), Refusal::impossible);
+
+  FinsSample fins;
+  EXPECT_EQ(refuse(fins, kLimits), Refusal::not_finite);
+  fins.stern_rad = 0.1;  // rudder and stern plane may come in different sentences
+  EXPECT_FALSE(refuse(fins, kLimits));
+  fins.rudder_rad = 3.0;
+  EXPECT_EQ(refuse(fins, kLimits), Refusal::impossible);
+}
+
+TEST(Mounting, TurnsRatesForcesAndIncrements) {
+  config::MountingConfig mounting;
+  mounting.frame = config::MountingFrame::flu;
+  ImuSample imu = good_imu();
+  imu.delta_angle_B_rad = {1.0, 2.0, 3.0};
+  rotate_into_body(imu, mounting.rotation());
+  EXPECT_NEAR(imu.angular_rate_B_rad_s[1], 0.02, 1e-15);
+  EXPECT_NEAR(imu.specific_force_B_m_s2[2], 9.81, 1e-15);
+  EXPECT_NEAR(imu.delta_angle_B_rad[2], -3.0, 1e-15);
+  EXPECT_FALSE(known(imu.delta_velocity_B_m_s[0]));
+
+  // Turned by 90 degrees to starboard: its forward axis points to the right.
+  mounting.frame = config::MountingFrame::frd;
+  mounting.rpy_rad = {0.0, 0.0, std::numbers::pi / 2};
+  imu = good_imu();
+  rotate_into_body(imu, mounting.rotation());
+  EXPECT_NEAR(imu.angular_rate_B_rad_s[0], 0.02, 1e-12);
+  EXPECT_NEAR(imu.angular_rate_B_rad_s[1], 0.01, 1e-12);
+  EXPECT_NEAR(imu.angular_rate_B_rad_s[2], 0.03, 1e-12);
+}
+
+}  // namespace
+}  // namespace fathom::bridge

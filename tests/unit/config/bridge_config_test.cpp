@@ -1,0 +1,120 @@
+#include "config/bridge_config.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "config/service_config.hpp"
+
+namespace fathom::config {
+namespace {
+
+const std::string kShipped = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/";
+
+template <class Config>
+Config shipped(const std::string& name, std::vector<std::string> sets = {}) {
+  return load_service_config<Config>({kShipped + name + ".json", std::move(sets)}).value;
+}
+
+// The message of the error that the overrides cause.
+template <class Config>
+std::string refused(const std::string& name, std::vector<std::string> sets) {
+  try {
+    (void)shipped<Config>(name, std::move(sets));
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(BridgeConfig, ShippedFilesLoad) {
+  EXPECT_EQ(shipped<ImuBridgeConfig>("imu_bridge").sensors.at(0).sensor.protocol, "vectornav");
+  EXPECT_EQ(shipped<DvlBridgeConfig>("dvl_bridge").sensors.at(0).sensor.protocol, "pd0");
+  EXPECT_EQ(shipped<GpsBridgeConfig>("gps_bridge").sensors.at(0).sensor.time.mode,
+            runtime::TimeMode::device_utc);
+  EXPECT_EQ(shipped<DepthBridgeConfig>("depth_bridge").sensors.at(0).unit, DepthUnit::psi);
+  EXPECT_EQ(shipped<HeadingBridgeConfig>("heading_bridge").sensors.at(0).sensor.name, "heading");
+  EXPECT_EQ(shipped<UsblBridgeConfig>("usbl_bridge").sensors.at(0).sensor.source.type,
+            runtime::SourceType::udp);
+  EXPECT_EQ(shipped<ActuatorBridgeConfig>("actuator_bridge").sensors.at(0).sensor.rate_hz, 5.0);
+}
+
+TEST(BridgeConfig, OverridesReplaceTheSource) {
+  const auto config = shipped<ImuBridgeConfig>(
+      "imu_bridge", {R"(sensors.0.source={"type":"tcp_client","address":"10.0.0.7","port":7000})",
+                     "sensors.0.mounting.rpy_deg=[0, 0, 90]"});
+  const auto plan = sensor_plans(config).at(0);
+  EXPECT_EQ(plan.sensor.source.type, runtime::SourceType::tcp_client);
+  EXPECT_EQ(plan.sensor.source.port, 7000);
+  EXPECT_NEAR(plan.R_BS[1], -1.0, 1e-15);
+}
+
+TEST(BridgeConfig, ErrorsNameFileKeyValueAndExpectation) {
+  const std::string file = kShipped + "imu_bridge.json: ";
+  const auto imu = [](std::vector<std::string> sets) {
+    return refused<ImuBridgeConfig>("imu_bridge", std::move(sets));
+  };
+  EXPECT_EQ(imu({"sensors.0.source.baud=12"}),
+            file + "sensors.0.source.baud: is 12, expected a whole number from 1200 to 4000000");
+  EXPECT_EQ(imu({R"(sensors.0.source={"type":"serial"})"}),
+            file + "sensors.0.source.path: is null, expected a path, because the type is serial or file");
+  EXPECT_EQ(imu({R"(sensors.0.source={"type":"tcp_client"})"}),
+            file + "sensors.0.source.port: is null, expected 1 to 65535, because the type is tcp or udp");
+  EXPECT_EQ(imu({R"(sensors.0.source={"type":"udp","port":9,"address":"imu.local"})"}),
+            file + "sensors.0.source.address: is \"imu.local\", expected a numeric IPv4 or IPv6 address");
+  EXPECT_EQ(imu({R"(sensors.0.mounting={})"}).find(file + "sensors.0.mounting.frame: is missing"), 0U);
+  EXPECT_EQ(imu({R"(sensors.0.mounting={"frame":"matrix"})"}),
+            file + "sensors.0.mounting.R_BS: is null, expected 9 numbers of a right-handed rotation matrix");
+  EXPECT_EQ(imu({R"(sensors.0.mounting={"frame":"matrix","R_BS":[1,0,0,0,1,0,0,0,-1]})"})
+                .find(file + "sensors.0.mounting.R_BS: is [1,0,0"),
+            0U);
+  EXPECT_EQ(
+      imu({"sensors.0.protocol=morse"}).find(file + "sensors.0.protocol: is \"morse\", expected one of "),
+      0U);
+  EXPECT_EQ(
+      imu({"sensors.0.latitude_deg=3"}).find(file + "sensors.0.latitude_deg: is 3, expected no such key"),
+      0U);
+  EXPECT_EQ(imu({"sensors=[]"}), file + "sensors: is [], expected at least one instrument");
+  EXPECT_EQ(imu({"clock.rate=10"}).find(file + "clock.epoch_ns: is 0"), 0U);
+  EXPECT_EQ(imu({"vehicle="}).find(file + "vehicle: is "), 0U);
+}
+
+TEST(BridgeConfig, UnitAndLatitudeOfAPressureMustBeGiven) {
+  const std::string sensor =
+      R"("name":"d","source":{"type":"serial","path":"/dev/x"},"protocol":"paroscientific","time":{"mode":"arrival"},"rate_hz":1)";
+  EXPECT_NE(refused<DepthBridgeConfig>("depth_bridge", {"sensors=[{" + sensor + R"(,"latitude_deg":1}])"})
+                .find("sensors.0.unit: is missing"),
+            std::string::npos);
+  EXPECT_NE(refused<DepthBridgeConfig>("depth_bridge", {"sensors=[{" + sensor + R"(,"unit":"psi"}])"})
+                .find("sensors.0.latitude_deg: is missing"),
+            std::string::npos);
+}
+
+TEST(BridgeConfig, TwoInstrumentsNeedTwoNames) {
+  const std::string sensor =
+      R"({"name":"gps","source":{"type":"serial","path":"/dev/x"},"protocol":"ubx","time":{"mode":"device_utc"},"rate_hz":5})";
+  EXPECT_NE(refused<GpsBridgeConfig>("gps_bridge", {"sensors=[" + sensor + "," + sensor + "]"})
+                .find("different names"),
+            std::string::npos);
+}
+
+TEST(BridgeConfig, DepthUnitsBecomePascal) {
+  const auto plan = sensor_plans(shipped<DepthBridgeConfig>(
+      "depth_bridge", {"sensors.0.unit=dbar", R"(sensors.0.ascii={"prefix":"P=","scale":0.1,"offset":-2})"}));
+  EXPECT_DOUBLE_EQ(plan.at(0).options.pressure_unit_Pa, 1e4);
+  EXPECT_DOUBLE_EQ(plan.at(0).options.ascii_scale, 1e3);
+  EXPECT_DOUBLE_EQ(plan.at(0).options.ascii_offset, -2e4);
+  EXPECT_FALSE(plan.at(0).options.value_is_depth);
+}
+
+TEST(BridgeConfig, HashFollowsTheEffectiveConfiguration) {
+  const std::string file = kShipped + "imu_bridge.json";
+  const auto plain = load_service_config<ImuBridgeConfig>({file, {}});
+  EXPECT_EQ(plain.hash, load_service_config<ImuBridgeConfig>({file, {"log.level=info"}}).hash);
+  EXPECT_NE(plain.hash, load_service_config<ImuBridgeConfig>({file, {"log.level=debug"}}).hash);
+}
+
+}  // namespace
+}  // namespace fathom::config

@@ -1,0 +1,66 @@
+#include <gtest/gtest.h>
+
+#include "runtime/backoff.hpp"
+#include "runtime/build_info.hpp"
+#include "runtime/byte_source.hpp"
+#include "runtime/log.hpp"
+
+namespace fathom::runtime {
+namespace {
+
+TEST(Backoff, DoublesToItsLimitAndStartsAgain) {
+  Backoff backoff(0.1, 5.0);
+  EXPECT_DOUBLE_EQ(backoff.next_s(), 0.1);
+  EXPECT_DOUBLE_EQ(backoff.next_s(), 0.2);
+  EXPECT_DOUBLE_EQ(backoff.next_s(), 0.4);
+  for (int i = 0; i < 1000; ++i) (void)backoff.next_s();
+  EXPECT_DOUBLE_EQ(backoff.next_s(), 5.0);
+  backoff.reset();
+  EXPECT_DOUBLE_EQ(backoff.next_s(), 0.1);
+}
+
+TEST(SayOnce, SpeaksWhenTheStateChanges) {
+  Log log("test", LogLevel::error);  // info is not written: the test stays quiet
+  SayOnce once;
+  EXPECT_TRUE(once.say(log, LogLevel::info, "lost", "lost"));
+  EXPECT_FALSE(once.say(log, LogLevel::info, "lost", "lost again"));
+  EXPECT_TRUE(once.say(log, LogLevel::info, "back", "back"));
+  once.forget();
+  EXPECT_TRUE(once.say(log, LogLevel::info, "back", "back"));
+}
+
+TEST(Log, KnowsItsLevels) {
+  LogLevel level{};
+  EXPECT_TRUE(parse_log_level("warning", level));
+  EXPECT_EQ(level, LogLevel::warning);
+  EXPECT_FALSE(parse_log_level("warn", level));
+}
+
+TEST(BuildInfo, HashTellsTextsApart) {
+  EXPECT_EQ(hex_hash(""), "cbf29ce484222325");
+  EXPECT_EQ(hex_hash("a"), "af63dc4c8601ec8c");  // published test vectors of FNV-1a
+  EXPECT_NE(hex_hash("{\"a\":1}"), hex_hash("{\"a\":2}"));
+  EXPECT_FALSE(version().empty());
+  EXPECT_FALSE(host_name().empty());
+}
+
+TEST(ByteSourceConfig, IsNamedAsPeopleDo) {
+  ByteSourceConfig config;
+  config.path = "/dev/ttyS1";
+  EXPECT_EQ(describe_source(config), "serial /dev/ttyS1");
+  config.type = SourceType::tcp_client;
+  config.address = "10.0.0.7";
+  config.port = 5000;
+  EXPECT_EQ(describe_source(config), "tcp 10.0.0.7:5000");
+}
+
+TEST(ByteSourceConfig, AddressesAreNumeric) {
+  EXPECT_TRUE(is_numeric_address("192.168.1.20"));
+  EXPECT_TRUE(is_numeric_address("::1"));
+  EXPECT_FALSE(is_numeric_address("dvl.local"));
+  EXPECT_FALSE(is_numeric_address("192.168.1"));
+  EXPECT_FALSE(is_numeric_address(""));
+}
+
+}  // namespace
+}  // namespace fathom::runtime
