@@ -53,26 +53,21 @@ void SensorWatch::report(AlarmBook& book, const Instant& now) const {
   for (const Sensor& sensor : sensors_) {
     if (!sensor.expected) continue;
     const StreamWatch& stream = sensor.stream;
-    const double limit_s = stream.limits().missing_s;
+    const bool unseen = !stream.ever_heard();
+    const double limit_s =
+        unseen ? std::max(startup_s_, stream.limits().missing_s) : stream.limits().missing_s;
     const double silent_s = stream.silent_s(now.monotonic_ns);
     const Name& name = sensor.what.name;
-    const Name missing = alarm_key("sensor_missing", name.view());
-    const bool unseen = !stream.ever_heard() && silent_s > std::max(startup_s_, limit_s);
-    if (stream.presence() == Presence::missing || unseen) {
-      const std::string since = stream.ever_heard() ? "" : " (never heard since the start)";
-      book.hold(
-          {.key = missing,
-           .severity = sensor.what.severity,
-           .text = sentence("Nothing heard from %s %s for %s%s (limit %s).",
-                            std::string(to_string(sensor.what.kind)).c_str(), name.c_str(),
-                            duration_text(silent_s).c_str(), since.c_str(), duration_text(limit_s).c_str()),
-           .value = silent_s,
-           .limit = limit_s,
-           .began_ago_s = silent_s},
-          now);
-    } else {
-      book.release(missing, now);
-    }
+    book.set(unseen ? silent_s > limit_s : stream.presence() == Presence::missing,
+             {.key = alarm_key("sensor_missing", name.view()),
+              .severity = sensor.what.severity,
+              .text = sentence("Nothing was heard from sensor %s for %s%s (limit %s).", name.c_str(),
+                               duration_text(silent_s).c_str(), unseen ? ", never since the start" : "",
+                               duration_text(limit_s).c_str()),
+              .value = silent_s,
+              .limit = limit_s,
+              .began_ago_s = silent_s},
+             now);
     const double rate_hz = stream.rate_hz(now.monotonic_ns);
     book.set(stream.slow(),
              {.key = alarm_key("sensor_slow", name.view()),

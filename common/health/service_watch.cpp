@@ -69,24 +69,22 @@ void ServiceWatch::report(AlarmBook& book, const Instant& now) {
 }
 
 void ServiceWatch::report_missing(const Service& service, AlarmBook& book, const Instant& now) const {
-  const Name key = alarm_key("service_missing", service.what.name.view());
+  const bool unseen = !service.stream.ever_heard();
+  const double limit_s = unseen ? std::max(startup_s_, config_.missing_s) : config_.missing_s;
   const double silent_s = service.stream.silent_s(now.monotonic_ns);
-  const bool unseen = !service.stream.ever_heard() && silent_s > std::max(startup_s_, config_.missing_s);
-  if (service.stream.presence() != Presence::missing && !unseen) {
-    book.release(key, now);
-    return;
-  }
-  const char* how = !service.stream.ever_heard()              ? ", never heard since the start"
-                    : service.state == ServiceState::stopping ? ", it had announced its end"
+  const char* how = unseen                                    ? ", never since the start"
+                    : service.state == ServiceState::stopping ? " after it had announced its end"
                                                               : "";
-  book.hold({.key = key,
-             .severity = service.what.severity,
-             .text = sentence("No life sign of service %s for %s%s (limit %s).", service.what.name.c_str(),
-                              duration_text(silent_s).c_str(), how, duration_text(config_.missing_s).c_str()),
-             .value = silent_s,
-             .limit = config_.missing_s,
-             .began_ago_s = silent_s},
-            now);
+  book.set(unseen ? silent_s > limit_s : service.stream.presence() == Presence::missing,
+           {.key = alarm_key("service_missing", service.what.name.view()),
+            .severity = service.what.severity,
+            .text = sentence("There was no life sign of service %s for %s%s (limit %s).",
+                             service.what.name.c_str(), duration_text(silent_s).c_str(), how,
+                             duration_text(limit_s).c_str()),
+            .value = silent_s,
+            .limit = limit_s,
+            .began_ago_s = silent_s},
+           now);
 }
 
 void ServiceWatch::report_unwell(const Service& service, AlarmBook& book, const Instant& now) const {

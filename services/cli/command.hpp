@@ -31,6 +31,7 @@ class Failure : public std::runtime_error {
 // sets `exit_code` where the answer is not plain success ("no", "unhealthy").
 
 void add_decode(CLI::App& app, ExitCode& exit_code);
+void add_status(CLI::App& app, ExitCode& exit_code);
 void add_solve(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli

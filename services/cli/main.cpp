@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   ExitCode exit_code = ExitCode::done;
 
   fathom::cli::add_decode(app, exit_code);
+  fathom::cli::add_status(app, exit_code);
   fathom::cli::add_solve(app, exit_code);
 
   try {

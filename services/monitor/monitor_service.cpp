@@ -142,18 +142,18 @@ struct MonitorService::Impl {
 
   /// One line when an alarm is raised, becomes more severe or clears; acknowledgements are logged by apply().
   void tell(const Alarm& alarm) {
-    const std::string text = alarm.alarm.str() + ": " + alarm.text;
+    const std::string text = " alarm " + alarm.alarm.str() + ": " + alarm.text;
     const auto known = told.find(alarm.alarm);
     if (!alarm.active) {
       if (known == told.end()) return;
       told.erase(known);
-      host.log().info("cleared " + text);
+      host.log().info("cleared" + text);
     } else if (known == told.end() || known->second != alarm.severity) {
       told[alarm.alarm] = alarm.severity;
       const auto level = alarm.severity == Severity::critical  ? runtime::LogLevel::error
                          : alarm.severity == Severity::warning ? runtime::LogLevel::warning
                                                                : runtime::LogLevel::info;
-      host.log().write(level, std::string(to_string(alarm.severity)) + " " + text);
+      host.log().write(level, std::string(to_string(alarm.severity)) + text);
     }
   }
 
