@@ -74,7 +74,7 @@ struct AuvConfig {
 /// Vehicle released from an aircraft: parachute, water entry, dive, run at set depth.
 struct AirDropConfig {
   double parachute_at_s = 0.8;
-  double terminal_speed_m_s = 40.0;  ///< under the parachute
+  double terminal_speed_m_s = 44.0;  ///< under the parachute
   double mass_kg = 240.0;
   double buoyancy_kg = 205.0;
   double added_surge_kg = 6.0;
