@@ -33,5 +33,6 @@ class Failure : public std::runtime_error {
 void add_decode(CLI::App& app, ExitCode& exit_code);
 void add_status(CLI::App& app, ExitCode& exit_code);
 void add_solve(CLI::App& app, ExitCode& exit_code);
+void add_simulate(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.hpp"
+#include "cli/progress.hpp"
+#include "config/scenario_config.hpp"
+#include "dataset/dataset.hpp"
+#include "sim/simulation.hpp"
+
+namespace fathom::cli {
+namespace {
+
+struct SimulateOptions {
+  std::string scenario;
+  std::string out;
+  std::vector<std::string> sets;
+  std::uint64_t seed = 1;
+  double duration_s = 0.0;
+  double reference_hz = 20.0;
+  bool gzip = false;
+  bool json = false;
+};
+
+sim::Scenario load(const SimulateOptions& options) {
+  try {
+    return config::load_scenario({config::scenario_file(options.scenario), options.sets});
+  } catch (const config::ConfigError& error) {
+    throw Failure(ExitCode::bad_configuration, error.what());
+  }
+}
+
+void keep(dataset::Dataset& data, const sim::Measurement& measurement) {
+  std::visit(
+      [&](const auto& sample) {
+        using T = std::decay_t<decltype(sample)>;
+        if constexpr (std::is_same_v<T, ImuSample>) data.imu.push_back(sample);
+        if constexpr (std::is_same_v<T, GpsSample>) data.gps.push_back(sample);
+        if constexpr (std::is_same_v<T, DvlSample>) data.dvl.push_back(sample);
+        if constexpr (std::is_same_v<T, DepthSample>) data.depth.push_back(sample);
+        if constexpr (std::is_same_v<T, HeadingSample>) data.heading.push_back(sample);
+        if constexpr (std::is_same_v<T, UsblSample>) data.usbl.push_back(sample);
+        if constexpr (std::is_same_v<T, PropulsionSample>) data.propulsion.push_back(sample);
+        if constexpr (std::is_same_v<T, FinsSample>) data.fins.push_back(sample);
+        if constexpr (std::is_same_v<T, AirspeedSample>) data.airspeed.push_back(sample);
+      },
+      measurement);
+}
+
+dataset::Dataset run(const sim::Scenario& scenario, const SimulateOptions& options, double duration_s) {
+  sim::Simulation::Options simulate;
+  simulate.epoch_ns = dataset::kDefaultEpochNs;
+  simulate.seed = options.seed;
+  sim::Simulation simulation(scenario, simulate);
+  dataset::Dataset data;
+  std::vector<sim::Measurement> measurements;
+  const double imu_hz = scenario.sensors.imu.rate_hz;
+  const auto intervals = static_cast<std::uint64_t>(std::llround(duration_s * imu_hz));
+  const auto every = static_cast<std::uint64_t>(std::max(1.0, std::round(imu_hz / options.reference_hz)));
+  Progress progress("simulating " + scenario.name, intervals);
+  data.reference.push_back(simulation.truth());
+  for (std::uint64_t i = 1; i <= intervals; ++i) {
+    measurements.clear();
+    simulation.advance(measurements);
+    for (const auto& measurement : measurements) keep(data, measurement);
+    if (i % every == 0) data.reference.push_back(simulation.truth());
+    progress.update(i);
+  }
+  return data;
+}
+
+void simulate(const SimulateOptions& options) {
+  const sim::Scenario scenario = load(options);
+  const double duration_s = options.duration_s > 0.0 ? options.duration_s : scenario.duration_s;
+  const dataset::Dataset data = run(scenario, options, duration_s);
+  dataset::WriteOptions write;
+  write.gzip = options.gzip;
+  try {
+    dataset::write(options.out, data, write);
+  } catch (const dataset::DatasetError& error) {
+    throw Failure(ExitCode::runtime_failure, error.what());
+  }
+  if (options.json) {
+    std::printf(
+        "{\"scenario\":\"%s\",\"seed\":%llu,\"duration_s\":%.17g,\"imu\":%zu,\"gps\":%zu,\"dvl\":%zu,"
+        "\"depth\":%zu,\"heading\":%zu,\"usbl\":%zu,\"airspeed\":%zu,\"propulsion\":%zu,\"fins\":%zu,"
+        "\"reference\":%zu}\n",
+        scenario.name.c_str(), static_cast<unsigned long long>(options.seed), duration_s, data.imu.size(),
+        data.gps.size(), data.dvl.size(), data.depth.size(), data.heading.size(), data.usbl.size(),
+        data.airspeed.size(), data.propulsion.size(), data.fins.size(), data.reference.size());
+  } else {
+    std::printf("%s: %.6g s of %s, seed %llu: %zu inertial samples, %zu reference rows\n",
+                options.out.c_str(), duration_s, scenario.name.c_str(),
+                static_cast<unsigned long long>(options.seed), data.imu.size(), data.reference.size());
+  }
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& app, ExitCode&) {
+  auto options = std::make_shared<SimulateOptions>();
+  auto* command = app.add_subcommand("simulate",
+                                     "Writes the data set of a simulated vehicle, reference included. "
+                                     "The same seed gives the same bytes.");
+  command->add_option("scenario", options->scenario, "name of a scenario, or its file")->required();
+  command->add_option("--out", options->out, "folder to write; created when absent")->required();
+  command->add_option("--seed", options->seed, "of all random numbers")->capture_default_str();
+  command->add_option("--duration", options->duration_s, "seconds; default: as the scenario says")
+      ->check(CLI::Range(0.01, 1e6));
+  command->add_option("--reference-rate", options->reference_hz, "rows a second in reference.csv")
+      ->check(CLI::Range(0.01, 2000.0))
+      ->capture_default_str();
+  command->add_option("--set", options->sets, "override of the scenario: key.sub=value, may be repeated")
+      ->allow_extra_args(false);
+  command->add_flag("--gzip", options->gzip, "write .csv.gz");
+  command->add_flag("--json", options->json, "summary as JSON");
+  command->callback([options] { simulate(*options); });
+}
+
+}  // namespace fathom::cli
