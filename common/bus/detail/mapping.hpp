@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include <fastcdr/Cdr.h>
+
 #include "base/name.hpp"
 #include "bus/cdr.hpp"
 #include "bus/detail/endpoint.hpp"
@@ -118,6 +120,61 @@ struct FromWire {
   }
 };
 
+/// Visitor that only reads past the fields, to check the lengths of lists before anything allocates room for
+/// them: four bytes from the network could otherwise claim gigabytes. Relies on fields() having the order of
+/// the IDL.
+struct ListCheck {
+  eprosima::fastcdr::Cdr& cdr;
+  bool valid = true;
+
+  template <class Plain, class Wire>
+  void operator()(Plain& /*plain*/, Wire& /*wire*/) {
+    if (!valid) return;
+    if constexpr (std::is_same_v<Plain, Name> || std::is_same_v<Plain, std::string>) {
+      std::string text;
+      cdr >> text;
+    } else {
+      Wire value;
+      cdr >> value;
+    }
+  }
+
+  template <class Plain, class Wire>
+  void enumeration(Plain& /*plain*/, Wire& /*wire*/, Plain /*last*/) {
+    std::uint32_t value = 0;
+    if (valid) cdr >> value;
+  }
+
+  template <std::size_t N>
+  void text(std::array<char, N>& /*plain*/, auto& /*wire*/) {
+    std::string text;
+    if (valid) cdr >> text;
+  }
+
+  template <class Plain, std::size_t N, class Wire, class Each>
+  void sequence(std::array<Plain, N>& /*plain*/, std::uint32_t& /*count*/, std::vector<Wire>& /*wire*/,
+                Each each) {
+    elements<Plain, Wire>(N, each);
+  }
+
+  template <class Plain, class Wire, class Each>
+  void sequence(std::vector<Plain>& /*plain*/, std::vector<Wire>& /*wire*/, std::size_t bound, Each each) {
+    elements<Plain, Wire>(bound, each);
+  }
+
+ private:
+  template <class Plain, class Wire>
+  void elements(std::size_t bound, auto each) {
+    if (!valid) return;
+    std::uint32_t length = 0;
+    cdr >> length;
+    valid = length <= bound;
+    Plain plain;
+    Wire wire;
+    for (std::uint32_t i = 0; valid && i < length; ++i) each(*this, plain, wire);
+  }
+};
+
 /// One enumeration, given the last enumerator of both sides. Both start at 0 and have the same order.
 template <auto kLastPlain, auto kLastWire>
 void copy_enum(auto& copy, auto& plain, auto&& wire) {
@@ -141,6 +198,7 @@ void copy_header(Copy& copy, Header& header, Wire& wire) {
 ///   template <class Copy, class Plain, class WireRef>
 ///   static void fields(Copy& copy, Plain& plain, WireRef& wire);   every field, both directions
 ///   static std::string key_text(const T& sample);
+///   static constexpr bool kHasLists = true;                        where fields() calls copy.sequence
 template <class T>
 struct Mapping;
 
@@ -173,6 +231,14 @@ TopicOps make_ops() {
   ops.encode = [](const void* sample, Cdr& cdr) { to_wire(*static_cast<const T*>(sample)).serialize(cdr); };
   ops.decode = [](Cdr& cdr, void* sample) {
     Wire wire;
+    if constexpr (requires { M::kHasLists; }) {
+      Cdr::state start = cdr.getState();
+      T scratch;
+      ListCheck check{cdr};
+      M::fields(check, scratch, wire);
+      if (!check.valid) return false;
+      cdr.setState(start);
+    }
     wire.deserialize(cdr);
     FromWire copy;
     M::fields(copy, *static_cast<T*>(sample), static_cast<const Wire&>(wire));

@@ -31,21 +31,22 @@ void load_profiles(const std::string& folder);
 
 [[nodiscard]] Policy policy_of(eprosima::fastdds::dds::QosPolicyId_t id);
 
+[[nodiscard]] inline DurationNs to_ns(const eprosima::fastrtps::Duration_t& duration) {
+  if (duration.seconds == eprosima::fastrtps::c_TimeInfinite.seconds) return kForever;
+  return duration.seconds * kNsPerSecond + static_cast<DurationNs>(duration.nanosec);
+}
+
 /// Of a DataWriterQos, DataReaderQos or their counterparts in discovery.
 template <class Reliability, class Durability, class Deadline, class Ownership, class Liveliness>
 QosSummary summarise(const Reliability& reliability, const Durability& durability, const Deadline& deadline,
                      const Ownership& ownership, const Liveliness& liveliness) {
-  const auto ns = [](const auto& duration) {
-    if (duration.seconds == 0x7fffffff) return kForever;
-    return duration.seconds * kNsPerSecond + static_cast<DurationNs>(duration.nanosec);
-  };
   QosSummary summary;
   summary.reliability = reliability.kind == eprosima::fastdds::dds::RELIABLE_RELIABILITY_QOS ? 1 : 0;
   summary.durability = durability.kind;
-  summary.deadline_ns = ns(deadline.period);
+  summary.deadline_ns = to_ns(deadline.period);
   summary.ownership = ownership.kind;
   summary.liveliness = liveliness.kind;
-  summary.lease_ns = ns(liveliness.lease_duration);
+  summary.lease_ns = to_ns(liveliness.lease_duration);
   return summary;
 }
 

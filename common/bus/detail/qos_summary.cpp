@@ -74,10 +74,4 @@ std::string value_text(Policy policy, const QosSummary& qos) {
   return {};
 }
 
-std::string describe(Policy policy, const QosSummary& offered, const QosSummary& requested) {
-  if (policy == Policy::other) return to_string(policy);
-  return to_string(policy) + " (offered " + value_text(policy, offered) + ", requested " +
-         value_text(policy, requested) + ")";
-}
-
 }  // namespace fathom::bus::detail

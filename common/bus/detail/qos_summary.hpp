@@ -26,9 +26,6 @@ struct QosSummary {
 /// True when this policy keeps the two apart (DDS 1.4, 2.2.3: requested against offered).
 [[nodiscard]] bool conflict(Policy policy, const QosSummary& offered, const QosSummary& requested);
 
-/// The policy with both values, e.g. "deadline (offered 100 ms, requested 30 ms)".
-[[nodiscard]] std::string describe(Policy policy, const QosSummary& offered, const QosSummary& requested);
-
 /// One side's value, e.g. "100 ms".
 [[nodiscard]] std::string value_text(Policy policy, const QosSummary& qos);
 [[nodiscard]] std::string to_string(Policy policy);

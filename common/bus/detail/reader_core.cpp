@@ -22,10 +22,6 @@ namespace dds = eprosima::fastdds::dds;
 using eprosima::fastrtps::rtps::InstanceHandle_t;
 using eprosima::fastrtps::types::ReturnCode_t;
 
-TimeNs to_ns(const eprosima::fastrtps::rtps::Time_t& time) {
-  return time.to_ns();
-}
-
 }  // namespace
 
 struct ReaderCore::Impl final : dds::DataReaderListener {
@@ -71,7 +67,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
         continue;
       }
       if (requested.deadline_ns != kForever) track_deadline(info.instance_handle, guid);
-      handler(slot.sample, {guid, to_ns(info.source_timestamp), to_ns(info.reception_timestamp)});
+      handler(slot.sample, {guid, info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()});
     }
   }
 

@@ -9,6 +9,7 @@ struct Mapping<AlignmentStatus> {
   using Wire = v1::AlignmentStatus;
   static constexpr const char* kTopic = "fathom/v1/alignment";
   static constexpr const char* kType = "fathom::v1::AlignmentStatus";
+  static constexpr bool kHasLists = true;
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);

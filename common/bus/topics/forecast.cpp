@@ -10,6 +10,7 @@ struct Mapping<Forecast> {
   using Wire = v1::Forecast;
   static constexpr const char* kTopic = "fathom/v1/forecast";
   static constexpr const char* kType = "fathom::v1::Forecast";
+  static constexpr bool kHasLists = true;
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);

@@ -9,6 +9,7 @@ struct Mapping<MonitorStatus> {
   using Wire = v1::MonitorStatus;
   static constexpr const char* kTopic = "fathom/v1/monitor_status";
   static constexpr const char* kType = "fathom::v1::MonitorStatus";
+  static constexpr bool kHasLists = true;
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);

@@ -10,6 +10,7 @@ struct Mapping<NavDetail> {
   using Wire = v1::NavDetail;
   static constexpr const char* kTopic = "fathom/v1/nav_detail";
   static constexpr const char* kType = "fathom::v1::NavDetail";
+  static constexpr bool kHasLists = true;
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);

@@ -9,6 +9,7 @@ struct Mapping<ServiceStatus> {
   using Wire = v1::ServiceStatus;
   static constexpr const char* kTopic = "fathom/v1/service_status";
   static constexpr const char* kType = "fathom::v1::ServiceStatus";
+  static constexpr bool kHasLists = true;
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     // The service is the key, so it has the name of one on the wire.
