@@ -1,0 +1,240 @@
+// What the simulator's encoders write, the codecs read back within the protocol's resolution.
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "codec/pd0.hpp"
+#include "codec/pd0_geometry.hpp"
+#include "codec/vectornav.hpp"
+#include "codec/waterlinked.hpp"
+#include "sim/encode/pd0.hpp"
+#include "sim/encode/vectornav.hpp"
+#include "sim/encode/waterlinked.hpp"
+
+namespace fathom {
+namespace {
+
+constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+constexpr TimeNs kSomeTime_ns = 1'780'000'000'123'456'789;
+constexpr int kRuns = 300;
+
+class Collector : public codec::Sink {
+ public:
+  void on_sample(const codec::Decoded& decoded) override { samples.push_back(decoded); }
+  void on_rejected(const codec::Rejected& rejected) override { rejects.push_back(rejected); }
+  std::vector<codec::Decoded> samples;
+  std::vector<codec::Rejected> rejects;
+};
+
+template <class Container>
+std::vector<codec::Decoded> read(std::unique_ptr<codec::Codec> codec, const Container& bytes) {
+  Collector sink;
+  codec->feed({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, sink);
+  codec->finish(sink);
+  EXPECT_TRUE(sink.rejects.empty());
+  EXPECT_EQ(codec->totals().skipped_bytes, 0U);
+  return sink.samples;
+}
+
+class RoundTrip : public ::testing::Test {
+ protected:
+  double draw(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  std::array<double, 3> draw3(double limit) {
+    return {draw(-limit, limit), draw(-limit, limit), draw(-limit, limit)};
+  }
+  bool chance(double p) { return draw(0.0, 1.0) < p; }
+
+  DvlSample draw_dvl(DvlFrame frame) {
+    DvlSample s;
+    s.recorded_frame = frame;
+    s.velocity_D_m_s = draw3(5.0);
+    s.error_velocity_m_s = draw(-0.1, 0.1);
+    s.beam_angle_rad = (chance(0.5) ? 20.0 : 30.0) * kRadPerDeg;
+    s.altitude_m = draw(0.5, 900.0);
+    s.beam_range_m.fill(s.altitude_m);
+    s.sound_speed_m_s = std::floor(draw(1400.0, 1600.0));
+    // What the leader can carry, so that turning back uses the same angles.
+    s.heading_rad = std::floor(draw(0.0, 35'999.0)) * 0.01 * kRadPerDeg;
+    s.pitch_rad = std::floor(draw(-4'000.0, 4'000.0)) * 0.01 * kRadPerDeg;
+    s.roll_rad = std::floor(draw(-4'000.0, 4'000.0)) * 0.01 * kRadPerDeg;
+    return s;
+  }
+
+ private:
+  std::mt19937 random_{20'260'101};
+};
+
+void expect_same3(const std::array<double, 3>& a, const std::array<double, 3>& b, double relative,
+                  double absolute) {
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], relative * std::abs(a[i]) + absolute);
+}
+
+TEST_F(RoundTrip, VectorNavKeepsNanosecondsAndSinglePrecision) {
+  for (int run = 0; run < kRuns; ++run) {
+    ImuSample s;
+    s.angular_rate_B_rad_s = draw3(3.0);
+    s.specific_force_B_m_s2 = draw3(30.0);
+    const bool increments = chance(0.7);
+    if (increments) {
+      s.delta_time_s = 0.01;
+      s.delta_angle_B_rad = draw3(0.03);
+      s.delta_velocity_B_m_s = draw3(0.3);
+    }
+    if (chance(0.5)) s.temperature_degC = draw(-10.0, 60.0);
+    const DurationNs since_startup_ns = static_cast<DurationNs>(draw(0.0, 4e15));
+    const bool utc = chance(0.5);
+    const TimeNs utc_ns = kSomeTime_ns + run * 10'000'001LL;
+
+    const auto frame =
+        sim::encode::vectornav(s, since_startup_ns, utc ? std::optional(utc_ns) : std::nullopt);
+    const auto got = read(codec::make_vectornav({}), frame);
+    ASSERT_EQ(got.size(), 1U);
+    const auto& r = std::get<ImuSample>(got[0].sample);
+    EXPECT_EQ(got[0].time.clock_ns, since_startup_ns);
+    EXPECT_EQ(got[0].time.utc_ns, utc ? std::optional(utc_ns) : std::nullopt);
+    expect_same3(s.angular_rate_B_rad_s, r.angular_rate_B_rad_s, 6e-8, 0.0);
+    expect_same3(s.specific_force_B_m_s2, r.specific_force_B_m_s2, 6e-8, 0.0);
+    EXPECT_EQ(known(r.delta_time_s), increments);
+    if (increments) {
+      EXPECT_NEAR(r.delta_time_s, 0.01, 1e-9);
+      expect_same3(s.delta_angle_B_rad, r.delta_angle_B_rad, 2e-7, 0.0);
+      expect_same3(s.delta_velocity_B_m_s, r.delta_velocity_B_m_s, 6e-8, 0.0);
+    }
+    EXPECT_EQ(known(r.temperature_degC), known(s.temperature_degC));
+  }
+}
+
+TEST_F(RoundTrip, Pd0InEveryFrame) {
+  for (const DvlFrame frame : {DvlFrame::beam, DvlFrame::instrument, DvlFrame::ship, DvlFrame::earth}) {
+    for (int run = 0; run < kRuns; ++run) {
+      const DvlSample s = draw_dvl(frame);
+      sim::encode::Pd0Options options;
+      options.high_resolution = chance(0.5);
+      options.ensemble = static_cast<std::uint32_t>(run) * 1'000U;
+      options.heading_alignment_rad = chance(0.5) ? 45.0 * kRadPerDeg : 0.0;
+      codec::CodecOptions reading;
+      reading.dvl_heading_alignment_rad = options.heading_alignment_rad;
+      const TimeNs clock_ns = kSomeTime_ns + run * 123'456'789LL;
+
+      const auto got = read(codec::make_pd0(reading), sim::encode::pd0(s, clock_ns, options));
+      ASSERT_EQ(got.size(), 1U);
+      const auto& r = std::get<DvlSample>(got[0].sample);
+      EXPECT_EQ(r.mode, DvlMode::bottom);
+      EXPECT_EQ(r.recorded_frame, frame);
+      ASSERT_TRUE(got[0].time.clock_ns.has_value());
+      EXPECT_LE(std::abs(*got[0].time.clock_ns - clock_ns), 5 * kNsPerMillisecond);
+      // Half a unit of the number sent, spread over axes by the Janus transformation at most twofold.
+      const double unit = options.high_resolution ? 1e-5 : 1e-3;
+      expect_same3(s.velocity_D_m_s, r.velocity_D_m_s, 0.0, 1.6 * unit);
+      if (frame != DvlFrame::beam) {
+        EXPECT_NEAR(r.error_velocity_m_s, s.error_velocity_m_s, 0.51 * unit);
+      } else {
+        EXPECT_NEAR(r.error_velocity_m_s, 0.0, 4.0 * unit);
+      }
+      EXPECT_NEAR(r.altitude_m, s.altitude_m, 0.0051);
+      EXPECT_NEAR(r.heading_rad, s.heading_rad, 1e-9);
+      EXPECT_NEAR(r.pitch_rad, s.pitch_rad, 1e-9);
+      EXPECT_NEAR(r.roll_rad, s.roll_rad, 1e-9);
+      EXPECT_DOUBLE_EQ(r.sound_speed_m_s, s.sound_speed_m_s);
+      EXPECT_NEAR(r.beam_angle_rad, s.beam_angle_rad, 1e-12);
+    }
+  }
+}
+
+TEST_F(RoundTrip, Pd0BeamsAreTheVelocityAlongThem) {
+  for (int run = 0; run < kRuns; ++run) {
+    const DvlSample s = draw_dvl(DvlFrame::beam);
+    const auto got = read(codec::make_pd0({}), sim::encode::pd0(s, kSomeTime_ns));
+    ASSERT_EQ(got.size(), 1U);
+    const auto expected = codec::pd0::beams_from_frd(s.velocity_D_m_s, s.beam_angle_rad);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_NEAR(std::get<DvlSample>(got[0].sample).beam_velocity_m_s[i], expected[i], 1e-5);
+    }
+  }
+}
+
+TEST_F(RoundTrip, Pd0WithAnyOneBeamLostKeepsTheVelocity) {
+  for (int run = 0; run < kRuns; ++run) {
+    DvlSample s = draw_dvl(DvlFrame::beam);
+    s.beam_velocity_m_s = codec::pd0::beams_from_frd(s.velocity_D_m_s, s.beam_angle_rad);
+    const std::size_t lost = static_cast<std::size_t>(run) % 4;
+    s.beam_velocity_m_s[lost] = kUnknown;
+    s.beam_range_m[lost] = kUnknown;
+    const auto got = read(codec::make_pd0({}), sim::encode::pd0(s, kSomeTime_ns));
+    ASSERT_EQ(got.size(), 1U);
+    const auto& r = std::get<DvlSample>(got[0].sample);
+    expect_same3(s.velocity_D_m_s, r.velocity_D_m_s, 0.0, 5e-5);
+    EXPECT_FALSE(known(r.error_velocity_m_s));
+    EXPECT_FALSE(known(r.beam_velocity_m_s[lost]));
+    EXPECT_FALSE(known(r.beam_range_m[lost]));
+  }
+}
+
+TEST_F(RoundTrip, Pd0WithWaterLayerAndLostBottom) {
+  for (int run = 0; run < kRuns; ++run) {
+    DvlSample bottom = draw_dvl(DvlFrame::instrument);
+    DvlSample water = bottom;
+    water.mode = DvlMode::water;
+    water.velocity_D_m_s = draw3(2.0);
+    const bool lost = chance(0.5);
+    if (lost) {
+      bottom.velocity_D_m_s.fill(kUnknown);
+      bottom.error_velocity_m_s = kUnknown;
+      bottom.beam_range_m.fill(kUnknown);
+      bottom.altitude_m = kUnknown;
+    }
+    const auto got = read(codec::make_pd0({}), sim::encode::pd0(bottom, kSomeTime_ns, {}, &water));
+    ASSERT_EQ(got.size(), 2U);
+    const auto& b = std::get<DvlSample>(got[0].sample);
+    const auto& w = std::get<DvlSample>(got[1].sample);
+    EXPECT_EQ(b.mode, DvlMode::bottom);
+    EXPECT_EQ(known(b.velocity_D_m_s[0]), !lost);
+    EXPECT_EQ(known(b.altitude_m), !lost);
+    EXPECT_EQ(w.mode, DvlMode::water);
+    expect_same3(water.velocity_D_m_s, w.velocity_D_m_s, 0.0, 1e-5);
+    EXPECT_EQ(got[0].offset, got[1].offset);
+  }
+}
+
+TEST_F(RoundTrip, WaterLinkedKeepsEveryBit) {
+  for (int run = 0; run < kRuns; ++run) {
+    DvlSample s = draw_dvl(DvlFrame::instrument);
+    s.mode = chance(0.8) ? DvlMode::bottom : DvlMode::water;
+    s.sigma_m_s = draw(1e-4, 0.1);
+    const bool valid = chance(0.8);
+    if (valid) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        s.beam_velocity_m_s[i] = chance(0.9) ? draw(-2.0, 2.0) : kUnknown;
+      }
+    } else {
+      s.velocity_D_m_s.fill(kUnknown);
+      s.altitude_m = kUnknown;
+    }
+    sim::encode::WaterLinkedTimes times;
+    times.valid_ns = kSomeTime_ns / 1'000 * 1'000 + run * 1'000'000LL;
+    times.sent_ns = times.valid_ns + 190'000'000;
+    const auto got = read(codec::make_waterlinked({}), sim::encode::waterlinked(s, times));
+    ASSERT_EQ(got.size(), 1U);
+    const auto& r = std::get<DvlSample>(got[0].sample);
+    EXPECT_EQ(r.mode, s.mode);
+    EXPECT_EQ(got[0].time.clock_ns, times.valid_ns);
+    EXPECT_EQ(got[0].time.age_ns, 190'000'000);
+    EXPECT_EQ(known(r.velocity_D_m_s[0]), valid);
+    if (!valid) continue;
+    EXPECT_EQ(r.velocity_D_m_s, s.velocity_D_m_s);
+    EXPECT_NEAR(r.sigma_m_s, s.sigma_m_s, 1e-12);
+    if (s.mode == DvlMode::water) continue;
+    EXPECT_EQ(r.altitude_m, s.altitude_m);
+    for (std::size_t i = 0; i < 4; ++i) {
+      EXPECT_EQ(known(r.beam_velocity_m_s[i]), known(s.beam_velocity_m_s[i]));
+      if (known(s.beam_velocity_m_s[i])) {
+        EXPECT_EQ(r.beam_velocity_m_s[i], s.beam_velocity_m_s[i]);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fathom
