@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <mutex>
+#include <set>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
@@ -31,6 +33,33 @@ using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
 using eprosima::fastrtps::types::ReturnCode_t;
 
 constexpr const char* kParticipantProfile = "fathom";
+
+/// Numbers of the participants of this process. Fast DDS derives ports from them and by itself never gives
+/// one out twice, so that a process that has created and destroyed many would leave the range in which peers
+/// look for it.
+class ParticipantNumbers {
+ public:
+  int take() {
+    const std::lock_guard lock(mutex_);
+    int number = 0;
+    while (taken_.contains(number)) ++number;
+    taken_.insert(number);
+    return number;
+  }
+  void give_back(int number) {
+    const std::lock_guard lock(mutex_);
+    taken_.erase(number);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<int> taken_;
+};
+
+ParticipantNumbers& participant_numbers() {
+  static ParticipantNumbers numbers;  // per process, as the ports are
+  return numbers;
+}
 
 std::string host_name() {
   std::array<char, 64> name{};
@@ -160,7 +189,9 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
   check_interfaces(options.interfaces);
   const std::string profiles_dir = detail::find_profiles_dir(options.profiles_dir);
   detail::load_profiles(profiles_dir);
-  const dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);
+  dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);
+  number_ = participant_numbers().take();
+  qos.wire_protocol().participant_id = number_;
 
   auto* factory = dds::DomainParticipantFactory::get_instance();
   participant = factory->create_participant(options.domain, qos, this, dds::StatusMask::none());
@@ -169,6 +200,7 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
     subscriber = participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
   }
   if (publisher == nullptr || subscriber == nullptr) {
+    participant_numbers().give_back(number_);
     throw BusError("participant '" + options.name + "' on domain " + std::to_string(options.domain) +
                    ": Fast DDS could not create it" + detail::last_dds_error());
   }
@@ -178,6 +210,7 @@ Participant::Impl::~Impl() {
   if (participant == nullptr) return;
   participant->delete_contained_entities();
   dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+  participant_numbers().give_back(number_);
 }
 
 dds::Topic* Participant::Impl::topic(const detail::TopicOps& ops) {

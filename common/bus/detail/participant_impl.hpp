@@ -52,6 +52,8 @@ struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListen
   };
   void participant_dropped(const detail::GuidPrefix& prefix);
 
+  int number_ = -1;  // among the participants of this process
+
   std::mutex mutex_;
   std::map<std::string, eprosima::fastdds::dds::Topic*> topics_;  // owned by participant
   std::map<std::string, std::string> types_;                      // of local topics

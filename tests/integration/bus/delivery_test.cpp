@@ -1,0 +1,197 @@
+// What readers get of what writers write.
+
+#include <atomic>
+#include <future>
+
+#include "bus/writer.hpp"
+#include "samples/command.hpp"
+#include "samples/gps.hpp"
+#include "samples/health.hpp"
+#include "samples/imu.hpp"
+#include "samples/nav_state.hpp"
+#include "support.hpp"
+
+namespace fathom::test {
+namespace {
+
+TEST(Delivery, EverySampleInOrderWithItsOrigin) {
+  bus::Participant a(options(102, "imu_bridge"));
+  bus::Participant b(options(102, "fusion"));
+  Inbox<ImuSample> inbox;
+  bus::Writer<ImuSample> writer(a);
+  bus::Reader<ImuSample> reader(b, inbox.handler());
+  ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+
+  ImuSample sample;
+  sample.header.vehicle = "auv";
+  sample.header.sensor = "imu0";
+  for (std::uint64_t i = 1; i <= 1500; ++i) {  // back to back: less than the history holds
+    sample.header.sequence = i;
+    ASSERT_TRUE(writer.write(sample));
+  }
+  ASSERT_TRUE(eventually([&] { return inbox.size() == 1500; })) << inbox.size();
+  std::uint64_t expected = 1;
+  for (const auto& [got, info] : inbox.all()) {
+    ASSERT_EQ(got.header.sequence, expected++);
+    EXPECT_EQ(b.writer_name(info.writer_guid), "imu_bridge");
+    EXPECT_GT(info.source_ns, 1'600'000'000 * kNsPerSecond);
+    EXPECT_GE(info.reception_ns, info.source_ns);
+  }
+  const auto peer = b.peer(inbox.all().front().second.writer_guid);
+  ASSERT_TRUE(peer.has_value());
+  EXPECT_FALSE(peer->host.empty());
+  EXPECT_EQ(peer->pid, static_cast<std::uint32_t>(getpid()));
+  EXPECT_EQ(b.counters().sample_lost, 0U);
+}
+
+TEST(Delivery, WithinOneParticipant) {
+  bus::Participant participant(options(103, "both"));
+  Inbox<GpsSample> inbox;
+  bus::Writer<GpsSample> writer(participant);
+  bus::Reader<GpsSample> reader(participant, inbox.handler());
+  ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+  ASSERT_TRUE(writer.write(GpsSample{}));
+  EXPECT_TRUE(eventually([&] { return inbox.size() == 1; }));
+}
+
+TEST(Delivery, ManyKeysOfOneTopic) {
+  bus::Participant a(options(104, "a"));
+  bus::Participant b(options(104, "b"));
+  Inbox<GpsSample> inbox;
+  bus::Writer<GpsSample> writer(a);
+  bus::Reader<GpsSample> reader(b, inbox.handler());
+  ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+  GpsSample sample;
+  for (int i = 0; i < 30; ++i) {
+    sample.header.sensor = Name("gps" + std::to_string(i));
+    ASSERT_TRUE(writer.write(sample)) << i;
+  }
+  EXPECT_TRUE(eventually([&] { return inbox.size() == 30; })) << inbox.size();
+  EXPECT_EQ(a.counters().write_failed, 0U);
+}
+
+TEST(Delivery, TooManyKeysAreCountedAndReported) {
+  bus::Participant a(options(104, "a"));
+  const Events events(a);
+  bus::Writer<GpsSample> writer(a);
+  GpsSample sample;
+  int refused = 0;
+  for (int i = 0; i < 40; ++i) {
+    sample.header.sensor = Name("gps" + std::to_string(i));
+    refused += writer.write(sample) ? 0 : 1;
+  }
+  EXPECT_GT(refused, 0);
+  EXPECT_EQ(a.counters().write_failed, static_cast<std::uint64_t>(refused));
+  ASSERT_EQ(events.of(bus::BusEventKind::write_failed).size(), 1U);
+  EXPECT_EQ(events.of(bus::BusEventKind::write_failed)[0].topic, "fathom/v1/gps");
+}
+
+TEST(Delivery, LateReaderGetsTheLastStatusOfEveryService) {
+  bus::Participant a(options(105, "a"));
+  bus::Writer<ServiceStatus> writer(a);
+  ServiceStatus status;
+  for (int round = 0; round < 3; ++round) {
+    for (int i = 0; i < 20; ++i) {
+      status.header.sensor = Name("service" + std::to_string(i));
+      status.pid = static_cast<std::uint32_t>(100 * round + i);
+      ASSERT_TRUE(writer.write(status));
+    }
+  }
+  bus::Participant b(options(105, "b"));
+  Inbox<ServiceStatus> inbox;
+  bus::Reader<ServiceStatus> reader(b, inbox.handler());
+  ASSERT_TRUE(eventually([&] { return inbox.size() >= 20; })) << inbox.size();
+  let_pass(milliseconds(100));
+  ASSERT_EQ(inbox.size(), 20U);
+  for (const auto& [got, info] : inbox.all()) EXPECT_GE(got.pid, 200U);
+}
+
+TEST(Delivery, LateReaderGetsNoOldSamplesAndNoOldOrders) {
+  bus::Participant a(options(106, "a"));
+  bus::Writer<ImuSample> imu(a);
+  bus::Writer<Command> command(a);
+  ASSERT_TRUE(imu.write(ImuSample{}));
+  ASSERT_TRUE(command.write(Command{}));
+  bus::Participant b(options(106, "b"));
+  Inbox<ImuSample> samples;
+  Inbox<Command> orders;
+  bus::Reader<ImuSample> imu_reader(b, samples.handler());
+  bus::Reader<Command> command_reader(b, orders.handler());
+  ASSERT_TRUE(eventually([&] { return imu.matched_readers() == 1 && command.matched_readers() == 1; }));
+  let_pass(milliseconds(200));
+  EXPECT_EQ(samples.size(), 0U);
+  EXPECT_EQ(orders.size(), 0U);
+}
+
+TEST(Delivery, ASlowReaderHoldsNobodyUp) {
+  bus::Participant a(options(107, "a"));
+  bus::Participant slow(options(107, "slow"));
+  bus::Participant quick(options(107, "quick"));
+  std::promise<void> release;
+  const std::shared_future<void> released = release.get_future().share();
+  std::atomic<int> slow_count = 0;
+  Inbox<NavState> inbox;
+  bus::Writer<NavState> writer(a);
+  bus::Reader<NavState> slow_reader(slow, [&](const NavState&, const bus::SampleInfo&) {
+    ++slow_count;
+    released.wait();
+  });
+  bus::ReaderOptions deep;
+  deep.profile_suffix = "deep";
+  bus::Reader<NavState> quick_reader(quick, inbox.handler(), deep);
+  ASSERT_TRUE(eventually([&] {
+    return writer.matched_readers() == 2 && slow_reader.matched_writers() == 1 &&
+           quick_reader.matched_writers() == 1;
+  }));
+  auto longest = std::chrono::steady_clock::duration::zero();
+  NavState state;
+  for (int i = 0; i < 2000; ++i) {
+    state.header.sequence = static_cast<std::uint64_t>(i);
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_TRUE(writer.write(state));
+    longest = std::max(longest, std::chrono::steady_clock::now() - start);
+    if (i % 100 == 0) let_pass(milliseconds(1));
+  }
+  // A blocked write would have lasted for the profile's 100 ms, and each of the 2000 at that.
+  EXPECT_LT(longest, milliseconds(90));
+  EXPECT_TRUE(eventually([&] { return inbox.size() == 2000; })) << inbox.size();
+  EXPECT_EQ(slow_count, 1);
+  release.set_value();
+  EXPECT_TRUE(eventually([&] { return slow_count > 1; }));
+}
+
+TEST(Delivery, NoHandlerRunsOnceTheReaderIsGone) {
+  bus::Participant a(options(108, "a"));
+  bus::Participant b(options(108, "b"));
+  bus::Writer<ImuSample> writer(a);
+  std::atomic<bool> writing = true;
+  std::thread source([&] {
+    ImuSample sample;
+    while (writing) {
+      ++sample.header.sequence;
+      writer.write(sample);
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+  });
+  for (int round = 0; round < 15; ++round) {
+    std::atomic<bool> alive = true;
+    std::atomic<int> late = 0;
+    std::atomic<int> count = 0;
+    {
+      bus::Reader<ImuSample> reader(b, [&](const ImuSample&, const bus::SampleInfo&) {
+        ++count;
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+        if (!alive) ++late;
+      });
+      EXPECT_TRUE(eventually([&] { return count > 5; }));
+    }
+    alive = false;
+    let_pass(milliseconds(2));
+    EXPECT_EQ(late, 0);
+  }
+  writing = false;
+  source.join();
+}
+
+}  // namespace
+}  // namespace fathom::test

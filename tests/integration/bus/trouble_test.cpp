@@ -1,0 +1,121 @@
+// What goes wrong on a network is counted, and reported once with names.
+
+#include <fastcdr/Cdr.h>
+
+#include "bus/detail/endpoint.hpp"
+#include "bus/writer.hpp"
+#include "samples/dvl.hpp"
+#include "samples/imu.hpp"
+#include "samples/nav_state.hpp"
+#include "support.hpp"
+
+namespace fathom::test {
+namespace {
+
+using bus::BusEventKind;
+
+TEST(Trouble, IncompatibleQosNamesTopicPolicyAndPeerOnBothSides) {
+  bus::Participant a(options(110, "dvl_bridge"));
+  bus::Participant b(options(110, "fusion"));
+  const Events at_a(a);
+  const Events at_b(b);
+  bus::Writer<DvlSample> writer(a);  // promises no deadline
+  bus::ReaderOptions demanding;
+  demanding.deadline_ns = 500 * kNsPerMillisecond;
+  const auto ignore = [](const DvlSample&, const bus::SampleInfo&) {};
+  bus::Reader<DvlSample> reader(b, ignore, demanding);
+  ASSERT_TRUE(eventually([&] {
+    return !at_a.of(BusEventKind::incompatible_qos).empty() &&
+           !at_b.of(BusEventKind::incompatible_qos).empty();
+  }));
+  bus::Reader<DvlSample> same_again(b, ignore, demanding);
+  ASSERT_TRUE(eventually([&] { return b.counters().incompatible_qos == 2; }));
+  ASSERT_TRUE(eventually([&] { return a.counters().incompatible_qos == 2; }));
+
+  ASSERT_EQ(at_b.of(BusEventKind::incompatible_qos).size(), 1U);
+  const bus::BusEvent reader_side = at_b.of(BusEventKind::incompatible_qos)[0];
+  EXPECT_EQ(reader_side.topic, "fathom/v1/dvl");
+  EXPECT_EQ(reader_side.detail,
+            "the writer of dvl_bridge offers another deadline than this reader requests (500 ms)");
+  ASSERT_EQ(at_a.of(BusEventKind::incompatible_qos).size(), 1U);
+  const bus::BusEvent writer_side = at_a.of(BusEventKind::incompatible_qos)[0];
+  EXPECT_EQ(writer_side.topic, "fathom/v1/dvl");
+  EXPECT_EQ(writer_side.detail,
+            "the reader of fusion requests another deadline than this writer offers (none)");
+  EXPECT_EQ(reader.matched_writers(), 0);
+}
+
+TEST(Trouble, AnotherTypeOnATopicIsReported) {
+  bus::Participant a(options(111, "stranger"));
+  bus::Participant b(options(111, "fusion"));
+  const Events at_b(b);
+  bus::Reader<ImuSample> reader(b, [](const ImuSample&, const bus::SampleInfo&) {});
+  bus::detail::TopicOps other = bus::detail::topic_ops<ImuSample>();
+  other.type_name = "fathom::v2::ImuSample";
+  bus::detail::WriterCore writer(a, other, {});
+  ASSERT_TRUE(eventually([&] { return !at_b.of(BusEventKind::incompatible_qos).empty(); }));
+  EXPECT_EQ(
+      at_b.of(BusEventKind::incompatible_qos)[0].detail,
+      "type 'fathom::v2::ImuSample' of stranger differs from ours, 'fathom::v1::ImuSample': they never meet");
+}
+
+TEST(Trouble, BytesThatAreNoSampleAreCountedAndDoNoHarm) {
+  bus::Participant a(options(112, "stranger"));
+  bus::Participant b(options(112, "fusion"));
+  const Events at_b(b);
+  Inbox<DvlSample> inbox;
+  bus::Reader<DvlSample> reader(b, inbox.handler());
+  bus::detail::TopicOps broken = bus::detail::topic_ops<DvlSample>();
+  broken.encode = [](const void*, eprosima::fastcdr::Cdr& cdr) { cdr << 0xFFFFFFFFU << 0xFFFFFFFFU; };
+  bus::detail::WriterCore stranger(a, broken, {});
+  ASSERT_TRUE(eventually([&] { return stranger.matched_readers() == 1 && reader.matched_writers() == 1; }));
+  const DvlSample sample;
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(stranger.write(&sample));
+  ASSERT_TRUE(eventually([&] { return b.counters().invalid_sample == 5; }));
+  ASSERT_EQ(at_b.of(BusEventKind::invalid_sample).size(), 1U);
+  EXPECT_EQ(at_b.of(BusEventKind::invalid_sample)[0].detail,
+            "stranger sent bytes that are no fathom::v1::DvlSample");
+
+  bus::Participant c(options(112, "dvl_bridge"));
+  bus::Writer<DvlSample> honest(c);
+  ASSERT_TRUE(eventually([&] { return reader.matched_writers() == 2 && honest.matched_readers() == 1; }));
+  EXPECT_TRUE(honest.write(sample));
+  EXPECT_TRUE(eventually([&] { return inbox.size() == 1; }));
+}
+
+TEST(Trouble, MissedDeadlinesAreCountedAndReportedOnceUntilRecovered) {
+  bus::Participant a(options(113, "imu_bridge"));
+  bus::Participant b(options(113, "fusion"));
+  const Events at_a(a);
+  const Events at_b(b);
+  bus::WriterOptions offered;
+  offered.deadline_ns = 100 * kNsPerMillisecond;
+  bus::ReaderOptions requested;
+  requested.deadline_ns = 100 * kNsPerMillisecond;
+  bus::Writer<ImuSample> writer(a, offered);
+  bus::Reader<ImuSample> reader(
+      b, [](const ImuSample&, const bus::SampleInfo&) {}, requested);
+  ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+  ImuSample sample;
+  sample.header.vehicle = "auv";
+  sample.header.sensor = "imu0";
+  ASSERT_TRUE(writer.write(sample));
+  ASSERT_TRUE(
+      eventually([&] { return b.counters().deadline_missed >= 3 && a.counters().deadline_missed >= 3; }));
+  ASSERT_EQ(at_b.of(BusEventKind::deadline_missed).size(), 1U);
+  EXPECT_EQ(at_b.of(BusEventKind::deadline_missed)[0].topic, "fathom/v1/imu");
+  EXPECT_EQ(at_b.of(BusEventKind::deadline_missed)[0].detail,
+            "imu_bridge sent nothing about auv/imu0 for 100 ms");
+  ASSERT_EQ(at_a.of(BusEventKind::deadline_missed).size(), 1U);
+  EXPECT_EQ(at_a.of(BusEventKind::deadline_missed)[0].detail,
+            "this service wrote nothing about auv/imu0 for 100 ms");
+
+  ASSERT_TRUE(writer.write(sample));  // recovers, then is silent again
+  EXPECT_TRUE(eventually([&] {
+    return at_b.of(BusEventKind::deadline_missed).size() == 2 &&
+           at_a.of(BusEventKind::deadline_missed).size() == 2;
+  }));
+}
+
+}  // namespace
+}  // namespace fathom::test
