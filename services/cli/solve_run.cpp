@@ -21,7 +21,7 @@ template <class T>
 void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig& config) {
   for (const estimation::SensorConfig& sensor : config.engine.sensors) {
     if (sensor.kind != kind) continue;
-    for (T& sample : stream) sample.header.sensor = sensor.sensor;
+    for (T& sample : stream) sample.header.sensor = Name(sensor.sensor);
     return;
   }
 }

@@ -157,7 +157,7 @@ struct FusionService::Impl {
     verdict.header = sample.header;
     verdict.source = SourceKind::imu;
     verdict.kind = VerdictKind::source_disabled;
-    verdict.writer = host.participant().writer_name(info.writer_guid);
+    verdict.writer = Name(host.participant().writer_name(info.writer_guid));
     {
       const std::lock_guard lock(mutex);
       ++counts.verdicts[static_cast<std::size_t>(verdict.kind)];
@@ -195,7 +195,7 @@ struct FusionService::Impl {
           ++counts.verdicts[static_cast<std::size_t>(verdict.kind)];
           const auto writer =
               verdict.source == SourceKind::imu ? std::optional(imu_writer) : arrivals.writer_of(verdict);
-          if (writer) verdict.writer = host.participant().writer_name(*writer);
+          if (writer) verdict.writer = Name(host.participant().writer_name(*writer));
         }
       }
       for (const Verdict& verdict : std::span(batch).first(count)) verdicts.write(verdict);
