@@ -60,7 +60,8 @@ void Framer::drain(Sink& sink, bool at_end) {
         pass(1);
         break;
       case Probe::Kind::bad:
-        refuse(sink, found.reason, std::min(found.length, unread));
+        assert(found.length > 0 && found.length <= front.size());
+        refuse(sink, found.reason, std::clamp<std::size_t>(found.length, 1, front.size()));
         pass(std::clamp<std::size_t>(found.advance, 1, unread));
         break;
       case Probe::Kind::frame: {

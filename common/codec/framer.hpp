@@ -18,7 +18,7 @@ struct Probe {
     maybe,  ///< too few bytes to tell; at the end of the stream they are skipped
     need,   ///< a frame has begun; ask again with `length` bytes; at the end of the stream it is `truncated`
     frame,  ///< a complete frame of `length` bytes, checksum verified
-    bad,    ///< a frame of `length` bytes that is refused for `reason`
+    bad,    ///< `length` bytes, all of them here, that are refused for `reason`
   };
   Kind kind = Kind::skip;
   std::size_t length = 0;

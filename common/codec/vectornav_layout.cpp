@@ -32,7 +32,8 @@ Layout read_layout(std::span<const std::uint8_t> front) {
   }
   std::size_t mask_at = 2;
   std::size_t offset = 2 + 2 * static_cast<std::size_t>(std::popcount(groups));
-  layout.length = offset;
+  const std::size_t header = offset;
+  layout.length = header;
   if (front.size() < layout.length) return layout;
   for (std::size_t group = 0; group < kGroups; ++group) {
     if ((groups >> group & 1U) == 0) continue;
@@ -42,7 +43,9 @@ Layout read_layout(std::span<const std::uint8_t> front) {
       if ((mask >> field & 1U) == 0) continue;
       const std::size_t size = kSizes[group][field];
       if (size == 0) {
+        // The masks are all that is known to be here, however much of the frame has arrived.
         layout.state = Layout::State::unknown_field;
+        layout.length = header;
         return layout;
       }
       layout.at[group][field] = offset;

@@ -1,0 +1,198 @@
+#include "support/codec/seed_streams.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <stdexcept>
+
+#include "sim/encode/depth.hpp"
+#include "sim/encode/nmea.hpp"
+#include "sim/encode/pd0.hpp"
+#include "sim/encode/ubx.hpp"
+#include "sim/encode/vectornav.hpp"
+#include "sim/encode/waterlinked.hpp"
+
+namespace fathom::test {
+namespace {
+
+constexpr TimeNs kStart = 1'767'225'599 * kNsPerSecond;  // one second before 2026
+constexpr int kFrames = 8;
+
+TimeNs instant(int frame) {
+  return kStart + frame * kNsPerSecond / 4;
+}
+
+void append(ByteVector& stream, std::string_view text) {
+  stream.insert(stream.end(), text.begin(), text.end());
+}
+
+void append(ByteVector& stream, const ByteVector& bytes) {
+  stream.insert(stream.end(), bytes.begin(), bytes.end());
+}
+
+GpsSample gps(int frame) {
+  GpsSample sample;
+  sample.fix = frame == 3 ? GpsFix::none : GpsFix::differential;
+  sample.satellites = 9 + frame;
+  sample.hdop = 0.8;
+  sample.latitude_rad = 0.635 + frame * 1e-7;
+  sample.longitude_rad = -2.223 - frame * 1e-7;
+  sample.altitude_m = 18.5;
+  sample.altitude_msl_m = -7.0;
+  sample.position_sigma_N_m = {0.6, 0.7, 1.4};
+  sample.velocity_N_m_s = {1.0 + 0.1 * frame, -0.5, 0.02};
+  sample.velocity_sigma_N_m_s = {0.05, 0.05, 0.1};
+  return sample;
+}
+
+DvlSample dvl(int frame) {
+  DvlSample sample;
+  constexpr DvlFrame kFrameOf[] = {DvlFrame::instrument, DvlFrame::ship, DvlFrame::beam, DvlFrame::earth};
+  sample.recorded_frame = kFrameOf[frame % 4];
+  sample.velocity_D_m_s = {1.5, 0.1 * frame, -0.02};
+  sample.error_velocity_m_s = 0.004;
+  sample.sigma_m_s = 0.005;
+  sample.beam_range_m = {30.0, 31.0, 29.5, 30.5};
+  sample.altitude_m = 30.0;
+  sample.sound_speed_m_s = 1495.0;
+  sample.roll_rad = 0.02;
+  sample.pitch_rad = -0.03;
+  sample.heading_rad = 1.2;
+  if (frame == 2) sample.velocity_D_m_s.fill(kUnknown);
+  return sample;
+}
+
+UsblSample usbl(int frame) {
+  UsblSample sample;
+  sample.frame = frame % 2 == 0 ? UsblFrame::ned : UsblFrame::vessel_frd;
+  sample.transponder = "M17";
+  sample.relative_m = {40.0 + frame, -3.0, 25.0};
+  sample.sigma_m = 1.4;
+  sample.travel_time_s = 0.0337;
+  return sample;
+}
+
+void nmea_frames(ByteVector& stream, int frame) {
+  HeadingSample heading;
+  heading.heading_rad = 0.7 * frame;
+  heading.north = frame % 2 == 0 ? North::true_north : North::magnetic;
+  PropulsionSample shaft;
+  shaft.rpm = 900.0 - 300.0 * frame;
+  FinsSample fins;
+  fins.rudder_rad = 0.02 * frame;
+  fins.stern_rad = -0.03 * frame;
+  append(stream, sim::encode::nmea_gps(gps(frame), instant(frame)));
+  append(stream, sim::encode::nmea_heading(heading));
+  append(stream, sim::encode::nmea_rpm(shaft));
+  append(stream, sim::encode::nmea_fins(fins));
+  append(stream, sim::encode::nmea_sentence("SDDPT,2.4,0.5"));
+}
+
+ByteVector imu(int frame) {
+  ImuSample sample;
+  sample.angular_rate_B_rad_s = {0.001 * frame, -0.002, 0.01};
+  sample.specific_force_B_m_s2 = {0.1, -0.05, -9.81};
+  if (frame % 2 == 1) {
+    sample.delta_angle_B_rad = {1e-5, -2e-5, 1e-4};
+    sample.delta_velocity_B_m_s = {1e-3, -5e-4, -0.0981};
+    sample.delta_time_s = 0.01;
+    sample.temperature_degC = 21.5;
+  }
+  const auto utc = frame % 4 == 3 ? std::optional<TimeNs>(instant(frame)) : std::nullopt;
+  return sim::encode::vectornav(sample, (frame + 1) * kNsPerSecond / 100, utc);
+}
+
+void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
+  DepthSample depth;
+  depth.depth_m = 12.5 + frame;
+  if (frame % 2 == 1) depth.temperature_degC = 8.25;
+  if (protocol == "nmea0183") {
+    nmea_frames(stream, frame);
+  } else if (protocol == "psimssb") {
+    append(stream, sim::encode::psimssb(usbl(frame), instant(frame)));
+  } else if (protocol == "ubx") {
+    append(stream, sim::encode::ubx_nav_pvt(gps(frame), instant(frame)));
+    append(stream, sim::encode::ubx_frame(0x01, 0x35, ByteVector(20, static_cast<std::uint8_t>(frame))));
+  } else if (protocol == "paroscientific") {
+    append(stream, sim::encode::paroscientific(depth, seed_options(protocol)));
+  } else if (protocol == "ascii_depth") {
+    append(stream, sim::encode::ascii_depth(depth, seed_options(protocol)));
+  } else if (protocol == "pd0") {
+    sim::encode::Pd0Options options;
+    options.ensemble = static_cast<std::uint32_t>(frame + 1);
+    options.high_resolution = frame % 2 == 0;
+    append(stream, sim::encode::pd0(dvl(frame), instant(frame), options));
+  } else if (protocol == "waterlinked") {
+    append(stream, sim::encode::waterlinked(
+                       dvl(frame), {instant(frame), instant(frame) + 190 * kNsPerMillisecond, 250.0}));
+  } else if (protocol == "vectornav") {
+    append(stream, imu(frame));
+  } else {
+    throw std::invalid_argument("no seed stream for protocol " + std::string(protocol));
+  }
+}
+
+}  // namespace
+
+codec::CodecOptions seed_options(std::string_view protocol) {
+  codec::CodecOptions options;
+  options.latitude_rad = 0.635;
+  if (protocol == "ascii_depth") {
+    options.ascii_prefix = "D=";
+    options.value_is_depth = true;
+  }
+  return options;
+}
+
+ByteVector seed_stream(std::string_view protocol) {
+  ByteVector stream;
+  for (int frame = 0; frame < kFrames; ++frame) append_frame(stream, protocol, frame);
+  return stream;
+}
+
+ByteVector mutated(const ByteVector& stream, std::size_t errors, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  ByteVector bytes = stream;
+  for (std::size_t i = 0; i < errors && !bytes.empty(); ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(random() % bytes.size());
+    const auto room = static_cast<std::ptrdiff_t>(bytes.size()) - at;
+    const std::ptrdiff_t length =
+        std::min<std::ptrdiff_t>(1 + static_cast<std::ptrdiff_t>(random() % 16), room);
+    switch (random() % 7) {
+      case 0:
+      case 1:
+        bytes[static_cast<std::size_t>(at)] ^= static_cast<std::uint8_t>(1U << (random() % 8));
+        break;
+      case 2:
+        bytes[static_cast<std::size_t>(at)] = static_cast<std::uint8_t>(random());
+        break;
+      case 3:
+        bytes.erase(bytes.begin() + at, bytes.begin() + at + length);
+        break;
+      case 4: {
+        const ByteVector piece = noise(static_cast<std::size_t>(length), random());
+        bytes.insert(bytes.begin() + at, piece.begin(), piece.end());
+        break;
+      }
+      case 5: {
+        const ByteVector piece(bytes.begin() + at, bytes.begin() + at + length);
+        bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(random() % bytes.size()), piece.begin(),
+                     piece.end());
+        break;
+      }
+      default:
+        if (i + 1 == errors) bytes.resize(static_cast<std::size_t>(at));
+        break;
+    }
+  }
+  return bytes;
+}
+
+ByteVector noise(std::size_t length, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  ByteVector bytes(length);
+  for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+  return bytes;
+}
+
+}  // namespace fathom::test
