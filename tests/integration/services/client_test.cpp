@@ -1,0 +1,218 @@
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <string>
+
+#include <fathom/client.hpp>
+#include <gtest/gtest.h>
+
+#include "support/process.hpp"
+#include "vehicle_network.hpp"
+
+namespace fathom::test {
+namespace {
+
+const std::string kSource = FATHOM_SOURCE_DIR;
+
+ClientOptions options(std::uint32_t domain, const std::string& vehicle = "auv") {
+  ClientOptions out;
+  out.domain = domain;
+  out.vehicle = vehicle;
+  out.profiles_dir = kSource + "/deploy/dds";
+  return out;
+}
+
+TEST(Client, GivesTheNewestStateByCallbackByValueAndByWaiting) {
+  const SystemClock clock;
+  VehicleNetwork network(184, clock);
+  Client client(options(184));
+  EXPECT_FALSE(client.latest().has_value());
+  EXPECT_TRUE(std::isnan(client.age_s()));
+  EXPECT_FALSE(client.wait_next(0.05).has_value());
+  std::atomic<int> calls{0};
+  std::atomic<std::uint64_t> last{0};
+  client.on_nav_state([&](const NavState& state) {
+    ++calls;
+    last = state.header.sequence;
+  });
+  ASSERT_TRUE(wait_until([&] {
+    network.nav();
+    return calls >= 10;
+  }));
+  // Nothing is written any more: all views of the newest state agree.
+  EXPECT_TRUE(wait_until([&] { return client.latest()->header.sequence == last; }));
+  EXPECT_TRUE(client.wait_next(1.0).has_value());
+  EXPECT_FALSE(client.wait_next(0.05).has_value()) << "already returned";
+  EXPECT_TRUE(client.health().ok) << client.health().reason;
+  EXPECT_NEAR(client.health().horizontal_95_m, 2.45, 0.01);
+  EXPECT_TRUE(wait_until([&] { return client.age_s() > 0.5; }, 5.0));
+  EXPECT_FALSE(client.health().ok);
+  EXPECT_FALSE(client.health().fresh);
+  EXPECT_NE(client.health().reason.find("old"), std::string::npos);
+}
+
+TEST(Client, KeepsToOneVehicleAndPassesOnAlarmsAndTheMonitorsView) {
+  const SystemClock clock;
+  VehicleNetwork network(185, clock);
+  Client named(options(185, "auv"));
+  Client first(options(185, ""));
+  std::atomic<int> alarms{0};
+  named.on_alarm([&](const Alarm& alarm) { alarms += alarm.active ? 1 : 0; });
+  ASSERT_TRUE(wait_until([&] {
+    network.nav(NavMode::inertial, AlignmentPhase::aligned, 1.0, "other");
+    return first.latest().has_value();
+  }));
+  ASSERT_TRUE(wait_until([&] {
+    network.nav();
+    network.monitor(true);
+    network.alarm("gps_outage", true);
+    return named.latest().has_value() && named.monitor().has_value() && alarms > 0;
+  }));
+  EXPECT_EQ(named.latest()->header.vehicle, Name("auv"));
+  EXPECT_EQ(first.latest()->header.vehicle, Name("other")) << "the first one heard, and only that one";
+  EXPECT_TRUE(named.monitor()->healthy);
+}
+
+TEST(Client, AHandlerMayReplaceItselfAndAReplacedOneIsNotCalledAgain) {
+  const SystemClock clock;
+  VehicleNetwork network(186, clock);
+  Client client(options(186));
+  std::atomic<int> once{0};
+  std::atomic<int> after{0};
+  auto big =
+      std::make_shared<std::string>(1000, 'x');  // freed while it runs if the handler were not kept alive
+  client.on_nav_state([&, big](const NavState&) {
+    client.on_nav_state([&](const NavState&) { ++after; });
+    once += static_cast<int>(big->size()) / 1000;
+  });
+  big.reset();
+  ASSERT_TRUE(wait_until([&] {
+    network.nav();
+    return after >= 3;
+  }));
+  EXPECT_EQ(once, 1);
+  client.on_nav_state(nullptr);
+  const int seen = after;
+  for (int i = 0; i < 5; ++i) network.nav();
+  (void)client.wait_next(0.2);
+  EXPECT_EQ(after, seen);
+}
+
+TEST(ClientHealth, SaysWhatIsWrongFirst) {
+  NavState good;
+  good.mode = NavMode::dead_reckoning;
+  good.alignment = AlignmentPhase::aligned;
+  good.latitude_rad = 0.6;
+  good.longitude_rad = 2.2;
+  good.velocity_N_m_s = {1, 0, 0};
+  good.q_NB = {1, 0, 0, 0};
+  good.position_covariance_N_m2 = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  good.rpy_sigma_rad = {0.001, 0.001, 0.01};
+  const HealthLimits limits;
+  EXPECT_TRUE(judge(good, 0.1, limits).ok);
+  EXPECT_EQ(judge(good, 0.1, limits).reason, "");
+
+  struct Case {
+    const char* says;
+    double age_s;
+    void (*spoil)(NavState&);
+  };
+  const Case cases[] = {
+      {"0.60 s old", 0.6, [](NavState&) {}},
+      {"mode aligning", 0.1, [](NavState& s) { s.mode = NavMode::aligning; }},
+      {"mode none", 0.1, [](NavState& s) { s.mode = NavMode::none; }},
+      {"not finite", 0.1, [](NavState& s) { s.longitude_rad = kUnknown; }},
+      {"not finite", 0.1, [](NavState& s) { s.q_NB[2] = kUnknown; }},
+      {"not aligned: phase fine", 0.1, [](NavState& s) { s.alignment = AlignmentPhase::fine; }},
+      {"position is certain only", 0.1, [](NavState& s) { s.position_covariance_N_m2[0] = 1e4; }},
+      {"position is certain only", 0.1, [](NavState& s) { s.position_covariance_N_m2[0] = kUnknown; }},
+      {"heading is certain only", 0.1, [](NavState& s) { s.rpy_sigma_rad[2] = 0.5; }},
+      {"heading is certain only", 0.1, [](NavState& s) { s.rpy_sigma_rad[2] = kUnknown; }},
+  };
+  for (const Case& item : cases) {
+    NavState state = good;
+    item.spoil(state);
+    const NavHealth health = judge(state, item.age_s, limits);
+    EXPECT_FALSE(health.ok) << item.says;
+    EXPECT_NE(health.reason.find(item.says), std::string::npos) << health.reason;
+  }
+  EXPECT_FALSE(judge(good, kUnknown, limits).ok);
+  EXPECT_FALSE(judge(std::nullopt, kUnknown, limits).heard);
+  HealthLimits lenient;
+  lenient.need_aligned = false;
+  NavState fine = good;
+  fine.alignment = AlignmentPhase::fine;
+  EXPECT_TRUE(judge(fine, 0.1, lenient).ok);
+}
+
+TEST(GuidanceExample, RefusesUntilNavigationIsGoodThenSteersThenRefusesAgain) {
+  const SystemClock clock;
+  VehicleNetwork network(189, clock);
+  std::mutex mutex;
+  ServiceStatus last;
+  bus::Reader<ServiceStatus> reader(network.participant(),
+                                    [&](const ServiceStatus& status, const bus::SampleInfo&) {
+                                      const std::lock_guard lock(mutex);
+                                      last = status;
+                                    });
+  const auto seen = [&](ServiceState state, const std::string& says) {
+    const std::lock_guard lock(mutex);
+    return last.pid != 0 && last.state == state && last.text.find(says) != std::string::npos;
+  };
+  setenv("FATHOM_DDS_DIR", (kSource + "/deploy/dds").c_str(), 1);
+  Process guidance("fathom-guidance-example",
+                   {"--config", kSource + "/deploy/config/guidance_example.json", "--set", "bus.domain=189"});
+  ASSERT_TRUE(wait_until([&] { return seen(ServiceState::starting, "No navigation state"); }))
+      << guidance.err();
+  const auto feed = [&](NavMode mode, AlignmentPhase phase, ServiceState state, const std::string& says) {
+    return wait_until(
+        [&] {
+          network.nav(mode, phase);
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          return seen(state, says);
+        },
+        8.0);
+  };
+  EXPECT_TRUE(feed(NavMode::aligning, AlignmentPhase::averaging, ServiceState::starting, "aligning"));
+  EXPECT_TRUE(feed(NavMode::gps_aided, AlignmentPhase::aligned, ServiceState::healthy, ""));
+  EXPECT_TRUE(wait_until([&] { return seen(ServiceState::degraded, "not steering"); }));
+  guidance.kill(SIGINT);
+  EXPECT_EQ(guidance.wait(), 0);
+  EXPECT_NE(guidance.err().find("m to go"), std::string::npos) << guidance.err();
+}
+
+TEST(StatusCommand, ExitCodeAndJsonTellHealthyDegradedAndNoNavigation) {
+  const SystemClock clock;
+  VehicleNetwork network(190, clock);
+  setenv("FATHOM_DDS_DIR", (kSource + "/deploy/dds").c_str(), 1);
+  const auto run = [&](bool with_nav, bool healthy, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"status", "--domain", "190", "--timeout", with_nav ? "8" : "1"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    auto process = std::make_unique<Process>("fathom", arguments);
+    (void)wait_until(
+        [&] {
+          if (with_nav) {
+            network.nav();
+            network.monitor(healthy);
+            network.life_sign("fusion");
+          }
+          std::this_thread::sleep_for(std::chrono::milliseconds(20));
+          return !process->running();
+        },
+        20.0);
+    return process;
+  };
+  const auto silent = run(false, false, {"--json"});
+  EXPECT_EQ(silent->wait(), 2) << silent->err();
+  EXPECT_NE(silent->out().find("\"condition\":\"no_navigation\""), std::string::npos) << silent->out();
+  const auto good = run(true, true, {"--json"});
+  EXPECT_EQ(good->wait(), 0) << good->out() << good->err();
+  EXPECT_NE(good->out().find("\"mode\":\"gps_aided\""), std::string::npos) << good->out();
+  const auto bad = run(true, false, {});
+  EXPECT_EQ(bad->wait(), 1) << bad->out();
+  EXPECT_NE(bad->out().find("degraded"), std::string::npos);
+  EXPECT_EQ(bad->out().find('\x1b'), std::string::npos) << "no colours where there is no terminal";
+}
+
+}  // namespace
+}  // namespace fathom::test

@@ -1,0 +1,134 @@
+#include "cli/status_view.hpp"
+
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace fathom::cli {
+namespace {
+
+StatusView healthy_view() {
+  StatusView view;
+  view.utc_ns = 1'700'000'000 * kNsPerSecond;
+  view.vehicle = "auv";
+  view.nav = Heard<NavState>{{}, 0.01};
+  NavState& nav = view.nav->sample;
+  nav.mode = NavMode::dead_reckoning;
+  nav.alignment = AlignmentPhase::aligned;
+  nav.latitude_rad = 0.6;
+  nav.longitude_rad = 2.2;
+  nav.position_covariance_N_m2 = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+  view.nav_rate_hz = 100.0;
+  view.monitor = Heard<MonitorStatus>{{}, 0.1};
+  MonitorStatus& monitor = view.monitor->sample;
+  monitor.healthy = true;
+  monitor.gps_outage_s = 0.0;
+  monitor.sensors = {{"imu", Presence::present, 0.01, 100.0}, {"dvl", Presence::missing, 12.0, 0.0}};
+  monitor.services = {{"fusion", Presence::present, 0.5, 1.0},
+                      {"usbl_bridge", Presence::never_seen, kUnknown, kUnknown}};
+  ServiceStatus fusion;
+  fusion.state = ServiceState::healthy;
+  fusion.pid = 42;
+  fusion.host = "auv1";
+  view.services["fusion"] = {fusion, 0.5};
+  view.verdicts["dvl"] = {10, 2, VerdictKind::rejected};
+  return view;
+}
+
+std::string joined(const StatusView& view, int width, bool colour) {
+  std::string out;
+  for (const std::string& line : table(view, width, colour)) out += line + "\n";
+  return out;
+}
+
+TEST(StatusView, ConditionsAndTheirReasons) {
+  EXPECT_EQ(judge(healthy_view()).condition, Condition::healthy);
+  EXPECT_TRUE(judge(healthy_view()).reasons.empty());
+  EXPECT_EQ(judge(StatusView{}).condition, Condition::no_navigation);
+  struct Case {
+    Condition expected;
+    void (*spoil)(StatusView&);
+  };
+  const Case cases[] = {
+      {Condition::no_navigation, [](StatusView& v) { v.nav.reset(); }},
+      {Condition::no_navigation, [](StatusView& v) { v.nav->age_s = 1.5; }},
+      {Condition::no_navigation, [](StatusView& v) { v.nav->sample.mode = NavMode::aligning; }},
+      {Condition::no_navigation, [](StatusView& v) { v.nav->sample.latitude_rad = kUnknown; }},
+      {Condition::degraded, [](StatusView& v) { v.monitor.reset(); }},
+      {Condition::degraded, [](StatusView& v) { v.monitor->age_s = 10.0; }},
+      {Condition::degraded, [](StatusView& v) { v.monitor->sample.healthy = false; }},
+      {Condition::degraded, [](StatusView& v) { v.services["fusion"].age_s = 10.0; }},
+      {Condition::degraded,
+       [](StatusView& v) { v.services["fusion"].sample.state = ServiceState::degraded; }},
+  };
+  for (const Case& item : cases) {
+    StatusView view = healthy_view();
+    item.spoil(view);
+    EXPECT_EQ(judge(view).condition, item.expected);
+    EXPECT_EQ(judge(view).reasons.size(), 1u);
+  }
+}
+
+TEST(StatusView, TheTableNamesEverythingAndKeepsToItsWidth) {
+  StatusView view = healthy_view();
+  Alarm alarm;
+  alarm.alarm = "sensor_missing:dvl";
+  alarm.severity = Severity::warning;
+  alarm.active = true;
+  alarm.text = "Nothing was heard from sensor dvl for 12.0 s (limit 2.0 s).";
+  view.alarms["sensor_missing:dvl"] = alarm;
+  const std::string text = joined(view, 120, false);
+  for (const char* word : {"auv", "healthy", "dead_reckoning", "imu", "missing", "10 / 2 rejected", "fusion",
+                           "42 on auv1", "usbl_bridge", "never_seen", "sensor_missing:dvl", "+-2.45 m"}) {
+    EXPECT_NE(text.find(word), std::string::npos) << word << "\n" << text;
+  }
+  EXPECT_EQ(text.find('\x1b'), std::string::npos);
+  for (const int width : {20, 40, 80}) {
+    for (const std::string& line : table(view, width, false))
+      EXPECT_LE(line.size(), static_cast<std::size_t>(width));
+  }
+  EXPECT_NE(joined(view, 120, true).find("\x1b[32m"), std::string::npos);
+}
+
+TEST(StatusView, AlarmsOverAndUnacknowledgedComeLast) {
+  StatusView view;
+  for (const auto& [key, severity, active] : {std::tuple{"over", Severity::critical, false},
+                                              {"warn", Severity::warning, true},
+                                              {"crit", Severity::critical, true}}) {
+    Alarm alarm;
+    alarm.alarm = key;
+    alarm.severity = severity;
+    alarm.active = active;
+    view.alarms[key] = alarm;
+  }
+  const auto sorted = sorted_alarms(view);
+  EXPECT_EQ(sorted[0].alarm, Name("crit"));
+  EXPECT_EQ(sorted[1].alarm, Name("warn"));
+  EXPECT_EQ(sorted[2].alarm, Name("over"));
+}
+
+TEST(StatusView, JsonIsOneLineWithNullForTheUnknown) {
+  StatusView view = healthy_view();
+  view.nav->sample.depth_m = kUnknown;
+  view.forecast = Heard<Forecast>{{}, 0.5};
+  view.forecast->sample.limit_count = 1;
+  view.forecast->sample.limits[0] = {"horizontal_100m", 100.0, 2.0, std::numeric_limits<double>::infinity()};
+  const std::string line = json_line(view);
+  EXPECT_EQ(line.find('\n'), std::string::npos);
+  const auto json = nlohmann::json::parse(line);
+  EXPECT_EQ(json["condition"], "healthy");
+  EXPECT_TRUE(json["navigation"]["depth_m"].is_null());
+  EXPECT_NEAR(json["navigation"]["lat_deg"].get<double>(), 34.377467707849391, 1e-9);
+  EXPECT_TRUE(json["alignment"].is_null());
+  EXPECT_EQ(json["sensors"].size(), 2u);
+  EXPECT_EQ(json["verdicts"]["dvl"]["not_used"], 2);
+  EXPECT_EQ(json["services"][1]["state"], "never_seen");
+  EXPECT_TRUE(json["forecast"][0]["time_to_limit_s"].is_null());
+  EXPECT_TRUE(json["forecast"][0]["never"]);
+  EXPECT_TRUE(nlohmann::json::parse(json_line(StatusView{}))["navigation"].is_null());
+}
+
+}  // namespace
+}  // namespace fathom::cli
