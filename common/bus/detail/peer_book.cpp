@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace fathom::bus::detail {
-namespace {
-
-void append(std::string& list, const std::string& name) {
-  if (!list.empty()) list += ", ";
-  list += name;
-}
-
-}  // namespace
-
 GuidPrefix prefix_of(const WriterGuid& guid) {
   GuidPrefix prefix;
   std::copy_n(guid.begin(), prefix.size(), prefix.begin());
@@ -96,22 +87,22 @@ std::vector<Peer> PeerBook::present() const {
   return peers;
 }
 
-std::string PeerBook::writers_in_conflict(const std::string& topic, Policy policy,
-                                          const QosSummary& requested) const {
+std::set<std::string> PeerBook::writers_in_conflict(const std::string& topic, Policy policy,
+                                                    const QosSummary& requested) const {
   const std::lock_guard lock(mutex_);
-  std::string names;
+  std::set<std::string> names;
   for (const auto& [guid, writer] : writers_) {
-    if (writer.topic == topic && conflict(policy, writer.qos, requested)) append(names, name_locked(guid));
+    if (writer.topic == topic && conflict(policy, writer.qos, requested)) names.insert(name_locked(guid));
   }
   return names;
 }
 
-std::string PeerBook::readers_in_conflict(const std::string& topic, Policy policy,
-                                          const QosSummary& offered) const {
+std::set<std::string> PeerBook::readers_in_conflict(const std::string& topic, Policy policy,
+                                                    const QosSummary& offered) const {
   const std::lock_guard lock(mutex_);
-  std::string names;
+  std::set<std::string> names;
   for (const auto& [guid, reader] : readers_) {
-    if (reader.topic == topic && conflict(policy, offered, reader.qos)) append(names, name_locked(guid));
+    if (reader.topic == topic && conflict(policy, offered, reader.qos)) names.insert(name_locked(guid));
   }
   return names;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,12 +40,12 @@ class PeerBook {
   [[nodiscard]] std::optional<Peer> peer(const WriterGuid& guid) const;
   [[nodiscard]] std::string name(const WriterGuid& guid) const;
   [[nodiscard]] std::vector<Peer> present() const;
-  /// Names of those whose writers of this topic (readers, for a local writer) conflict with a local endpoint
-  /// in `policy`, joined by ", "; empty when none is known.
-  [[nodiscard]] std::string writers_in_conflict(const std::string& topic, Policy policy,
-                                                const QosSummary& requested) const;
-  [[nodiscard]] std::string readers_in_conflict(const std::string& topic, Policy policy,
-                                                const QosSummary& offered) const;
+  /// Names of those whose writers (readers, for a local writer) of this topic conflict with a local endpoint
+  /// in `policy`.
+  [[nodiscard]] std::set<std::string> writers_in_conflict(const std::string& topic, Policy policy,
+                                                          const QosSummary& requested) const;
+  [[nodiscard]] std::set<std::string> readers_in_conflict(const std::string& topic, Policy policy,
+                                                          const QosSummary& offered) const;
   /// Who uses this topic with another type than `type`, each as "type 'x' of name".
   [[nodiscard]] std::vector<std::string> type_conflicts(const std::string& topic,
                                                         const std::string& type) const;

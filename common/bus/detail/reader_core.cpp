@@ -113,12 +113,15 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   void on_requested_incompatible_qos(dds::DataReader*,
                                      const dds::RequestedIncompatibleQosStatus& status) override {
     const Policy policy = policy_of(status.last_policy_id);
-    std::string names = bus.peers.writers_in_conflict(ops.topic, policy, requested);
-    if (names.empty()) names = "another participant";
-    bus.events.report(BusEventKind::incompatible_qos, ops.topic, "writer:" + names + to_string(policy),
-                      "the writer of " + names + " offers another " + to_string(policy) +
-                          " than this reader requests (" + value_text(policy, requested) + ")",
-                      static_cast<std::uint64_t>(status.total_count_change));
+    std::set<std::string> writers_in_conflict = bus.peers.writers_in_conflict(ops.topic, policy, requested);
+    if (writers_in_conflict.empty()) writers_in_conflict.insert("another participant");
+    auto occurrences = static_cast<std::uint64_t>(status.total_count_change);
+    for (const std::string& name : writers_in_conflict) {
+      bus.events.report(BusEventKind::incompatible_qos, ops.topic, name + " writes, " + to_string(policy),
+                        "the writer of " + name + " offers another " + to_string(policy) +
+                            " than this reader requests (" + value_text(policy, requested) + ")",
+                        std::exchange(occurrences, 0));
+    }
   }
 
   void on_sample_lost(dds::DataReader*, const dds::SampleLostStatus& status) override {

@@ -1,6 +1,8 @@
 #include <atomic>
 #include <map>
 #include <mutex>
+#include <set>
+#include <utility>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
@@ -49,12 +51,15 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   void on_offered_incompatible_qos(dds::DataWriter*,
                                    const dds::OfferedIncompatibleQosStatus& status) override {
     const Policy policy = policy_of(status.last_policy_id);
-    std::string readers = bus.peers.readers_in_conflict(ops.topic, policy, offered);
-    if (readers.empty()) readers = "another participant";
-    bus.events.report(BusEventKind::incompatible_qos, ops.topic, "reader:" + readers + to_string(policy),
-                      "the reader of " + readers + " requests another " + to_string(policy) +
-                          " than this writer offers (" + value_text(policy, offered) + ")",
-                      static_cast<std::uint64_t>(status.total_count_change));
+    std::set<std::string> readers = bus.peers.readers_in_conflict(ops.topic, policy, offered);
+    if (readers.empty()) readers.insert("another participant");
+    auto occurrences = static_cast<std::uint64_t>(status.total_count_change);
+    for (const std::string& name : readers) {
+      bus.events.report(BusEventKind::incompatible_qos, ops.topic, name + " reads, " + to_string(policy),
+                        "the reader of " + name + " requests another " + to_string(policy) +
+                            " than this writer offers (" + value_text(policy, offered) + ")",
+                        std::exchange(occurrences, 0));
+    }
   }
 
   void on_offered_deadline_missed(dds::DataWriter*, const dds::OfferedDeadlineMissedStatus& status) override {

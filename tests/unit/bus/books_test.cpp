@@ -1,5 +1,7 @@
 // The books of events and peers, and the comparison of QoS: everything of the bus that needs no network.
 
+#include <set>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -118,14 +120,14 @@ TEST(PeerBook, NamesWhoIsInConflict) {
   book.writer_seen(guid(2, 1), {"t", "T", slow});
   QosSummary requested;
   requested.deadline_ns = 100 * kNsPerMillisecond;
-  EXPECT_EQ(book.writers_in_conflict("t", Policy::deadline, requested), "two");
-  EXPECT_EQ(book.writers_in_conflict("t", Policy::reliability, requested), "");
-  EXPECT_EQ(book.writers_in_conflict("u", Policy::deadline, requested), "");
+  EXPECT_EQ(book.writers_in_conflict("t", Policy::deadline, requested), (std::set<std::string>{"two"}));
+  EXPECT_EQ(book.writers_in_conflict("t", Policy::reliability, requested), (std::set<std::string>{}));
+  EXPECT_EQ(book.writers_in_conflict("u", Policy::deadline, requested), (std::set<std::string>{}));
   book.reader_seen(guid(1, 2), {"t", "Other", fast});
-  EXPECT_EQ(book.readers_in_conflict("t", Policy::deadline, requested), "one");
+  EXPECT_EQ(book.readers_in_conflict("t", Policy::deadline, requested), (std::set<std::string>{"one"}));
   EXPECT_EQ(book.type_conflicts("t", "T"), (std::vector<std::string>{"type 'Other' of one"}));
   book.writer_gone(guid(2, 1));
-  EXPECT_EQ(book.writers_in_conflict("t", Policy::deadline, requested), "");
+  EXPECT_EQ(book.writers_in_conflict("t", Policy::deadline, requested), (std::set<std::string>{}));
 }
 
 TEST(Qos, ConflictsAsTheStandardSays) {

@@ -1,0 +1,204 @@
+// Samples pass between fathom's bus and Cyclone DDS unharmed, both ways.
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
+#include "samples/alignment_status.hpp"
+#include "samples/gps.hpp"
+#include "samples/nav_state.hpp"
+
+namespace fathom {
+namespace {
+
+bus::ParticipantOptions options(std::uint32_t domain) {
+  bus::ParticipantOptions options;
+  options.name = "cyclone_test";
+  options.domain = domain;
+  options.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
+  return options;
+}
+
+/// The Cyclone DDS peer as a process whose standard output we read.
+class CyclonePeer {
+ public:
+  CyclonePeer(std::string role, std::uint32_t domain) {
+    std::string program = FATHOM_CYCLONE_PEER;
+    std::string number = std::to_string(domain);
+    std::string uri = "CYCLONEDDS_URI=" FATHOM_CYCLONE_CONFIG;
+    std::array<char*, 4> arguments{program.data(), role.data(), number.data(), nullptr};
+    std::vector<char*> environment;
+    for (char** entry = environ; *entry != nullptr; ++entry) environment.push_back(*entry);
+    environment.push_back(uri.data());
+    environment.push_back(nullptr);
+    std::array<int, 2> ends{};
+    EXPECT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
+    output_ = ends[0];
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], 1);
+    posix_spawn_file_actions_addclosefrom_np(&actions, 3);
+    EXPECT_EQ(posix_spawn(&pid_, program.c_str(), &actions, nullptr, arguments.data(), environment.data()),
+              0);
+    posix_spawn_file_actions_destroy(&actions);
+    close(ends[1]);
+  }
+  ~CyclonePeer() {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+    close(output_);
+  }
+  CyclonePeer(const CyclonePeer&) = delete;
+  CyclonePeer& operator=(const CyclonePeer&) = delete;
+
+  /// Everything it prints until it ends.
+  std::string output() {
+    std::string text;
+    std::array<char, 4096> buffer{};
+    for (ssize_t n = 0; (n = read(output_, buffer.data(), buffer.size())) > 0;) text.append(buffer.data(), n);
+    return text;
+  }
+
+ private:
+  pid_t pid_ = -1;
+  int output_ = -1;
+};
+
+std::string text(double value) {
+  std::array<char, 40> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), " %.17g", value);
+  return buffer.data();
+}
+
+template <std::size_t N>
+std::string text(const std::array<double, N>& values) {
+  std::string all;
+  for (const double value : values) all += text(value);
+  return all;
+}
+
+template <std::size_t N>
+void count_up(std::array<double, N>& values, double from) {
+  for (double& value : values) value = from += 0.125;
+}
+
+/// Publishes `sample` every 10 ms while the peer waits for it; what the peer printed.
+template <class T>
+std::string as_seen_by_peer(const char* role, std::uint32_t domain, T sample) {
+  bus::Participant participant(options(domain));
+  bus::Writer<T> writer(participant);
+  CyclonePeer peer(role, domain);
+  std::atomic<bool> done = false;
+  std::thread publisher([&] {
+    while (!done) {
+      writer.write(sample);
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+  });
+  const std::string output = peer.output();
+  done = true;
+  publisher.join();
+  EXPECT_EQ(participant.counters().incompatible_qos, 0U);
+  return output;
+}
+
+TEST(Cyclone, ReceivesNavState) {
+  NavState s;
+  s.header = {"auv", "fusion", 1'700'000'000'000'000'001, 1'700'000'000'000'000'002, 0xF000'0000'0000'0003U};
+  s.mode = NavMode::dead_reckoning;
+  s.alignment = AlignmentPhase::aligned;
+  s.latitude_rad = 0.6352998;
+  s.longitude_rad = -2.2236;
+  s.altitude_m = -81.25;
+  s.depth_m = 99.75;
+  count_up(s.velocity_N_m_s, 1);
+  count_up(s.q_NB, 2);
+  count_up(s.rpy_rad, 3);
+  count_up(s.angular_rate_B_rad_s, 4);
+  count_up(s.specific_force_B_m_s2, 5);
+  count_up(s.position_covariance_N_m2, 6);
+  count_up(s.velocity_covariance_N_m2_s2, 8);
+  count_up(s.rpy_sigma_rad, 10);
+  s.gps_outage_s = 12.5;  // dvl_outage_s stays unknown
+  s.reset_counter = 4'000'000'000U;
+  count_up(s.last_reset_delta_N_m, 11);
+
+  EXPECT_EQ(
+      as_seen_by_peer("nav_state", 130, s),
+      "vehicle auv\nsensor fusion\nstamp_ns 1700000000000000001\nreceived_ns 1700000000000000002\n"
+      "sequence_number 17293822569102704643\nmode 4\nalignment 5\nlatitude_rad" +
+          text(s.latitude_rad) + "\nlongitude_rad" + text(s.longitude_rad) + "\naltitude_m" +
+          text(s.altitude_m) + "\ndepth_m" + text(s.depth_m) + "\nvelocity_N_m_s" + text(s.velocity_N_m_s) +
+          "\nq_NB" + text(s.q_NB) + "\nrpy_rad" + text(s.rpy_rad) + "\nangular_rate_B_rad_s" +
+          text(s.angular_rate_B_rad_s) + "\nspecific_force_B_m_s2" + text(s.specific_force_B_m_s2) +
+          "\nposition_covariance_N_m2" + text(s.position_covariance_N_m2) + "\nvelocity_covariance_N_m2_s2" +
+          text(s.velocity_covariance_N_m2_s2) + "\nrpy_sigma_rad" + text(s.rpy_sigma_rad) + "\ngps_outage_s" +
+          text(s.gps_outage_s) + "\ndvl_outage_s nan\nreset_counter 4000000000\nlast_reset_delta_N_m" +
+          text(s.last_reset_delta_N_m) + "\n");
+}
+
+TEST(Cyclone, ReceivesListsAndTextOfAlignmentStatus) {
+  AlignmentStatus s;
+  s.header.vehicle = "auv";
+  s.phase = AlignmentPhase::fine;
+  s.in_phase_s = 3.5;
+  s.condition_count = 2;
+  s.conditions[0] = {"pitch_rad", 0.25, 0.5, 1.5, 2.5, true};
+  s.conditions[1] = {"rate_rad_s", 0.125, 0.0625, 0, 4, false};
+  s.time_to_aligned_s = 42;
+  const std::string advice = "turn through a circle";
+  std::copy(advice.begin(), advice.end(), s.advice.begin());
+  EXPECT_EQ(as_seen_by_peer("alignment", 131, s),
+            "vehicle auv\nphase 4\nin_phase_s 3.5\nconditions 2\n"
+            "condition pitch_rad 0.25 0.5 1.5 2.5 1\ncondition rate_rad_s 0.125 0.0625 0 4 0\n"
+            "rpy_sigma_rad nan nan nan\ntime_to_aligned_s 42\nadvice turn through a circle\n");
+}
+
+TEST(Cyclone, PublishesGpsToUs) {
+  bus::Participant participant(options(132));
+  std::mutex mutex;
+  std::optional<GpsSample> received;
+  bus::Reader<GpsSample> reader(participant, [&](const GpsSample& sample, const bus::SampleInfo&) {
+    const std::lock_guard lock(mutex);
+    received = sample;
+  });
+  const CyclonePeer peer("gps", 132);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  const auto arrived = [&] {
+    const std::lock_guard lock(mutex);
+    return received.has_value();
+  };
+  while (!arrived() && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  const std::lock_guard lock(mutex);
+  ASSERT_TRUE(received.has_value());
+  EXPECT_EQ(received->header.vehicle, Name("auv"));
+  EXPECT_EQ(received->header.sensor, Name("gps-of-another-vendor"));
+  EXPECT_EQ(received->header.stamp_ns, 1'700'000'000'123'456'789);
+  EXPECT_EQ(received->fix, GpsFix::rtk_fixed);
+  EXPECT_EQ(received->satellites, 17);
+  EXPECT_EQ(received->latitude_rad, 0.635);
+  EXPECT_EQ(received->longitude_rad, -1.25);
+  EXPECT_EQ(received->velocity_N_m_s, (std::array<double, 3>{0.0, 0.5, 1.0}));
+}
+
+}  // namespace
+}  // namespace fathom
