@@ -6,6 +6,8 @@
 
 #include "base/exit_code.hpp"
 #include "cli/command.hpp"
+#include "config/error.hpp"
+#include "runtime/build_info.hpp"
 
 namespace {
 
@@ -22,6 +24,7 @@ int fail(fathom::ExitCode code, std::string message) {
 int main(int argc, char** argv) {
   using fathom::ExitCode;
   CLI::App app{"Navigation as services on a vehicle network.", "fathom"};
+  app.set_version_flag("--version", "fathom " + std::string(fathom::runtime::version()));
   app.require_subcommand(1);
   ExitCode exit_code = ExitCode::done;
 
@@ -38,6 +41,8 @@ int main(int argc, char** argv) {
     return fail(ExitCode::bad_configuration, std::string(error.what()) + "; see --help");
   } catch (const fathom::cli::Failure& failure) {
     return fail(failure.code(), failure.what());
+  } catch (const fathom::config::ConfigError& error) {
+    return fail(ExitCode::bad_configuration, error.what());
   } catch (const std::exception& error) {
     return fail(ExitCode::runtime_failure, error.what());
   }
