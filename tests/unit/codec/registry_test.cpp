@@ -1,5 +1,7 @@
 #include "codec/registry.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -40,6 +42,17 @@ TEST(Registry, EveryInstrumentOfTheVehicleIsThere) {
   for (const char* name :
        {"nmea0183", "ubx", "pd0", "waterlinked", "vectornav", "paroscientific", "ascii_depth", "psimssb"}) {
     EXPECT_NE(find_protocol(name), nullptr) << name;
+  }
+}
+
+TEST(Registry, EveryProtocolHasAFuzzTarget) {
+  std::ifstream in(std::string(FATHOM_SOURCE_DIR) + "/tests/fuzz/CMakeLists.txt");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t begin = text.find("set(FATHOM_FUZZ_PROTOCOLS ");
+  ASSERT_NE(begin, std::string::npos);
+  const std::string list = text.substr(begin, text.find(')', begin) - begin) + " ";
+  for (const Protocol& protocol : protocols()) {
+    EXPECT_NE(list.find(" " + std::string(protocol.name) + " "), std::string::npos) << protocol.name;
   }
 }
 
