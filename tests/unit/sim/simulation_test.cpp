@@ -1,0 +1,213 @@
+#include "sim/simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "codec/registry.hpp"
+#include "sim/device_encoder.hpp"
+#include "vehicles.hpp"
+
+namespace fathom::sim {
+namespace {
+
+constexpr TimeNs kEpoch = 1'700'000'000 * kNsPerSecond;
+
+Scenario instrumented() {
+  Scenario out = test::auv_scenario();
+  auto& s = out.sensors;
+  const auto use = [](SensorCommon& sensor, const char* protocol, double rate_hz, double latency_s) {
+    sensor.enabled = true;
+    sensor.protocol = protocol;
+    sensor.rate_hz = rate_hz;
+    sensor.latency_s = latency_s;
+    sensor.jitter_s = 0.005;
+  };
+  use(s.imu, "vectornav", 100.0, 0.002);
+  use(s.gps, "nmea0183", 2.0, 0.1);
+  use(s.dvl, "pd0", 5.0, 0.15);
+  use(s.depth, "paroscientific", 10.0, 0.03);
+  use(s.heading, "nmea0183", 10.0, 0.04);
+  use(s.usbl, "psimssb", 0.2, 0.6);
+  use(s.propulsion, "nmea0183", 5.0, 0.02);
+  use(s.fins, "nmea0183", 5.0, 0.02);
+  s.gps.lever_B_m = {0.0, 0.0, -0.4};
+  s.usbl.minimum_depth_m = -1.0;
+  s.imu.gyro.random_walk = 3e-5;
+  s.imu.accelerometer.random_walk = 5e-4;
+  return out;
+}
+
+struct Outcome {
+  std::vector<Measurement> measurements;
+  std::vector<std::uint8_t> bytes;
+  std::vector<Truth> truths;
+};
+
+Outcome play(const Scenario& scenario, std::uint64_t seed, double duration_s) {
+  Simulation::Options options;
+  options.epoch_ns = kEpoch;
+  options.seed = seed;
+  Simulation simulation(scenario, options);
+  DeviceEncoder encoder(scenario, kEpoch);
+  Outcome out;
+  while (simulation.time_s() < duration_s - 1e-9) {
+    const std::size_t first = out.measurements.size();
+    simulation.advance(out.measurements);
+    out.truths.push_back(simulation.truth());
+    for (std::size_t i = first; i < out.measurements.size(); ++i) {
+      const auto bytes = encoder.encode(out.measurements[i]);
+      out.bytes.insert(out.bytes.end(), bytes.begin(), bytes.end());
+    }
+  }
+  return out;
+}
+
+TEST(Simulation, TheSameSeedGivesTheSameBytes) {
+  const Outcome a = play(instrumented(), 4, 60.0);
+  const Outcome b = play(instrumented(), 4, 60.0);
+  const Outcome c = play(instrumented(), 5, 60.0);
+  EXPECT_GT(a.bytes.size(), 300'000U);
+  EXPECT_EQ(a.bytes, b.bytes);
+  EXPECT_NE(a.bytes, c.bytes);
+}
+
+TEST(Simulation, AnotherSensorLeavesTheNoiseOfTheOthersAlone) {
+  Scenario without = instrumented();
+  without.sensors.dvl.enabled = false;
+  const Outcome a = play(instrumented(), 4, 30.0);
+  const Outcome b = play(without, 4, 30.0);
+  const auto imu_of = [](const Outcome& r) {
+    std::vector<double> out;
+    for (const auto& m : r.measurements) {
+      if (const auto* imu = std::get_if<ImuSample>(&m)) out.push_back(imu->angular_rate_B_rad_s[0]);
+    }
+    return out;
+  };
+  EXPECT_EQ(imu_of(a), imu_of(b));
+}
+
+TEST(Simulation, RatesStampsAndSequences) {
+  const Outcome r = play(instrumented(), 1, 50.0);
+  std::map<std::string, std::vector<SampleHeader>> by_sensor;
+  for (const auto& m : r.measurements) by_sensor[header_of(m).sensor.str()].push_back(header_of(m));
+  EXPECT_EQ(by_sensor["imu"].size(), 5000U);
+  EXPECT_EQ(by_sensor["gps"].size(), 101U);  // at 0 and at 50 s as well
+  EXPECT_EQ(by_sensor["dvl"].size(), 251U);
+  EXPECT_EQ(by_sensor["depth"].size(), 501U);
+  for (const auto& [name, headers] : by_sensor) {
+    for (std::size_t i = 0; i < headers.size(); ++i) {
+      EXPECT_EQ(headers[i].sequence, i) << name;
+      EXPECT_GE(headers[i].received_ns, headers[i].stamp_ns) << name;
+      if (i > 0) {
+        EXPECT_GE(headers[i].received_ns, headers[i - 1].received_ns) << name;
+      }
+    }
+  }
+  const auto& imu = by_sensor["imu"];
+  for (std::size_t i = 0; i < imu.size(); ++i) {
+    EXPECT_EQ(imu[i].stamp_ns, kEpoch + static_cast<TimeNs>(i + 1) * 10'000'000);
+  }
+}
+
+TEST(Simulation, GpsOnlyAtTheSurface) {
+  const Outcome r = play(instrumented(), 1, 130.0);
+  int fixes_deep = 0;
+  int fixes_at_start = 0;
+  int fixes_at_end = 0;
+  int silent_deep = 0;
+  for (const auto& m : r.measurements) {
+    const auto* gps = std::get_if<GpsSample>(&m);
+    if (gps == nullptr) continue;
+    const double t_s = to_seconds(gps->header.stamp_ns - kEpoch);
+    const bool fix = gps->fix != GpsFix::none;
+    if (t_s < 35.0 && fix) ++fixes_at_start;
+    if (t_s > 50.0 && t_s < 90.0) ++(fix ? fixes_deep : silent_deep);
+    if (t_s > 120.0 && fix) ++fixes_at_end;
+  }
+  EXPECT_GT(fixes_at_start, 60);
+  EXPECT_EQ(fixes_deep, 0);
+  EXPECT_GT(silent_deep, 70);  // the receiver goes on talking
+  EXPECT_GT(fixes_at_end, 10);
+}
+
+TEST(Simulation, ScheduledAndRandomDropouts) {
+  Scenario scenario = instrumented();
+  scenario.sensors.depth.dropouts = {{10.0, 20.0}};
+  scenario.sensors.heading.dropout_probability = 0.3;
+  const Outcome r = play(scenario, 1, 40.0);
+  int depth_inside = 0;
+  int headings = 0;
+  for (const auto& m : r.measurements) {
+    const double t_s = to_seconds(header_of(m).stamp_ns - kEpoch);
+    if (std::holds_alternative<DepthSample>(m) && t_s >= 10.0 && t_s < 20.0) ++depth_inside;
+    if (std::holds_alternative<HeadingSample>(m)) ++headings;
+  }
+  EXPECT_EQ(depth_inside, 0);
+  EXPECT_NEAR(headings, 280, 40);
+}
+
+struct Collected : codec::Sink {
+  void on_sample(const codec::Decoded& decoded) override { samples.push_back(decoded); }
+  void on_rejected(const codec::Rejected&) override { ++rejected; }
+  std::vector<codec::Decoded> samples;
+  int rejected = 0;
+};
+
+TEST(DeviceEncoder, TheCodecsReadWhatTheDevicesSay) {
+  const Scenario scenario = instrumented();
+  Simulation::Options options;
+  options.epoch_ns = kEpoch;
+  Simulation simulation(scenario, options);
+  DeviceEncoder encoder(scenario, kEpoch - 5 * kNsPerSecond);
+  std::map<std::string, std::vector<std::uint8_t>> streams;
+  std::map<std::string, std::size_t> sent;
+  std::vector<Measurement> all;
+  while (simulation.time_s() < 30.0) simulation.advance(all);
+  for (const auto& m : all) {
+    const auto name = header_of(m).sensor.str();
+    const auto bytes = encoder.encode(m);
+    ASSERT_FALSE(bytes.empty()) << name;
+    streams[name].insert(streams[name].end(), bytes.begin(), bytes.end());
+    ++sent[name];
+  }
+  EXPECT_EQ(streams.size(), 8U);
+  for (const auto& [name, bytes] : streams) {
+    codec::CodecOptions codec_options;
+    codec_options.latitude_rad = scenario.start.latitude_rad;
+    const auto* protocol = codec::find_protocol(find_sensor(scenario.sensors, name)->protocol);
+    ASSERT_NE(protocol, nullptr);
+    const auto codec = protocol->make(codec_options);
+    Collected sink;
+    codec->feed(bytes, sink);
+    codec->finish(sink);
+    EXPECT_EQ(sink.rejected, 0) << name;
+    EXPECT_EQ(sink.samples.size(), sent[name]) << name;
+    EXPECT_EQ(codec->totals().skipped_bytes, 0U) << name;
+  }
+  // Times of validity are in the device's own clock fields.
+  const auto codec = codec::find_protocol("vectornav")->make({});
+  Collected sink;
+  codec->feed(streams["imu"], sink);
+  ASSERT_GE(sink.samples.size(), 100U);
+  for (std::size_t i = 0; i < 100; ++i) {
+    EXPECT_EQ(sink.samples[i].time.clock_ns.value(),
+              5 * kNsPerSecond + static_cast<TimeNs>(i + 1) * 10'000'000);
+  }
+}
+
+TEST(DeviceEncoder, KnowsWhatItCanSay) {
+  EXPECT_TRUE(can_encode("gps", "nmea"));
+  EXPECT_TRUE(can_encode("gps", "u-blox"));
+  EXPECT_TRUE(can_encode("dvl", "teledyne_pd0"));
+  EXPECT_FALSE(can_encode("dvl", "nmea0183"));
+  EXPECT_FALSE(can_encode("imu", "no_such_protocol"));
+  EXPECT_EQ(find_sensor(SensorSuite{}, "sonar"), nullptr);
+}
+
+}  // namespace
+}  // namespace fathom::sim
