@@ -141,6 +141,7 @@ struct SensorPlan {
   SampleLimits limits;
   std::array<double, 9> R_BS{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::string transponder;
+  bool intermittent = false;  ///< fewer samples than expected are normal; none for stale_after_s is not
 };
 
 [[nodiscard]] SensorPlan sensor_plan(const ImuSensorConfig& config);

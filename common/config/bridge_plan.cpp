@@ -40,6 +40,7 @@ double pascal(DepthUnit unit) {
 SensorPlan plan_of(const SensorConfig& sensor) {
   SensorPlan out;
   out.sensor = sensor;
+  if (out.sensor.source.silence_s <= 0.0) out.sensor.source.silence_s = stale_after_s(sensor);
   return out;
 }
 
@@ -115,6 +116,7 @@ SensorPlan sensor_plan(const UsblSensorConfig& config) {
   out.options.require_checksum = config.require_checksum;
   out.options.usbl_sigma_floor_m = config.sigma_floor_m;
   out.transponder = config.transponder;
+  out.intermittent = true;  // out of earshot is no fault
   out.limits.usbl_range_m = config.max_range_m;
   return out;
 }

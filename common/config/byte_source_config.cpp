@@ -29,9 +29,9 @@ void describe(Schema<ByteSourceConfig>& s) {
       .words({{"original", Pace::original}, {"rate", Pace::rate}, {"fastest", Pace::fastest}});
   s.field("bytes_per_s", &ByteSourceConfig::bytes_per_s, "file with pace rate: speed").range(1, 1e9);
   s.field("silence_s", &ByteSourceConfig::silence_s,
-          "a connection without bytes for this long is reported silent")
+          "a connection without bytes for this long is reported silent; 0: when its samples are stale")
       .unit("s")
-      .range(0.1, 3600);
+      .range(0, 86'400);
   s.field("backoff_first_s", &ByteSourceConfig::backoff_first_s,
           "wait after the first failed attempt to connect")
       .unit("s")

@@ -1,6 +1,7 @@
 #include "runtime/byte_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 
@@ -50,18 +51,18 @@ ByteSource::Impl::Impl(ByteSourceConfig config_in, const Clock& clock_in, BytesH
       on_event(std::move(on_event_in)),
       backoff(config.backoff_first_s, config.backoff_most_s) {}
 
-void ByteSource::Impl::deliver(std::size_t size) {
+void ByteSource::Impl::deliver(std::span<const std::uint8_t> bytes) {
   const Arrival arrival{clock.utc_ns(), clock.monotonic_ns()};
   last_byte_ns = arrival.monotonic_ns;
   backoff.reset();
   bool was_silent = false;
   {
     const std::lock_guard lock(mutex);
-    status.bytes += size;
+    status.bytes += bytes.size();
     was_silent = status.state == SourceState::silent;
   }
   if (was_silent) change(SourceState::connected, describe_source(config) + ": bytes again");
-  on_bytes(std::span(buffer.data(), size), arrival);
+  on_bytes(bytes, arrival);
 }
 
 void ByteSource::Impl::change(SourceState state, std::string detail) {
@@ -126,7 +127,8 @@ asio::awaitable<void> ByteSource::Impl::run() {
 }
 
 asio::awaitable<void> ByteSource::Impl::watch() {
-  if (config.type == SourceType::file) co_return;  // a file's gaps are those of the recording
+  // A file's gaps are those of the recording.
+  if (config.type == SourceType::file || config.silence_s <= 0.0) co_return;
   for (;;) {
     co_await wait(std::clamp(config.silence_s / 4.0, 0.05, 1.0));
     SourceState state{};

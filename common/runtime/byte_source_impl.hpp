@@ -2,11 +2,11 @@
 
 // Private to runtime/byte_*.cpp: the only code that includes Asio.
 
-#include <array>
-#include <atomic>
 #include <condition_variable>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <utility>
@@ -38,7 +38,7 @@ struct ByteSource::Impl {
   template <class Stream>
   asio::awaitable<void> read_all(Stream& stream);
 
-  void deliver(std::size_t size);
+  void deliver(std::span<const std::uint8_t> bytes);
   void change(SourceState state, std::string detail);
   void fail(const std::string& reason);
 
@@ -50,8 +50,7 @@ struct ByteSource::Impl {
   asio::io_context io{1};
   std::thread thread;
   Backoff backoff;
-  std::array<std::uint8_t, 65536> buffer{};  ///< holds the longest datagram
-  TimeNs last_byte_ns = 0;                   ///< monotonic
+  TimeNs last_byte_ns = 0;  ///< monotonic
   /// Set by a transport that can be broken from outside: watch() calls it when the device has gone unnoticed.
   std::function<bool()> still_there;
   std::function<void()> break_connection;

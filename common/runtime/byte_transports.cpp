@@ -3,6 +3,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
+#include <vector>
 
 #include <asio/buffer.hpp>
 #include <asio/co_spawn.hpp>
@@ -27,6 +28,8 @@ using asio::ip::tcp;
 using asio::ip::udp;
 
 constexpr double kConnectTimeout_s = 3.0;
+constexpr std::size_t kStreamPiece = 4096;
+constexpr std::size_t kLongestDatagram = 65'536;
 
 // A peer that lost power sends no FIN: without this a read would wait for hours.
 void keep_alive(tcp::socket& socket) {
@@ -45,9 +48,10 @@ void keep_alive(tcp::socket& socket) {
 
 template <class Stream>
 asio::awaitable<void> ByteSource::Impl::read_all(Stream& stream) {
+  std::vector<std::uint8_t> buffer(kStreamPiece);
   for (;;) {
     const std::size_t size = co_await stream.async_read_some(asio::buffer(buffer), asio::use_awaitable);
-    deliver(size);
+    deliver(std::span(buffer).first(size));
   }
 }
 
@@ -111,7 +115,13 @@ asio::awaitable<void> ByteSource::Impl::serve_tcp_server() {
           std::string reason;
           try {
             keep_alive(*socket);
-            co_await self.read_all(*socket);
+            std::vector<std::uint8_t> buffer(kStreamPiece);
+            for (;;) {
+              const std::size_t size =
+                  co_await socket->async_read_some(asio::buffer(buffer), asio::use_awaitable);
+              if (*shown != socket) co_return;
+              self.deliver(std::span(buffer).first(size));
+            }
           } catch (const asio::system_error& error) {
             reason = error.code().message();
           } catch (const std::exception& error) {
@@ -149,9 +159,10 @@ asio::awaitable<void> ByteSource::Impl::serve_udp() {
   }
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": bound");
+  std::vector<std::uint8_t> buffer(kLongestDatagram);
   for (;;) {
     const std::size_t size = co_await socket.async_receive(asio::buffer(buffer), asio::use_awaitable);
-    if (size > 0) deliver(size);
+    if (size > 0) deliver(std::span(buffer).first(size));
   }
 }
 
@@ -163,14 +174,14 @@ asio::awaitable<void> ByteSource::Impl::serve_file() {
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": open");
   // Small pieces, so that a piece holds about one frame and its samples do not share one arrival.
-  const std::size_t piece = config.pace == Pace::fastest ? 4096 : 64;
+  std::vector<std::uint8_t> buffer(config.pace == Pace::fastest ? kStreamPiece : 64);
   const TimeNs start_ns = clock.monotonic_ns();
   double sent = 0.0;
   for (;;) {
-    file.read(reinterpret_cast<char*>(buffer.data()), static_cast<std::streamsize>(piece));
+    file.read(reinterpret_cast<char*>(buffer.data()), static_cast<std::streamsize>(buffer.size()));
     const auto size = static_cast<std::size_t>(file.gcount());
     if (size == 0) break;
-    deliver(size);
+    deliver(std::span(buffer).first(size));
     sent += static_cast<double>(size);
     double ahead_s = 0.0;
     if (config.pace == Pace::rate) {

@@ -14,9 +14,10 @@ namespace {
 constexpr double kDeadlinePeriods = 3.0;
 constexpr DurationNs kShortestDeadline = 20 * kNsPerMillisecond;
 
-bus::WriterOptions writer_options(const host::ServiceHost& host, const config::SensorConfig& sensor) {
+bus::WriterOptions writer_options(const host::ServiceHost& host, const config::SensorPlan& plan) {
   bus::WriterOptions out;
-  const DurationNs vehicle_ns = from_seconds(kDeadlinePeriods / sensor.rate_hz);
+  if (plan.intermittent) return out;
+  const DurationNs vehicle_ns = from_seconds(kDeadlinePeriods / plan.sensor.rate_hz);
   out.deadline_ns = std::max(kShortestDeadline, host.host_duration(vehicle_ns));
   return out;
 }
@@ -24,8 +25,8 @@ bus::WriterOptions writer_options(const host::ServiceHost& host, const config::S
 template <class... Samples>
 class BusOutlet : public Outlet {
  public:
-  BusOutlet(host::ServiceHost& host, const config::SensorConfig& sensor)
-      : writers_{make<Samples>(host, sensor)...} {}
+  BusOutlet(host::ServiceHost& host, const config::SensorPlan& plan)
+      : writers_{make<Samples>(host, plan)...} {}
 
   [[nodiscard]] bool takes(std::size_t kind) const override {
     return ((codec::AnySample(Samples{}).index() == kind) || ...);
@@ -34,9 +35,8 @@ class BusOutlet : public Outlet {
 
  private:
   template <class Sample>
-  static std::unique_ptr<bus::Writer<Sample>> make(host::ServiceHost& host,
-                                                   const config::SensorConfig& sensor) {
-    return std::make_unique<bus::Writer<Sample>>(host.participant(), writer_options(host, sensor));
+  static std::unique_ptr<bus::Writer<Sample>> make(host::ServiceHost& host, const config::SensorPlan& plan) {
+    return std::make_unique<bus::Writer<Sample>>(host.participant(), writer_options(host, plan));
   }
   template <class Sample>
   bool write_if(const codec::AnySample& sample) {
@@ -76,7 +76,7 @@ void Bridge::Impl::fill(ServiceStatus& status) {
     if (const auto problem = channel->judge()) {
       problems += (problems.empty() ? "" : "; ") + channel->sensor().name.str() + ": " + *problem;
     }
-    all_delivered = all_delivered && channel->counters().samples > 0;
+    all_delivered = all_delivered && channel->has_started();
     status.rates.push_back({channel->sensor().name, channel->rate_hz()});
   }
   status.state = all_delivered ? ServiceState::healthy : ServiceState::starting;
@@ -132,7 +132,7 @@ template <class... Samples>
 Bridge::Bridge(host::ServiceHost& host, const std::vector<config::SensorPlan>& plans, Kinds<Samples...>)
     : impl_(std::make_unique<Impl>(host)) {
   for (const config::SensorPlan& plan : plans) {
-    impl_->outlets.push_back(std::make_unique<BusOutlet<Samples...>>(host, plan.sensor));
+    impl_->outlets.push_back(std::make_unique<BusOutlet<Samples...>>(host, plan));
     impl_->channels.push_back(std::make_unique<SensorChannel>(plan, host.common().vehicle, host.clock(),
                                                               host.log(), *impl_->outlets.back()));
   }

@@ -26,7 +26,7 @@ std::string format(const char* pattern, Values... values) {
 ChannelHealth::ChannelHealth(double rate_hz, double stale_after_s, TimeNs now_ns)
     : rate_hz_(rate_hz),
       stale_after_s_(stale_after_s),
-      window_s_(std::max(5.0, 10.0 / rate_hz)),
+      window_s_(rate_hz > 0.0 ? std::max(5.0, 10.0 / rate_hz) : 60.0),
       start_ns_(now_ns) {}
 
 double ChannelHealth::rate_hz() const {

@@ -23,7 +23,8 @@ struct ChannelTotals {
 /// Judges one instrument from what it delivers. Pure: time is an argument.
 class ChannelHealth {
  public:
-  /// `now_ns`: monotonic time of the start; until stale_after_s later a missing sample is no problem yet.
+  /// `rate_hz` 0: any rate is right. `now_ns`: monotonic time of the start; until stale_after_s later a
+  /// missing sample is no problem yet.
   ChannelHealth(double rate_hz, double stale_after_s, TimeNs now_ns);
 
   /// What is wrong, in words for the service's status; nothing when all is well. Call about once a second.

@@ -44,7 +44,8 @@ struct SensorChannel::Impl : codec::Sink {
         log(log_in),
         outlet(outlet_in),
         tracker(plan.sensor.time),
-        health(plan.sensor.rate_hz, config::stale_after_s(plan.sensor), clock.monotonic_ns()),
+        health(plan.intermittent ? 0.0 : plan.sensor.rate_hz, config::stale_after_s(plan.sensor),
+               clock.monotonic_ns()),
         source(
             plan.sensor.source, clock,
             [this](std::span<const std::uint8_t> bytes, const Arrival& at) { on_bytes(bytes, at); },
@@ -247,6 +248,12 @@ std::optional<std::string> SensorChannel::judge() {
     totals.last_sample_ns = impl_->last_sample_ns;
   }
   return impl_->health.judge(totals, impl_->clock.monotonic_ns());
+}
+
+bool SensorChannel::has_started() const {
+  if (impl_->plan.intermittent && impl_->source.status().state == SourceState::connected) return true;
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->counters.samples > 0;
 }
 
 double SensorChannel::rate_hz() const {
