@@ -62,6 +62,8 @@ void Supervisor::spawn(Child& child) {
     dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
     dup2(log, STDOUT_FILENO);
     dup2(log, STDERR_FILENO);
+    // Sockets of our own participant must not stay open in a service that outlives it.
+    close_range(STDERR_FILENO + 1, ~0U, 0);
     execv(argv[0], argv.data());
     dprintf(STDERR_FILENO, "%s: cannot be started: %s\n", argv[0], strerror(errno));
     _exit(4);
