@@ -98,6 +98,8 @@ class VehicleNetwork {
     command.target = key;
     command_.write(command);
   }
+  /// Of the newest sample written, of whatever type.
+  [[nodiscard]] std::uint64_t last_sequence() const { return sequence_; }
   bus::Participant& participant() { return participant_; }
   [[nodiscard]] bool nav_heard_by_someone() const { return nav_.matched_readers() > 0; }
   [[nodiscard]] bool commands_heard_by_someone() const { return command_.matched_readers() > 0; }
