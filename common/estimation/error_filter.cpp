@@ -72,7 +72,10 @@ void ErrorFilter::propagate(const Matrix9& f, const ImuColumns& g, double dt_s, 
       double sum = 0.0;
       for (int k = 0; k < kNavStates; ++k) sum += row[k] * a(j, k);
       for (int k = kNavStates; k < driven; ++k) sum += row[k] * b(j, k - kNavStates);
-      if (i >= 3 && i < 6 && j >= 3) sum += dt_s * noise.velocity(i - 3, j - 3);
+      // White noise of the acceleration reaches the position through the velocity within the step.
+      if (i < 3) sum += dt_s * dt_s * dt_s / 3.0 * noise.velocity(i, j);
+      if (i >= 3 && i < 6)
+        sum += j < 3 ? 0.5 * dt_s * dt_s * noise.velocity(i - 3, j) : dt_s * noise.velocity(i - 3, j - 3);
       if (i >= 6 && j >= 6) sum += dt_s * noise.attitude(i - 6, j - 6);
       set(i, j, sum);
     }

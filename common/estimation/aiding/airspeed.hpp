@@ -34,6 +34,8 @@ class Airspeed {
     const Vector3 along = through_N_.normalized();
     for (int i = 0; i < 3; ++i) h.set(0, Group::velocity, i, along(i));
     for (int i = 0; i < 2; ++i) h.set(0, Group::current, i, along(i));
+    const double slope = kDensityExponent * kLapse_1_m / base();
+    h.set(0, Group::position, 2, slope * sample_.airspeed_m_s * true_per_indicated());
   }
   [[nodiscard]] Vector3 noise() const {
     const double own = std::hypot(sensor_.sigma[0], sensor_.proportional_sigma * sample_.airspeed_m_s);
@@ -41,11 +43,14 @@ class Airspeed {
   }
 
  private:
-  [[nodiscard]] double true_per_indicated() const {
-    // Density ratio of the ISA troposphere to the power -1/2.
-    const double base = 1.0 - 2.25577e-5 * s_.state.nav.position.altitude_m;
-    return std::pow(base > 0.3 ? base : 0.3, -2.12794);
+  // The ISA troposphere: density is a power of this.
+  static constexpr double kLapse_1_m = 2.25577e-5;
+  static constexpr double kDensityExponent = 2.12794;  ///< half the density's own, for the square root
+  [[nodiscard]] double base() const {
+    const double value = 1.0 - kLapse_1_m * s_.state.nav.position.altitude_m;
+    return value > 0.3 ? value : 0.3;
   }
+  [[nodiscard]] double true_per_indicated() const { return std::pow(base(), -kDensityExponent); }
 
   const AidingState& s_;
   const SensorConfig& sensor_;

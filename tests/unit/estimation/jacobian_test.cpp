@@ -1,0 +1,199 @@
+#include <gtest/gtest.h>
+
+#include "estimation/aiding/registry.hpp"
+#include "estimation/error_filter.hpp"
+#include "estimation/strapdown.hpp"
+#include "support/analytic_vehicle.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Vector3d;
+using test::Normal;
+
+/// Everything that can be estimated together.
+StateGroups all_groups() {
+  StateGroups g;
+  g.accel_scale = g.gyro_scale = g.accel_misalignment = g.gyro_misalignment = true;
+  g.dvl_scale = g.dvl_misalignment = g.dvl_bias = g.current = g.depth_bias = g.surface_altitude = true;
+  g.heading_bias = g.heading_deviation = g.usbl_bias = g.gps_position_bias = g.log_scale = true;
+  return g;
+}
+
+FilterState random_state(Normal& normal, const StateIndex& index) {
+  FilterState state;
+  state.nav.position = {normal.uniform(-1.2, 1.2), normal.uniform(-3.0, 3.0), normal.uniform(-500.0, 3000.0)};
+  state.nav.v_N_m_s = normal.vector(10.0);
+  state.nav.q_NB =
+      geo::from_rpy({normal.uniform(-1.0, 1.0), normal.uniform(-0.9, 0.9), normal.uniform(-3.1, 3.1)});
+  for (int i = kNavStates; i < index.size(); ++i)
+    state.x[static_cast<std::size_t>(i)] = normal(i < index.imu_end() ? 1e-5 : 0.01);
+  return state;
+}
+
+/// The estimate whose error is larger by `delta` in one state: the reverse of a correction.
+FilterState perturbed(const FilterState& state, const StateIndex& index, int which, double delta) {
+  std::array<double, kMaxStates> x{};
+  x[static_cast<std::size_t>(which)] = -delta;
+  FilterState out = state;
+  remove_error(x, index.size(), out);
+  return out;
+}
+
+/// A sample of each kind with every field known.
+AnySample sample_of(SourceKind source, const FilterState& state, Normal& normal) {
+  const geo::Geodetic near = geo::moved_by(state.nav.position, normal.vector(5.0));
+  switch (source) {
+    case SourceKind::gps: {
+      GpsSample s;
+      s.fix = GpsFix::fix_3d;
+      s.latitude_rad = near.latitude_rad;
+      s.longitude_rad = near.longitude_rad;
+      s.altitude_m = near.altitude_m;
+      s.velocity_N_m_s = geo::arr(state.nav.v_N_m_s);
+      return s;
+    }
+    case SourceKind::dvl: {
+      DvlSample s;
+      s.mode = normal(1.0) > 0.0 ? DvlMode::water : DvlMode::bottom;
+      s.velocity_D_m_s = {1.0, 0.2, -0.1};
+      return s;
+    }
+    case SourceKind::depth: {
+      DepthSample s;
+      s.depth_m = 12.0;
+      return s;
+    }
+    case SourceKind::heading: {
+      HeadingSample s;
+      s.heading_rad = geo::wrap_two_pi(geo::to_rpy(state.nav.q_NB).z() + normal(0.1));
+      return s;
+    }
+    case SourceKind::usbl: {
+      UsblSample s;
+      s.latitude_rad = near.latitude_rad;
+      s.longitude_rad = near.longitude_rad;
+      s.depth_m = 15.0;
+      return s;
+    }
+    case SourceKind::airspeed: {
+      AirspeedSample s;
+      s.airspeed_m_s = 25.0;
+      return s;
+    }
+    default: {
+      PropulsionSample s;
+      s.rpm = 1500.0;
+      return s;
+    }
+  }
+}
+
+/// Rows of one registry entry at a state.
+Observation rows(const AidingEntry& entry, const StateIndex& index, const FilterState& state,
+                 const Vector3d& measured_rate, const SensorConfig& sensor, const AnySample& sample) {
+  const Vector3d rate = corrected_rate(index, state.x, measured_rate);
+  const AidingState aiding(index, state, rate, 0.1);
+  Observation observation;
+  EXPECT_EQ(entry.observe({aiding, sensor, 18.0}, sample, observation), Usable::yes) << entry.name;
+  return observation;
+}
+
+class Jacobians : public ::testing::TestWithParam<int> {};
+
+TEST_P(Jacobians, EqualCentralDifferencesOnTheManifold) {
+  const AidingEntry& entry = aiding_registry()[static_cast<std::size_t>(GetParam())];
+  const StateIndex index(all_groups());
+  Normal normal(100 + static_cast<std::uint64_t>(GetParam()));
+  SensorConfig sensor = default_sensor(entry.source, "sensor");
+  sensor.scale_m_s_per_rpm = 0.002;
+  double largest = 0.0;
+  for (int trial = 0; trial < 120; ++trial) {
+    sensor.lever_B_m = geo::arr(normal.vector(1.0));
+    sensor.mounting_rpy_rad =
+        entry.source == SourceKind::dvl ? geo::arr(normal.vector(0.5)) : std::array<double, 3>{0.0, 0.0, 0.3};
+    const FilterState state = random_state(normal, index);
+    const Vector3d rate = normal.vector(0.2);
+    const AnySample sample = sample_of(entry.source, state, normal);
+    const Observation at = rows(entry, index, state, rate, sensor, sample);
+    ASSERT_GT(at.rows, 0);
+    for (int j = 0; j < index.size(); ++j) {
+      // Navigation errors are estimate minus truth, the others truth minus estimate: remove_error() knows.
+      const double step = j < 6 ? 1e-3 : 1e-5;
+      const Observation up = rows(entry, index, perturbed(state, index, j, step), rate, sensor, sample);
+      const Observation down = rows(entry, index, perturbed(state, index, j, -step), rate, sensor, sample);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(at.rows); ++i) {
+        const double slope = (up.innovation[i] - down.innovation[i]) / (2.0 * step);
+        const double own = at.h[i][static_cast<std::size_t>(j)];
+        // What the lever does with the frame's own rate and with scale states of the gyro is left out of H:
+        // micrometres per second.
+        const double tolerance = 3e-4 * std::max(1.0, std::abs(slope));
+        const bool minor = j >= index.of(Group::gyro_scale) && j < index.imu_end();
+        if (!minor) {
+          EXPECT_NEAR(own, slope, tolerance) << entry.name << " row " << i << " " << index.name(j);
+        }
+        largest = std::max(largest, std::abs(own));
+      }
+    }
+  }
+  EXPECT_GT(largest, 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, Jacobians, ::testing::Range(0, static_cast<int>(aiding_registry().size())),
+                         [](const auto& info) {
+                           return std::string(aiding_registry()[static_cast<std::size_t>(info.param)].name);
+                         });
+
+TEST(ErrorDynamics, PredictsHowAnErrorGrows) {
+  // Two mechanisations a small error apart, fed with the same instrument: F and the columns of the inertial
+  // errors must say how the difference develops.
+  const StateIndex index(all_groups());
+  Normal normal(5);
+  for (int trial = 0; trial < 100; ++trial) {
+    FilterState state = random_state(normal, index);
+    state.nav.v_N_m_s *= 3.0;
+    const Vector3d rate = normal.vector(0.05);
+    const Vector3d force = normal.vector(3.0) - Vector3d(0.0, 0.0, 9.8);
+    const auto advanced = [&](const FilterState& from, double dt) {
+      Increments in;
+      in.dt_s = dt;
+      in.dtheta_rad = dt * corrected_rate(index, from.x, rate);
+      in.dv_m_s = dt * corrected_force(index, from.x, force);
+      return mechanise(from.nav, correct(in));
+    };
+    const auto error = [&](const NavSolution& estimate, const NavSolution& truth) {
+      Eigen::Matrix<double, 9, 1> e;
+      e.segment<3>(0) = geo::difference_N(truth.position, estimate.position);
+      e.segment<3>(3) = estimate.v_N_m_s - truth.v_N_m_s;
+      e.segment<3>(6) = geo::log(truth.q_NB * geo::conjugate(estimate.q_NB));
+      return e;
+    };
+    const Vector3d rate_hat = corrected_rate(index, state.x, rate);
+    const Vector3d force_hat = corrected_force(index, state.x, force);
+    const Eigen::Matrix3d c = geo::to_matrix(state.nav.q_NB);
+    const Matrix9 f = error_dynamics(state.nav, c * force_hat);
+    const ImuColumns g = imu_error_columns(index, c, rate_hat, force_hat);
+    constexpr double dt = 0.01;
+    const NavSolution truth = advanced(state, dt);
+    for (int j = 0; j < index.imu_end(); ++j) {
+      const double step = j < 3 ? 30.0 : (j < 6 ? 0.1 : 1e-3);
+      const FilterState other = perturbed(state, index, j, step);
+      const FilterState opposite = perturbed(state, index, j, -step);
+      const auto after =
+          ((error(advanced(other, dt), truth) - error(advanced(opposite, dt), truth)) / (2.0 * step)).eval();
+      for (int i = 0; i < 9; ++i) {
+        const double rate_of_change = j < kNavStates ? f(i, j) : g(i, j - kNavStates);
+        const double second = j < kNavStates ? (f * f)(i, j) : (f * g)(i, j - kNavStates);
+        const double own = (i == j ? 1.0 : 0.0) + dt * rate_of_change + 0.5 * dt * dt * second;
+        // Latitude resolves a nanometre; what turns within the step is of second order.
+        const double resolution = (i < 3 ? 4e-9 : 1e-12) / step;
+        const double turning = (j < 6 ? 3e-6 : 2.0) * dt * dt;
+        EXPECT_NEAR(after(i), own, resolution + turning + 1e-2 * std::abs(own - (i == j ? 1.0 : 0.0)))
+            << "row " << i << " " << index.name(j) << " trial " << trial;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fathom::estimation
