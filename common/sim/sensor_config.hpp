@@ -91,6 +91,7 @@ struct DvlConfig : SensorCommon {
 };
 
 struct DepthConfig : SensorCommon {
+  bool wet_only = false;  ///< switched on by the water: silent in the air, else it reads the atmosphere there
   double bias_sigma_m = 0.0;
   double sigma_m = 0.02;
   double quantum_m = 0.0;

@@ -94,7 +94,8 @@ class DvlModel {
 class DepthModel {
  public:
   DepthModel(const DepthConfig& config, std::uint64_t seed);
-  DepthSample sample(const TruthPoint& point);
+  /// Nothing in the air when only the water switches it on.
+  std::optional<DepthSample> sample(const TruthPoint& point);
 
  private:
   DepthConfig config_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geo/so3.hpp"
 #include "sim/sensor_models.hpp"
@@ -106,23 +107,24 @@ struct Simulation::Impl {
       while (schedule.due(now_s)) {
         const auto slot = schedule.take();
         auto sample = measure(interpolate(before, now, std::max(slot.t_s, before.t_s)));
-        if (slot.lost || inside(silent, slot.t_s)) continue;
-        schedule.stamp(sample.header, options, slot.t_s, slot.latency_s);
-        out.emplace_back(sample);
+        if (!sample || slot.lost || inside(silent, slot.t_s)) continue;
+        schedule.stamp(sample->header, options, slot.t_s, slot.latency_s);
+        out.emplace_back(*sample);
       }
     };
     // Receivers without a fix and DVLs without the bottom go on talking.
     static const std::vector<Window> never;
-    sampled(gps_schedule, never, [&](const TruthPoint& at) { return gps.sample(at); });
-    sampled(dvl_schedule, never, [&](const TruthPoint& at) { return dvl.sample(at); });
+    sampled(gps_schedule, never, [&](const TruthPoint& at) { return std::optional(gps.sample(at)); });
+    sampled(dvl_schedule, never, [&](const TruthPoint& at) { return std::optional(dvl.sample(at)); });
     sampled(depth_schedule, sensors.depth.dropouts, [&](const TruthPoint& at) { return depth.sample(at); });
     sampled(heading_schedule, sensors.heading.dropouts,
-            [&](const TruthPoint& at) { return heading.sample(at); });
+            [&](const TruthPoint& at) { return std::optional(heading.sample(at)); });
     sampled(propulsion_schedule, sensors.propulsion.dropouts,
-            [&](const TruthPoint& at) { return propulsion.sample(at); });
-    sampled(fins_schedule, sensors.fins.dropouts, [&](const TruthPoint& at) { return fins.sample(at); });
+            [&](const TruthPoint& at) { return std::optional(propulsion.sample(at)); });
+    sampled(fins_schedule, sensors.fins.dropouts,
+            [&](const TruthPoint& at) { return std::optional(fins.sample(at)); });
     sampled(airspeed_schedule, sensors.airspeed.dropouts,
-            [&](const TruthPoint& at) { return airspeed.sample(at); });
+            [&](const TruthPoint& at) { return std::optional(airspeed.sample(at)); });
     while (usbl_schedule.due(now_s)) {
       const auto slot = usbl_schedule.take();
       auto sample = usbl.sample(interpolate(before, now, std::max(slot.t_s, before.t_s)));

@@ -258,9 +258,13 @@ TEST(DepthModel, ReadsZeroInTheAir) {
   DepthModel depth(config, 1);
   TruthPoint at = level_point();
   at.depth_m = -100.0;
-  EXPECT_EQ(depth.sample(at).depth_m, 0.0);
+  EXPECT_EQ(depth.sample(at).value().depth_m, 0.0);
+  DepthConfig switched = config;
+  switched.wet_only = true;
+  EXPECT_FALSE(DepthModel(switched, 1).sample(at).has_value());
   at.depth_m = 12.5;
-  EXPECT_EQ(depth.sample(at).depth_m, 12.5);
+  EXPECT_EQ(depth.sample(at).value().depth_m, 12.5);
+  EXPECT_TRUE(DepthModel(switched, 1).sample(at).has_value());
 }
 
 }  // namespace
