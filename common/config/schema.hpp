@@ -76,130 +76,116 @@ class FieldRef {
   std::shared_ptr<Rules<Leaf<M>>> rules_;
 };
 
+/// How members of one type are converted, their type forgotten: every field of that type in every struct
+/// shares the code. `rules` points to the Rules of the member's leaf type.
+struct MemberOps {
+  void (*load)(const nlohmann::json& json, void* member, const void* rules, const Place& place);
+  nlohmann::json (*dump)(const void* member, const void* rules);
+  nlohmann::json (*schema)(const void* rules);
+};
+
+template <class M>
+[[nodiscard]] const MemberOps& ops_of() {
+  static constexpr MemberOps kOps{
+      [](const nlohmann::json& json, void* member, const void* rules, const Place& place) {
+        load_value(json, *static_cast<M*>(member), *static_cast<const Rules<Leaf<M>>*>(rules), place);
+      },
+      [](const void* member, const void* rules) {
+        return dump_value(*static_cast<const M*>(member), *static_cast<const Rules<Leaf<M>>*>(rules));
+      },
+      [](const void* rules) { return value_schema<M>(*static_cast<const Rules<Leaf<M>>*>(rules)); }};
+  return kOps;
+}
+
+// What nearly every struct has is compiled once, in schema.cpp.
+extern template const MemberOps& ops_of<bool>();
+extern template const MemberOps& ops_of<int>();
+extern template const MemberOps& ops_of<std::int64_t>();
+extern template const MemberOps& ops_of<std::uint8_t>();
+extern template const MemberOps& ops_of<std::uint32_t>();
+extern template const MemberOps& ops_of<std::uint64_t>();
+extern template const MemberOps& ops_of<double>();
+extern template const MemberOps& ops_of<std::string>();
+extern template const MemberOps& ops_of<Name>();
+extern template const MemberOps& ops_of<std::array<double, 2>>();
+extern template const MemberOps& ops_of<std::array<double, 3>>();
+extern template const MemberOps& ops_of<std::vector<double>>();
+extern template const MemberOps& ops_of<std::vector<std::string>>();
+
+/// The fields and rules of a struct whose type is forgotten: members are known by their offset.
+class SchemaCore {
+ public:
+  using Violation = std::pair<std::string, std::string>;  ///< key, expectation; both empty: none
+
+  FieldInfo& add(std::string key, std::string description, std::size_t offset, std::shared_ptr<void> rules,
+                 const MemberOps& ops);
+  /// Takes over the fields and rules of a struct that lies at `offset` in this one.
+  void absorb(const SchemaCore& inner, std::size_t offset);
+  void check(std::function<Violation(const void*)> rule) { checks_.push_back(std::move(rule)); }
+
+  void load(const nlohmann::json& json, void* whole, const Place& place) const;
+  [[nodiscard]] nlohmann::json dump(const void* whole) const;
+  [[nodiscard]] nlohmann::json json_schema(const void* defaults) const;
+
+ private:
+  struct Entry {
+    FieldInfo info;
+    std::size_t offset = 0;
+    std::shared_ptr<void> rules;
+    const MemberOps* ops = nullptr;
+  };
+
+  [[nodiscard]] const Entry* find(const std::string& key) const;
+  [[nodiscard]] std::string known_keys() const;
+  [[nodiscard]] Violation violation(const void* whole) const;
+
+  std::vector<std::unique_ptr<Entry>> entries_;  // FieldRef keeps references to their info
+  std::vector<std::function<Violation(const void*)>> checks_;
+};
+
 /// The description of a configuration struct.
 template <class T>
 class Schema {
  public:
-  template <class M>
-  FieldRef<M> field(std::string key, M T::*member, std::string description) {
+  template <class M, class Base>
+  FieldRef<M> field(std::string key, M Base::*member, std::string description) {
     auto rules = std::make_shared<Rules<Leaf<M>>>();
-    auto entry = std::make_unique<Entry>();
-    entry->info.key = std::move(key);
-    entry->info.description = std::move(description);
-    entry->load = [member, rules](const nlohmann::json& json, T& out, const Place& place) {
-      load_value(json, out.*member, *rules, place);
-    };
-    entry->dump = [member, rules](const T& value) { return dump_value(value.*member, *rules); };
-    entry->schema = [rules] { return value_schema<M>(*rules); };
-    FieldInfo& info = entry->info;
-    entries_.push_back(std::move(entry));
+    FieldInfo& info =
+        core_.add(std::move(key), std::move(description), offset_of(member), rules, ops_of<M>());
     return FieldRef<M>(info, rules);
   }
 
   /// All fields of `member`'s struct as fields of this one, without a level of nesting.
-  template <class M>
-  void include(M T::*member) {
-    auto inner = std::make_shared<Schema<M>>();
-    describe(*inner);
-    for (auto& source : inner->entries_) {
-      auto entry = std::make_unique<Entry>();
-      entry->info = source->info;
-      auto* raw = source.get();
-      entry->load = [member, inner, raw](const nlohmann::json& json, T& out, const Place& place) {
-        raw->load(json, out.*member, place);
-      };
-      entry->dump = [member, inner, raw](const T& value) { return raw->dump(value.*member); };
-      entry->schema = [inner, raw] { return raw->schema(); };
-      entries_.push_back(std::move(entry));
-    }
-    checks_.push_back([member, inner](const T& value) { return inner->violation(value.*member); });
+  template <class M, class Base>
+  void include(M Base::*member) {
+    Schema<M> inner;
+    describe(inner);
+    core_.absorb(inner.core_, offset_of(member));
   }
 
   /// A rule across fields. Returns {key, expectation} of the violated rule, or two empty strings.
   void check(std::function<std::pair<std::string, std::string>(const T&)> rule) {
-    checks_.push_back(std::move(rule));
+    core_.check([rule = std::move(rule)](const void* whole) { return rule(*static_cast<const T*>(whole)); });
   }
 
   /// Throws ConfigError on anything that is not exactly as described. Fields that are absent keep their
   /// value.
-  void load(const nlohmann::json& json, T& out, const Place& place) const {
-    if (!json.is_object()) place.fail(json, "an object");
-    for (const auto& [key, value] : json.items()) {
-      if (key == "$schema" && place.key.empty()) continue;
-      const Entry* entry = find(key);
-      if (entry == nullptr) place.child(key).fail(value, "no such key; known keys: " + known_keys());
-      entry->load(value, out, place.child(key));
-    }
-    for (const auto& entry : entries_) {
-      if (entry->info.required && !json.contains(entry->info.key)) {
-        place.child(entry->info.key).fail_missing(entry->info.description);
-      }
-    }
-    const auto [key, expectation] = violation(out);
-    if (!expectation.empty()) {
-      const auto parent = key.empty() ? place : place.child(key);
-      parent.fail(json.contains(key) ? json.at(key) : nlohmann::json(nullptr), expectation);
-    }
-  }
-
-  [[nodiscard]] nlohmann::json dump(const T& value) const {
-    nlohmann::json out = nlohmann::json::object();
-    for (const auto& entry : entries_) out[entry->info.key] = entry->dump(value);
-    return out;
-  }
-
-  [[nodiscard]] nlohmann::json json_schema() const {
-    nlohmann::json properties = nlohmann::json::object();
-    nlohmann::json required = nlohmann::json::array();
-    const T defaults{};
-    for (const auto& entry : entries_) {
-      nlohmann::json property = entry->schema();
-      property["description"] =
-          entry->info.description + (entry->info.unit.empty() ? "" : " [" + entry->info.unit + "]");
-      if (entry->info.required) {
-        required.push_back(entry->info.key);
-      } else {
-        property["default"] = entry->dump(defaults);
-      }
-      properties[entry->info.key] = std::move(property);
-    }
-    nlohmann::json out = {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
-    if (!required.empty()) out["required"] = required;
-    return out;
-  }
+  void load(const nlohmann::json& json, T& out, const Place& place) const { core_.load(json, &out, place); }
+  [[nodiscard]] nlohmann::json dump(const T& value) const { return core_.dump(&value); }
+  [[nodiscard]] nlohmann::json json_schema() const { return core_.json_schema(&probe_); }
 
  private:
   template <class>
   friend class Schema;
 
-  struct Entry {
-    FieldInfo info;
-    std::function<void(const nlohmann::json&, T&, const Place&)> load;
-    std::function<nlohmann::json(const T&)> dump;
-    std::function<nlohmann::json()> schema;
-  };
-
-  [[nodiscard]] const Entry* find(const std::string& key) const {
-    for (const auto& entry : entries_) {
-      if (entry->info.key == key) return entry.get();
-    }
-    return nullptr;
-  }
-  [[nodiscard]] std::string known_keys() const {
-    std::string out;
-    for (const auto& entry : entries_) out += (out.empty() ? "" : ", ") + entry->info.key;
-    return out;
-  }
-  [[nodiscard]] std::pair<std::string, std::string> violation(const T& value) const {
-    for (const auto& rule : checks_) {
-      auto found = rule(value);
-      if (!found.second.empty()) return found;
-    }
-    return {};
+  template <class M, class Base>
+  [[nodiscard]] std::size_t offset_of(M Base::*member) const {
+    return static_cast<std::size_t>(reinterpret_cast<const char*>(&(probe_.*member)) -
+                                    reinterpret_cast<const char*>(&probe_));
   }
 
-  std::vector<std::unique_ptr<Entry>> entries_;
-  std::vector<std::function<std::pair<std::string, std::string>(const T&)>> checks_;
+  T probe_{};  // the defaults
+  SchemaCore core_;
 };
 
 /// The description of T.
@@ -252,7 +238,8 @@ template <class T>
 /// The entry of a file kind for registry.cpp; call it in that kind's *_config.cpp.
 template <class T>
 [[nodiscard]] ConfigKind make_kind(std::string_view name) {
-  return {name, [] { return schema_text<T>("fathom"); }, [](const LoadRequest& request) { (void)load<T>(request); }};
+  return {name, [] { return schema_text<T>("fathom"); },
+          [](const LoadRequest& request) { (void)load<T>(request); }};
 }
 
 }  // namespace fathom::config

@@ -119,7 +119,7 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
     plan.title = scenario.name;
     plan.duration_s = options.duration_s > 0.0 ? options.duration_s : scenario.duration_s;
     plan.demands.limits = scenario.limits;
-    plan.demands.whole_run = true;
+    plan.demands.whole_run = plan.duration_s >= scenario.duration_s;
     simulator.push_back("scenario=" + scenario.name);
   } else {
     const Recording recording = describe_recording(options.dataset, options.config, builder.places().config);

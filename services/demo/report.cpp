@@ -88,6 +88,7 @@ void judge_outages(const Observation& seen, const Demands& demands, std::vector<
 }
 
 void judge_services(const Observation& seen, const Demands& demands, std::vector<Finding>& out) {
+  const std::size_t before = out.size();
   for (const std::string& name : demands.services) {
     const auto at = seen.services.find(name);
     if (at == seen.services.end()) {
