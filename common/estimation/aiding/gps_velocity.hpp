@@ -19,6 +19,12 @@ class GpsVelocity {
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
     if (static_cast<std::uint8_t>(sample.fix) < sensor.min_fix) return Usable::out_of_range;
+    // A receiver that claims an impossible place is not believed in its velocity either; an unknown place is
+    // no claim.
+    if (known(sample.latitude_rad) && !(std::abs(sample.latitude_rad) <= 1.5707963267948966))
+      return Usable::out_of_range;
+    if (known(sample.longitude_rad) && !(std::abs(sample.longitude_rad) <= 6.2831853071795865))
+      return Usable::out_of_range;
     bool any = false;
     for (const double v : sample.velocity_N_m_s) {
       if (known(v) && !(std::abs(v) < 1000.0)) return Usable::out_of_range;

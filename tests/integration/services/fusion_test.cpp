@@ -330,6 +330,7 @@ TEST_F(FusionTest, GarbageGetsAVerdictAndMovesNothing) {
   vehicle->run(10, false);  // away from the stamp of the last good fix
   GpsSample gps = vehicle->gps();
   gps.latitude_rad = kUnknown;
+  gps.velocity_N_m_s = {kUnknown, kUnknown, kUnknown};
   expect(gps, VerdictKind::out_of_range);
   gps = vehicle->gps();
   gps.longitude_rad = kInfinite;
