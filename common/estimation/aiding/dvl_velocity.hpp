@@ -6,7 +6,7 @@
 namespace fathom::estimation {
 
 /// Velocity relative to the bottom, or to the water where the current is estimated, along the DVL's own axes
-/// D. Product form: scale and misalignment multiply (AID-DVL-1..4). Each component stands alone: the ones the
+/// D. Product form: scale and misalignment multiply (AID-DVL-1..2). Each component stands alone: the ones the
 /// instrument declared bad are left out.
 class DvlVelocity {
  public:

@@ -5,7 +5,7 @@
 
 namespace fathom::estimation {
 
-/// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..3).
+/// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..2).
 class GpsPosition {
  public:
   static constexpr const char* kName = "gps_position";
