@@ -103,6 +103,8 @@ void judge_services(const Observation& seen, const Demands& demands, std::vector
       out.push_back({false, "service " + name + " did not stay healthy: " + record.text});
     }
   }
+  if (out.size() == before)
+    out.push_back({true, text("%zu services stayed healthy", demands.services.size())});
   for (const std::string& name : demands.killed)
     out.push_back({false, "service " + name + " did not stop when asked"});
 }
