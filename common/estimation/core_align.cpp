@@ -276,8 +276,10 @@ void Core::start(const InitialState& initial, TimeNs now_ns) {
   start.nav.position = {initial.latitude_rad, initial.longitude_rad, initial.altitude_m};
   start.nav.v_N_m_s = geo::vec(initial.velocity_N_m_s);
   start.nav.q_NB = geo::from_rpy(geo::vec(initial.rpy_rad));
-  // A state without an instant is that of the first inertial sample.
-  const double age_s = initial.stamp_ns == 0 ? 0.0 : to_seconds(now_ns - initial.stamp_ns);
+  // A state without an instant is that of the first inertial sample; one that has aged is carried on as it
+  // moved, as far as that means anything.
+  const double age_s =
+      initial.stamp_ns == 0 ? 0.0 : std::clamp(to_seconds(now_ns - initial.stamp_ns), 0.0, kFreshFix_s);
   start.nav.position = geo::moved_by(start.nav.position, age_s * start.nav.v_N_m_s);
   if (initial.at_output_point) {
     const Matrix3d c = geo::to_matrix(start.nav.q_NB);

@@ -197,7 +197,7 @@ struct EngineConfig {
 
 /// A state given from outside, e.g. by a reference, another vehicle or an operator.
 struct InitialState {
-  std::int64_t stamp_ns = 0;
+  std::int64_t stamp_ns = 0;  ///< 0: whenever navigation begins
   double latitude_rad = 0.0;
   double longitude_rad = 0.0;
   double altitude_m = 0.0;  ///< above the ellipsoid

@@ -302,6 +302,29 @@ TEST(Rejections, ThatAgreeForLongEnoughAreBelieved) {
   EXPECT_NEAR(nav.last_reset_delta_N_m[0], -200.0, 10.0);
 }
 
+TEST(GivenStart, HoldsAtItsInstantOrWhenNavigationBegins) {
+  for (const bool stamped : {false, true}) {
+    FusionEngine engine(SurveyRun::config());
+    InitialState start;
+    start.stamp_ns = stamped ? SurveyRun::kEpochNs : 0;
+    start.latitude_rad = 0.6;
+    start.longitude_rad = 2.0;
+    start.altitude_m = 400.0;
+    start.velocity_N_m_s = {60.0, 0.0, 0.0};
+    engine.start_from(start);
+    ImuSample imu;
+    imu.header.stamp_ns = SurveyRun::kEpochNs + from_seconds(0.5);
+    imu.angular_rate_B_rad_s = {0.0, 0.0, 0.0};
+    imu.specific_force_B_m_s2 = {0.0, 0.0, -9.8};
+    ASSERT_TRUE(engine.add(imu));
+    const NavState& nav = engine.nav_state();
+    const double north = (nav.latitude_rad - 0.6) * (geo::radii(0.6).meridian_m + 400.0);
+    EXPECT_NEAR(north, stamped ? 30.0 : 0.0, 0.01);
+    EXPECT_NEAR(nav.longitude_rad, 2.0, 1e-12);
+    EXPECT_NE(nav.mode, NavMode::none);
+  }
+}
+
 TEST(Configuration, IsRefusedWithKeyAndExpectation) {
   EngineConfig config = SurveyRun::config();
   EXPECT_EQ(config.validate(), "");
