@@ -16,6 +16,7 @@ std::string sentence(const char* format, ...) {
   std::array<char, 200> text{};
   va_list arguments;
   va_start(arguments, format);
+  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start is just above, the analyser misses it
   std::vsnprintf(text.data(), text.size(), format, arguments);
   va_end(arguments);
   return text.data();

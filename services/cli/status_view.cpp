@@ -24,6 +24,7 @@ std::string text(const char* format, ...) {
   std::array<char, 320> buffer{};
   va_list arguments;
   va_start(arguments, format);
+  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start is just above, the analyser misses it
   std::vsnprintf(buffer.data(), buffer.size(), format, arguments);
   va_end(arguments);
   return buffer.data();
