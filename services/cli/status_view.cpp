@@ -299,16 +299,14 @@ class Table {
     put(line());
     put(line().add("ALARM", Style::title).tab(20).add("SEVERITY").tab(32).add("SINCE").tab(44).add("WHAT"));
     for (const Alarm& alarm : sorted_alarms(view_)) {
-      const std::string state = alarm.active ? "" : "(over) ";
-      const std::string seen = alarm.acknowledged ? " (acknowledged)" : "";
-      put(line()
-              .add(alarm.alarm.view().substr(0, 19), style_of(alarm))
-              .tab(20)
-              .add(to_string(alarm.severity), style_of(alarm))
-              .tab(32)
-              .add(to_iso8601(alarm.since_ns, 0).substr(11))
-              .tab(44)
-              .add(state + alarm.text + seen));
+      Line line = this->line();
+      line.add(alarm.alarm.view().substr(0, 19), style_of(alarm)).tab(20);
+      line.add(to_string(alarm.severity), style_of(alarm)).tab(32);
+      line.add(to_iso8601(alarm.since_ns, 0).substr(11)).tab(44);
+      line.add(alarm.active ? "" : "(over) ")
+          .add(alarm.text)
+          .add(alarm.acknowledged ? " (acknowledged)" : "");
+      put(line);
     }
   }
 
