@@ -11,8 +11,8 @@ namespace fathom::config {
 /// One kind of configuration file. `name` is the file's stem in deploy/config and deploy/config/schema.
 struct ConfigKind {
   std::string_view name;
-  std::string (*schema)() = nullptr;               ///< JSON Schema text
-  void (*check)(const LoadRequest&) = nullptr;     ///< throws ConfigError
+  std::string (*schema)() = nullptr;            ///< JSON Schema text
+  void (*check)(const LoadRequest&) = nullptr;  ///< throws ConfigError
 };
 
 /// Every kind, for the schema writer and for the test that loads all shipped files.
