@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "base/clock.hpp"
+
 namespace fathom::bus {
 
 std::string_view to_string(BusEventKind kind) {
@@ -49,12 +51,21 @@ std::uint64_t& counter(BusCounters& counters, BusEventKind kind) {
 
 }  // namespace
 
+EventBook::EventBook(DurationNs quiet_ns, std::function<TimeNs()> now_ns)
+    : quiet_ns_(quiet_ns), now_ns_(std::move(now_ns)) {
+  if (!now_ns_) now_ns_ = [] { return SystemClock().monotonic_ns(); };
+}
+
 void EventBook::report(BusEventKind kind, const std::string& topic, const std::string& subject,
                        const std::string& detail, std::uint64_t occurrences) {
   {
     const std::lock_guard lock(mutex_);
     counter(counters_, kind) += occurrences;
-    if (!reported_.emplace(kind, topic, subject).second) return;
+    const auto [at, first] = reported_.try_emplace({kind, topic, subject});
+    const bool flickers = kind == BusEventKind::deadline_missed;
+    const bool again = !first && at->second && (!flickers || now_ns_() - *at->second >= quiet_ns_);
+    at->second.reset();
+    if (!first && !again) return;
   }
   const std::lock_guard lock(handler_mutex_);
   BusEvent event{kind, topic, detail};
@@ -67,7 +78,8 @@ void EventBook::report(BusEventKind kind, const std::string& topic, const std::s
 
 void EventBook::recovered(BusEventKind kind, const std::string& topic, const std::string& subject) {
   const std::lock_guard lock(mutex_);
-  reported_.erase({kind, topic, subject});
+  const auto at = reported_.find({kind, topic, subject});
+  if (at != reported_.end() && !at->second) at->second = now_ns_();
 }
 
 BusCounters EventBook::counters() const {

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "base/time.hpp"
 #include "bus/participant.hpp"
 
 namespace fathom::bus::detail {
@@ -15,10 +17,14 @@ namespace fathom::bus::detail {
 /// Counts every occurrence and reports the first of each kind × topic × subject. Thread-safe.
 class EventBook {
  public:
+  /// A deadline missed again within `quiet_ns` of its recovery is the same trouble: counted, not reported
+  /// again. `now_ns` is a monotonic clock.
+  explicit EventBook(DurationNs quiet_ns = 60 * kNsPerSecond, std::function<TimeNs()> now_ns = {});
+
   /// `subject` tells occurrences on the same topic apart: a peer, an instance.
   void report(BusEventKind kind, const std::string& topic, const std::string& subject,
               const std::string& detail, std::uint64_t occurrences = 1);
-  /// The trouble is over: its next occurrence is reported again.
+  /// The trouble is over: when it stays away, its next occurrence is reported again.
   void recovered(BusEventKind kind, const std::string& topic, const std::string& subject);
 
   [[nodiscard]] BusCounters counters() const;
@@ -29,7 +35,10 @@ class EventBook {
 
   mutable std::mutex mutex_;  // of what follows up to the next mutex
   BusCounters counters_;
-  std::set<std::tuple<BusEventKind, std::string, std::string>> reported_;
+  /// Of each trouble reported: when it was over, or nothing while it lasts.
+  std::map<std::tuple<BusEventKind, std::string, std::string>, std::optional<TimeNs>> reported_;
+  DurationNs quiet_ns_;
+  std::function<TimeNs()> now_ns_;
 
   std::mutex handler_mutex_;  // held while the handler runs; never taken while mutex_ is held
   std::function<void(const BusEvent&)> handler_;

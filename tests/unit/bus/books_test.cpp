@@ -42,6 +42,24 @@ TEST(EventBook, ReportsAgainAfterRecovery) {
   EXPECT_EQ(reports, 2);
 }
 
+TEST(EventBook, FlickeringDeadlineIsReportedOnceAndAgainAfterAQuietTime) {
+  TimeNs now = 0;
+  EventBook book(10 * kNsPerSecond, [&now] { return now; });
+  int reports = 0;
+  book.set_handler([&](const BusEvent&) { ++reports; });
+  for (int i = 0; i < 100; ++i) {
+    book.report(BusEventKind::deadline_missed, "t", "a", "");
+    now += kNsPerSecond / 10;
+    book.recovered(BusEventKind::deadline_missed, "t", "a");
+    now += 5 * kNsPerSecond;
+  }
+  EXPECT_EQ(reports, 1);
+  now += 10 * kNsPerSecond;
+  book.report(BusEventKind::deadline_missed, "t", "a", "");
+  EXPECT_EQ(reports, 2);
+  EXPECT_EQ(book.counters().deadline_missed, 101U);
+}
+
 TEST(EventBook, DeliversWhatHappenedBeforeTheHandlerWasSet) {
   EventBook book;
   for (int i = 0; i < 100; ++i) book.report(BusEventKind::sample_lost, "t", std::to_string(i), "");
