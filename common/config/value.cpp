@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 namespace fathom::config {
@@ -110,6 +111,81 @@ std::string describe_range(double low, double high, bool integer) {
   if (has_low) return " of at least " + number_text(low, integer);
   if (has_high) return " of at most " + number_text(high, integer);
   return "";
+}
+
+double load_real(const nlohmann::json& json, double low, double high, bool nullable, const Place& place) {
+  if (nullable && json.is_null()) return std::numeric_limits<double>::quiet_NaN();
+  const double value = json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
+  if (!std::isfinite(value) || value < low || value > high) {
+    place.fail(json, "a number" + describe_range(low, high, false));
+  }
+  return value;
+}
+
+void check_integer(const nlohmann::json& json, double low, double high, const Place& place) {
+  if (!json.is_number_integer() || json.get<double>() < low || json.get<double>() > high) {
+    place.fail(json, "a whole number" + describe_range(low, high, true));
+  }
+}
+
+std::string load_text(const nlohmann::json& json, const std::vector<std::string>& words, std::size_t most,
+                      const Place& place) {
+  if (!words.empty()) return words[load_word(json, words, place)];
+  if (!json.is_string()) place.fail(json, "a string");
+  auto text = json.get<std::string>();
+  if (most > 0 && text.size() > most) place.fail(json, "at most " + std::to_string(most) + " characters");
+  return text;
+}
+
+std::size_t load_word(const nlohmann::json& json, const std::vector<std::string>& words, const Place& place) {
+  const auto at =
+      json.is_string() ? std::find(words.begin(), words.end(), json.get<std::string>()) : words.end();
+  if (at == words.end()) place.fail(json, "one of " + list_words(words));
+  return static_cast<std::size_t>(at - words.begin());
+}
+
+nlohmann::json dump_real(double value, double factor) {
+  return std::isfinite(value) ? nlohmann::json(value / factor) : nlohmann::json(nullptr);
+}
+
+nlohmann::json boolean_schema() {
+  return {{"type", "boolean"}};
+}
+
+nlohmann::json number_schema(bool integer, bool nullable, double low, double high) {
+  nlohmann::json out = {{"type", integer ? "integer" : "number"}};
+  if (nullable) out["type"] = nlohmann::json::array({"number", "null"});
+  if (std::isfinite(low)) out["minimum"] = low;
+  if (std::isfinite(high)) out["maximum"] = high;
+  return out;
+}
+
+nlohmann::json words_schema(const std::vector<std::string>& words) {
+  return {{"enum", words}};
+}
+
+nlohmann::json text_schema(const std::vector<std::string>& words, std::size_t most) {
+  nlohmann::json out = {{"type", "string"}};
+  if (most > 0) out["maxLength"] = most;
+  if (!words.empty()) out["enum"] = words;
+  return out;
+}
+
+nlohmann::json optional_schema(nlohmann::json element) {
+  return {{"anyOf", nlohmann::json::array({std::move(element), {{"type", "null"}}})}};
+}
+
+nlohmann::json map_schema(nlohmann::json element) {
+  return {{"type", "object"}, {"additionalProperties", std::move(element)}};
+}
+
+nlohmann::json array_schema(nlohmann::json element, std::size_t size) {
+  nlohmann::json out = {{"type", "array"}, {"items", std::move(element)}};
+  if (size > 0) {
+    out["minItems"] = size;
+    out["maxItems"] = size;
+  }
+  return out;
 }
 
 }  // namespace fathom::config

@@ -2,6 +2,7 @@
 
 // Conversion of single values between JSON and C++ for config/schema.hpp; not included by anything else.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -75,6 +76,25 @@ inline constexpr bool is_described = std::is_class_v<M> && !is_text<M> && std::i
 [[nodiscard]] std::string list_words(const std::vector<std::string>& words);
 [[nodiscard]] std::string describe_range(double low, double high, bool integer);
 
+// What does not depend on the type, compiled once.
+/// The number, checked; NaN for null where that is allowed.
+[[nodiscard]] double load_real(const nlohmann::json& json, double low, double high, bool nullable,
+                               const Place& place);
+void check_integer(const nlohmann::json& json, double low, double high, const Place& place);
+[[nodiscard]] std::string load_text(const nlohmann::json& json, const std::vector<std::string>& words,
+                                    std::size_t most, const Place& place);
+/// Position of the word in `words`.
+[[nodiscard]] std::size_t load_word(const nlohmann::json& json, const std::vector<std::string>& words,
+                                    const Place& place);
+[[nodiscard]] nlohmann::json dump_real(double value, double factor);
+[[nodiscard]] nlohmann::json boolean_schema();
+[[nodiscard]] nlohmann::json number_schema(bool integer, bool nullable, double low, double high);
+[[nodiscard]] nlohmann::json words_schema(const std::vector<std::string>& words);
+[[nodiscard]] nlohmann::json text_schema(const std::vector<std::string>& words, std::size_t most);
+[[nodiscard]] nlohmann::json optional_schema(nlohmann::json element);
+[[nodiscard]] nlohmann::json map_schema(nlohmann::json element);
+[[nodiscard]] nlohmann::json array_schema(nlohmann::json element, std::size_t size);
+
 template <class L>
 [[nodiscard]] std::vector<std::string> word_list(const Rules<L>& rules) {
   std::vector<std::string> out;
@@ -91,22 +111,10 @@ template <class M>
 requires is_number<M>
 void load_value(const nlohmann::json& json, M& out, const Rules<M>& rules, const Place& place) {
   if constexpr (std::is_floating_point_v<M>) {
-    if (rules.nullable && json.is_null()) {
-      out = std::numeric_limits<M>::quiet_NaN();
-      return;
-    }
-    if (!json.is_number()) place.fail(json, "a number" + describe_range(rules.low, rules.high, false));
-    const double value = json.get<double>();
-    if (!std::isfinite(value) || value < rules.low || value > rules.high) {
-      place.fail(json, "a number" + describe_range(rules.low, rules.high, false));
-    }
-    out = value * rules.factor;
+    out = load_real(json, rules.low, rules.high, rules.nullable, place) * rules.factor;
   } else {
-    const double low = std::max(rules.low, static_cast<double>(std::numeric_limits<M>::lowest()));
-    const double high = std::min(rules.high, static_cast<double>(std::numeric_limits<M>::max()));
-    if (!json.is_number_integer() || json.get<double>() < low || json.get<double>() > high) {
-      place.fail(json, "a whole number" + describe_range(low, high, true));
-    }
+    check_integer(json, std::max(rules.low, static_cast<double>(std::numeric_limits<M>::lowest())),
+                  std::min(rules.high, static_cast<double>(std::numeric_limits<M>::max())), place);
     out = json.get<M>();
   }
 }
@@ -114,33 +122,13 @@ void load_value(const nlohmann::json& json, M& out, const Rules<M>& rules, const
 template <class M>
 requires is_text<M>
 void load_value(const nlohmann::json& json, M& out, const Rules<M>& rules, const Place& place) {
-  if (!json.is_string()) place.fail(json, "a string");
-  const auto text = json.get<std::string>();
-  if constexpr (std::is_same_v<M, Name>) {
-    if (text.size() > Name::kCapacity) {
-      place.fail(json, "at most " + std::to_string(Name::kCapacity) + " characters");
-    }
-  }
-  if (!rules.words.empty()) {
-    bool found = false;
-    for (const auto& entry : rules.words) found = found || entry.first == text;
-    if (!found) place.fail(json, "one of " + list_words(word_list(rules)));
-  }
-  out = M(text);
+  out = M(load_text(json, word_list(rules), std::is_same_v<M, Name> ? Name::kCapacity : 0, place));
 }
 
 template <class M>
 requires std::is_enum_v<M>
 void load_value(const nlohmann::json& json, M& out, const Rules<M>& rules, const Place& place) {
-  if (json.is_string()) {
-    for (const auto& [word, value] : rules.words) {
-      if (word == json.get<std::string>()) {
-        out = value;
-        return;
-      }
-    }
-  }
-  place.fail(json, "one of " + list_words(word_list(rules)));
+  out = rules.words[load_word(json, word_list(rules), place)].second;
 }
 
 template <class M>
@@ -205,7 +193,7 @@ nlohmann::json dump_value(const M& value, const Rules<Leaf<M>>& rules) requires(
   if constexpr (std::is_same_v<M, bool>) {
     return value;
   } else if constexpr (std::is_floating_point_v<M>) {
-    return std::isfinite(value) ? nlohmann::json(value / rules.factor) : nlohmann::json(nullptr);
+    return dump_real(value, rules.factor);
   } else if constexpr (is_number<M>) {
     return value;
   } else if constexpr (std::is_same_v<M, Name>) {
@@ -254,33 +242,23 @@ nlohmann::json value_schema(const Rules<Leaf<M>>& rules) {
   if constexpr (is_described<M>) {
     return described_schema<M>();
   } else if constexpr (std::is_same_v<M, bool>) {
-    return {{"type", "boolean"}};
+    return boolean_schema();
   } else if constexpr (is_number<M>) {
-    nlohmann::json out = {{"type", std::is_floating_point_v<M> ? "number" : "integer"}};
-    if (rules.nullable) out["type"] = nlohmann::json::array({"number", "null"});
-    if (std::isfinite(rules.low)) out["minimum"] = rules.low;
-    if (std::isfinite(rules.high)) out["maximum"] = rules.high;
-    return out;
+    return number_schema(!std::is_floating_point_v<M>, rules.nullable, rules.low, rules.high);
   } else if constexpr (std::is_enum_v<M>) {
-    return {{"enum", word_list(rules)}};
+    return words_schema(word_list(rules));
   } else if constexpr (is_text<M>) {
-    nlohmann::json out = {{"type", "string"}};
-    if constexpr (std::is_same_v<M, Name>) out["maxLength"] = Name::kCapacity;
-    if (!rules.words.empty()) out["enum"] = word_list(rules);
-    return out;
+    return text_schema(word_list(rules), std::is_same_v<M, Name> ? Name::kCapacity : 0);
   } else {
     nlohmann::json element = value_schema<typename ElementOf<M>::type>(rules);
     if constexpr (requires(M m) { m.has_value(); }) {
-      return {{"anyOf", nlohmann::json::array({element, {{"type", "null"}}})}};
+      return optional_schema(std::move(element));
     } else if constexpr (requires(M m) { m.begin()->second; }) {
-      return {{"type", "object"}, {"additionalProperties", element}};
+      return map_schema(std::move(element));
+    } else if constexpr (requires { std::tuple_size<M>::value; }) {
+      return array_schema(std::move(element), std::tuple_size<M>::value);
     } else {
-      nlohmann::json out = {{"type", "array"}, {"items", element}};
-      if constexpr (requires { std::tuple_size<M>::value; }) {
-        out["minItems"] = std::tuple_size<M>::value;
-        out["maxItems"] = std::tuple_size<M>::value;
-      }
-      return out;
+      return array_schema(std::move(element), 0);
     }
   }
 }
