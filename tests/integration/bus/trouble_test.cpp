@@ -83,7 +83,7 @@ TEST(Trouble, BytesThatAreNoSampleAreCountedAndDoNoHarm) {
   EXPECT_TRUE(eventually([&] { return inbox.size() == 1; }));
 }
 
-TEST(Trouble, MissedDeadlinesAreCountedAndReportedOnceUntilRecovered) {
+TEST(Trouble, MissedDeadlinesAreCountedAndReportedOnceWhileTheyFlicker) {
   bus::Participant a(options(113, "imu_bridge"));
   bus::Participant b(options(113, "fusion"));
   const Events at_a(a);
@@ -110,11 +110,14 @@ TEST(Trouble, MissedDeadlinesAreCountedAndReportedOnceUntilRecovered) {
   EXPECT_EQ(at_a.of(BusEventKind::deadline_missed)[0].detail,
             "this service wrote nothing about auv/imu0 for 100 ms");
 
-  ASSERT_TRUE(writer.write(sample));  // recovers, then is silent again
+  const std::uint64_t before_a = a.counters().deadline_missed;
+  const std::uint64_t before_b = b.counters().deadline_missed;
+  ASSERT_TRUE(writer.write(sample));  // recovers, then is silent again: still the same trouble
   EXPECT_TRUE(eventually([&] {
-    return at_b.of(BusEventKind::deadline_missed).size() == 2 &&
-           at_a.of(BusEventKind::deadline_missed).size() == 2;
+    return b.counters().deadline_missed >= before_b + 3 && a.counters().deadline_missed >= before_a + 3;
   }));
+  EXPECT_EQ(at_b.of(BusEventKind::deadline_missed).size(), 1U);
+  EXPECT_EQ(at_a.of(BusEventKind::deadline_missed).size(), 1U);
 }
 
 }  // namespace
