@@ -200,16 +200,22 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
     subscriber = participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);
   }
   if (publisher == nullptr || subscriber == nullptr) {
-    participant_numbers().give_back(number_);
+    const std::string why = detail::last_dds_error();
+    close();  // half made, it would go on calling this listener
     throw BusError("participant '" + options.name + "' on domain " + std::to_string(options.domain) +
-                   ": Fast DDS could not create it" + detail::last_dds_error());
+                   ": Fast DDS could not create it" + why);
   }
 }
 
 Participant::Impl::~Impl() {
-  if (participant == nullptr) return;
-  participant->delete_contained_entities();
-  dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+  close();
+}
+
+void Participant::Impl::close() {
+  if (participant != nullptr) {
+    participant->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant);
+  }
   participant_numbers().give_back(number_);
 }
 

@@ -51,6 +51,7 @@ struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListen
     std::chrono::steady_clock::time_point when;
   };
   void participant_dropped(const detail::GuidPrefix& prefix);
+  void close();
 
   int number_ = -1;  // among the participants of this process
 
