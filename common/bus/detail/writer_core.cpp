@@ -1,4 +1,5 @@
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <set>
@@ -18,6 +19,9 @@ namespace fathom::bus::detail {
 namespace {
 
 namespace dds = eprosima::fastdds::dds;
+
+// How long a writer's end may wait for its readers: two heartbeats of the profiles and the answer.
+constexpr std::uint32_t kLastWords_ns = 150'000'000;
 
 }  // namespace
 
@@ -40,6 +44,9 @@ struct WriterCore::Impl final : dds::DataWriterListener {
 
   ~Impl() override {
     if (writer == nullptr) return;
+    // The news that a writer left travels apart from its samples and may overtake the last of them, which the
+    // reader would then ignore. A reader that died is not waited for any longer.
+    if (offered.reliability > 0) writer->wait_for_acknowledgments({0, kLastWords_ns});
     writer->set_listener(nullptr);
     bus.publisher->delete_datawriter(writer);
   }
