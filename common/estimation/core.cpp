@@ -169,9 +169,9 @@ void Core::rebase(TimeNs now_ns, double unobserved_s) {
   const auto move = [shift](TimeNs& stamp) {
     if (stamp != 0) stamp += shift;
   };
-  for (TimeNs* stamp :
-       {&gps_used_ns_, &usbl_used_ns_, &dvl_used_ns_, &velocity_used_ns_, &rest_until_ns_,
-        &next_zero_velocity_ns_, &phase_since_ns_, &waiting_since_ns_, &hold_since_ns_, &gps_seen_ns_})
+  for (TimeNs* stamp : {&gps_used_ns_, &usbl_used_ns_, &dvl_used_ns_, &velocity_used_ns_, &rest_until_ns_,
+                        &next_zero_velocity_ns_, &phase_since_ns_, &waiting_since_ns_, &hold_since_ns_,
+                        &gps_seen_ns_, &under_way_.heading_ns, &under_way_.dvl_ns, &under_way_.usbl_ns})
     move(*stamp);
   for (Sensor& sensor : sensors_) {
     move(sensor.used_ns);

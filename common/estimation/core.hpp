@@ -4,6 +4,7 @@
 
 #include "estimation/aiding/registry.hpp"
 #include "estimation/alignment/rest_window.hpp"
+#include "estimation/alignment/under_way.hpp"
 #include "estimation/error_filter.hpp"
 #include "estimation/gate.hpp"
 #include "estimation/measurement.hpp"
@@ -124,6 +125,15 @@ class Core {
   void notice(const Measurement& measurement);
   void start_at_rest();
   void start_in_motion();
+
+  // core_under_way.cpp
+  void notice_under_way(const Measurement& measurement, const SensorConfig& config);
+  [[nodiscard]] bool can_start_under_way() const;
+  /// Only an acoustic fix says where the vehicle is.
+  [[nodiscard]] bool usbl_places() const;
+  void start_under_way();
+
+  // core_align.cpp
   void begin(const FilterState& state, const std::array<double, kMaxStates>& sigma);
   [[nodiscard]] std::optional<geo::Geodetic> start_position() const;
   void watch_alignment();
@@ -161,6 +171,7 @@ class Core {
   Eigen::Vector3d gps_sigma_N_m_ = Eigen::Vector3d::Zero();
   double gps_speed_m_s_ = kUnknown;
   int fast_fixes_ = 0;
+  UnderWay under_way_;
   bool position_set_ = false;  ///< by an order
   geo::Geodetic set_position_;
   double set_sigma_m_ = 0.0;

@@ -46,6 +46,7 @@ void Core::notice(const Measurement& measurement) {
     return;
   }
   if (navigating_) return;
+  notice_under_way(measurement, config);
   if (const auto* heading = std::get_if<HeadingSample>(&measurement.sample)) {
     const double variation =
         setup_->config.magnetic_variation_known ? setup_->config.magnetic_variation_rad : kUnknown;
@@ -97,6 +98,10 @@ void Core::align(const ImuStep& step) {
   if (may_move && fast_fixes_ >= kFastFixes && since(gps_seen_ns_) <= 1.0 &&
       smooth_time_s_ >= config.in_motion_averaging_s) {
     start_in_motion();
+    return;
+  }
+  if (may_move && can_start_under_way()) {
+    start_under_way();
     return;
   }
   if (!may_rest) {
@@ -246,6 +251,10 @@ void Core::begin(const FilterState& state, const std::array<double, kMaxStates>&
       break;
     }
     position_sigma = gps_sigma_N_m_;
+  } else if (usbl_places()) {
+    const double horizontal = std::max(under_way_.usbl_sigma_m, setup_->config.alignment.position_sigma_m);
+    lever = under_way_.usbl_lever_B_m;
+    position_sigma = {horizontal, horizontal, setup_->config.states.surface_altitude_sigma_m};
   } else {
     lever = geo::vec(setup_->config.output_lever_B_m);
     if (position_set_) position_sigma.setConstant(set_sigma_m_);
@@ -253,7 +262,11 @@ void Core::begin(const FilterState& state, const std::array<double, kMaxStates>&
   state_.nav.position = geo::moved_by(state_.nav.position, -(geo::to_matrix(state_.nav.q_NB) * lever));
   for (int i = 0; i < 3; ++i) sigma[static_cast<std::size_t>(i)] = position_sigma(i);
   const int surface = setup_->index.of(Group::surface_altitude);
-  if (surface >= 0) state_.x[static_cast<std::size_t>(surface)] = state_.nav.position.altitude_m;
+  if (surface >= 0) {
+    // On the surface, unless an acoustic fix has just said how deep below it.
+    state_.x[static_cast<std::size_t>(surface)] =
+        usbl_places() ? setup_->config.states.surface_altitude_m : state_.nav.position.altitude_m;
+  }
   filter_.reset(sigma);
   const int bias = setup_->index.of(Group::gps_position_bias);
   if (from_gps && bias >= 0) {

@@ -139,7 +139,12 @@ void Observer::on_service(const ServiceStatus& status) {
   record.last_heard_ns = clock_.monotonic_ns();
   const bool healthy = status.state == ServiceState::healthy;
   if (!healthy) record.text = status.text;
-  record.fell = record.fell || (record.was_healthy && status.state == ServiceState::degraded);
+  // A stumble is not a fall: as for the monitor, a service is unwell when it stays degraded.
+  const bool degraded = record.was_healthy && status.state == ServiceState::degraded;
+  if (!degraded) record.degraded_since_ns = 0;
+  if (degraded && record.degraded_since_ns == 0) record.degraded_since_ns = record.last_heard_ns;
+  record.fell = record.fell || (degraded && to_seconds(record.last_heard_ns - record.degraded_since_ns) >=
+                                                options_.degraded_hold_s);
   record.was_healthy = record.was_healthy || healthy;
 }
 

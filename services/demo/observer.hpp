@@ -35,8 +35,9 @@ struct ServiceRecord {
   ServiceState state = ServiceState::starting;
   TimeNs last_heard_ns = 0;
   bool was_healthy = false;
-  bool fell = false;  ///< was healthy and then was not
-  std::string text;   ///< the last reason for not being healthy
+  TimeNs degraded_since_ns = 0;  ///< monotonic; 0: it is not
+  bool fell = false;             ///< was healthy and then degraded for longer than a stumble
+  std::string text;              ///< the last reason for not being healthy
 };
 
 /// Everything observed so far; a copy, so that nobody holds the observer's lock while writing it down.
@@ -65,8 +66,9 @@ struct Observation {
 class Observer {
  public:
   struct Options {
-    double gps_limit_s = 5.0;   ///< of the monitor
-    double score_from_s = 0.0;  ///< earlier navigation states are not scored
+    double gps_limit_s = 5.0;      ///< of the monitor
+    double degraded_hold_s = 5.0;  ///< of the monitor
+    double score_from_s = 0.0;     ///< earlier navigation states are not scored
   };
   /// `clock` must outlive the observer. Throws bus::BusError.
   Observer(bus::Participant& participant, const Clock& clock, const Options& options);

@@ -99,7 +99,7 @@ void judge_services(const Observation& seen, const Demands& demands, std::vector
     const auto restarts = demands.restarts.find(name);
     if (restarts != demands.restarts.end() && restarts->second > 0) {
       out.push_back({false, text("service %s was started again %d times", name.c_str(), restarts->second)});
-    } else if (!record.was_healthy || record.fell || record.state == ServiceState::degraded) {
+    } else if (!record.was_healthy || record.fell) {
       out.push_back({false, "service " + name + " did not stay healthy: " + record.text});
     }
   }

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "base/time.hpp"
+#include "base/unknown.hpp"
+#include "geo/so3.hpp"
+
+namespace fathom::estimation {
+
+/// What instruments said last while there was no attitude yet, kept for a start under way. Instants are those
+/// of validity; 0: never.
+struct UnderWay {
+  TimeNs heading_ns = 0;
+  double heading_rad = kUnknown;  ///< true, of the body
+  TimeNs dvl_ns = 0;
+  Eigen::Vector3d dvl_velocity_B_m_s = Eigen::Vector3d::Zero();  ///< over ground
+  TimeNs usbl_ns = 0;
+  double usbl_latitude_rad = kUnknown;
+  double usbl_longitude_rad = kUnknown;
+  double usbl_depth_m = kUnknown;
+  double usbl_sigma_m = kUnknown;
+  Eigen::Vector3d usbl_lever_B_m = Eigen::Vector3d::Zero();
+};
+
+}  // namespace fathom::estimation
