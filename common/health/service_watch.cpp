@@ -95,7 +95,8 @@ void ServiceWatch::report_unwell(const Service& service, AlarmBook& book, const 
     book.release(key, now);
     return;
   }
-  const std::string why = service.text.empty() ? "without giving a reason" : service.text.substr(0, 120);
+  std::string why = service.text.empty() ? "without giving a reason" : service.text.substr(0, 120);
+  if (why.back() == '.') why.pop_back();
   book.hold({.key = key,
              .severity = Severity::warning,
              .text = sentence("Service %s has been unwell for %s: %s.", service.what.name.c_str(),
