@@ -1,0 +1,19 @@
+#include "study/registry.hpp"
+
+namespace fathom::study {
+
+const std::vector<std::unique_ptr<const Study>>& study_registry() {
+  static const auto all = [] {
+    std::vector<std::unique_ptr<const Study>> studies;
+    return studies;
+  }();
+  return all;
+}
+
+const Study* find_study(std::string_view name) {
+  for (const auto& study : study_registry())
+    if (study->name() == name) return study.get();
+  return nullptr;
+}
+
+}  // namespace fathom::study
