@@ -1,8 +1,7 @@
 #pragma once
 
-// Description of the estimator's configuration; included by fusion_config.cpp and fusion_engine_config.cpp
-// only. In the file, angles are in degrees and inertial errors in the units of their data sheets; the keys
-// say which.
+// Description of the estimator's configuration; included by the fusion_*.cpp of this folder only. In the
+// file, angles are in degrees and inertial errors in the units of their data sheets; the keys say which.
 
 #include "config/schema.hpp"
 #include "estimation/engine_config.hpp"

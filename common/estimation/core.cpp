@@ -65,7 +65,18 @@ Setup::Setup(const EngineConfig& engine_config)
     initial_sigma[static_cast<std::size_t>(bias + 2)] *= 2.0;
     walk[static_cast<std::size_t>(bias + 2)] *= 4.0;
   }
+  sigma(Group::usbl_misalignment, model.usbl_misalignment_sigma_rad);
+  sigma(Group::gps_latency, model.gps_latency_sigma_s);
+  sigma(Group::gps_lever, model.gps_lever_sigma_m);
   sigma(Group::log_scale, model.log_scale_sigma);
+  sigma(Group::airspeed_bias, model.airspeed_bias_sigma_m_s);
+  sigma(Group::airspeed_scale, model.airspeed_scale_sigma);
+  sigma(Group::flow_angles, model.flow_angle_sigma_rad);
+  markov(*this, Group::flow_angles, model.flow_angle_sigma_rad, model.flow_angle_time_constant_s);
+  sigma(Group::baro_bias, model.baro_bias_sigma_m);
+  fill(walk, index, Group::baro_bias, model.baro_bias_walk_m_sqrt_s * model.baro_bias_walk_m_sqrt_s);
+  sigma(Group::mount_angles, model.mount_angle_sigma_rad);
+  sigma(Group::mount_lever, model.mount_lever_sigma_m);
 }
 
 Core::Core(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {

@@ -4,6 +4,8 @@
 #include <set>
 #include <sstream>
 
+#include "estimation/state_index.hpp"
+
 namespace fathom::estimation {
 namespace {
 
@@ -71,7 +73,18 @@ void check_states(const StateModelConfig& states, Check& check) {
   check.in("states.usbl_bias_sigma_m", states.usbl_bias_sigma_m, 1e-6, 1e4);
   check.in("states.gps_bias_sigma_m", states.gps_bias_sigma_m, 1e-6, 100);
   check.in("states.gps_bias_time_constant_s", states.gps_bias_time_constant_s, 1, 1e9);
+  check.in("states.usbl_misalignment_sigma_rad", states.usbl_misalignment_sigma_rad, 1e-6, 1);
+  check.in("states.gps_latency_sigma_s", states.gps_latency_sigma_s, 1e-6, 10);
+  check.in("states.gps_lever_sigma_m", states.gps_lever_sigma_m, 1e-6, 100);
   check.in("states.log_scale_sigma", states.log_scale_sigma, 1e-6, 1);
+  check.in("states.airspeed_bias_sigma_m_s", states.airspeed_bias_sigma_m_s, 1e-6, 100);
+  check.in("states.airspeed_scale_sigma", states.airspeed_scale_sigma, 1e-6, 1);
+  check.in("states.flow_angle_sigma_rad", states.flow_angle_sigma_rad, 1e-6, 1);
+  check.in("states.flow_angle_time_constant_s", states.flow_angle_time_constant_s, 1e-2, 1e9);
+  check.in("states.baro_bias_sigma_m", states.baro_bias_sigma_m, 1e-6, 1e4);
+  check.in("states.baro_bias_walk_m_sqrt_s", states.baro_bias_walk_m_sqrt_s, 0, 100);
+  check.in("states.mount_angle_sigma_rad", states.mount_angle_sigma_rad, 1e-6, 1);
+  check.in("states.mount_lever_sigma_m", states.mount_lever_sigma_m, 1e-6, 100);
 }
 
 void check_sensor(const SensorConfig& sensor, Check& check) {
@@ -134,14 +147,15 @@ bool named_state_groups(const std::string& name, StateGroups& groups) {
   }
   if (name == "hybrid25") {
     wanted.usbl_bias = wanted.depth_bias = wanted.dvl_scale_xyz = wanted.heading_bias = true;
-    wanted.dvl_misalignment = true;
+    wanted.usbl_misalignment = true;
     groups = wanted;
     return true;
   }
   if (name == "full") {
     wanted.accel_scale = wanted.gyro_scale = wanted.accel_misalignment = wanted.gyro_misalignment = true;
     wanted.dvl_scale = wanted.dvl_misalignment = wanted.current = wanted.surface_altitude = true;
-    wanted.heading_bias = wanted.heading_deviation = wanted.gps_position_bias = wanted.usbl_bias = true;
+    wanted.heading_bias = wanted.heading_deviation = wanted.gps_position_bias = true;
+    wanted.usbl_bias = wanted.usbl_misalignment = true;
     groups = wanted;
     return true;
   }
@@ -207,6 +221,9 @@ std::string EngineConfig::validate() const {
   check.that(!sensor.empty() && sensor.size() <= 31, "sensor: " + sensor + ": expected 1 to 31 characters");
   check.that(!(groups.dvl_scale && groups.dvl_scale_xyz),
              "groups.dvl_scale_xyz: true: expected false where dvl_scale is true");
+  check.that(state_count(groups) <= kMaxStates, "groups: " + std::to_string(state_count(groups)) +
+                                                    " states: expected at most " +
+                                                    std::to_string(kMaxStates) + " together");
   check_imu(imu, check);
   check_states(states, check);
   check_alignment(alignment, check);

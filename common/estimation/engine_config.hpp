@@ -57,8 +57,17 @@ struct StateGroups {
   bool heading_bias = false;        ///< 1
   bool heading_deviation = false;   ///< 4, B to E of the deviation curve
   bool usbl_bias = false;           ///< 2, north and east
+  bool usbl_misalignment = false;   ///< 3, of the transceiver's axes
   bool gps_position_bias = false;   ///< 3, Gauss-Markov
+  bool gps_latency = false;         ///< 1, beyond SensorConfig::latency_s
+  bool gps_lever = false;           ///< 3, beyond SensorConfig::lever_B_m
   bool log_scale = false;           ///< 1, of the speed log made from propulsor speed
+  bool airspeed_bias = false;       ///< 1
+  bool airspeed_scale = false;      ///< 1
+  bool flow_angles = false;         ///< 2, sideslip and angle of attack, Gauss-Markov
+  bool baro_bias = false;           ///< 1, barometric height less ellipsoidal height
+  bool mount_angles = false;        ///< 2, pitch and yaw of the wheels' axes beyond the configured ones
+  bool mount_lever = false;         ///< 3, beyond the configured place of the non-holonomic constraint
 };
 
 /// The groups of a named configuration: "gps_ins15", "standard", "hybrid25", "full".
@@ -80,9 +89,20 @@ struct StateModelConfig {
   double heading_bias_time_constant_s = 1800.0;  ///< deviation changes with course; 0 for a constant
   double heading_deviation_sigma_rad = 0.035;
   double usbl_bias_sigma_m = 2.0;
-  double gps_bias_sigma_m = 1.5;  ///< horizontal; vertical is twice it
+  double usbl_misalignment_sigma_rad = 0.0087;  ///< 0.5 deg
+  double gps_bias_sigma_m = 1.5;                ///< horizontal; vertical is twice it
   double gps_bias_time_constant_s = 300.0;
+  double gps_latency_sigma_s = 0.05;
+  double gps_lever_sigma_m = 0.2;
   double log_scale_sigma = 0.02;
+  double airspeed_bias_sigma_m_s = 1.5;
+  double airspeed_scale_sigma = 0.1;
+  double flow_angle_sigma_rad = 0.05;
+  double flow_angle_time_constant_s = 5.0;
+  double baro_bias_sigma_m = 100.0;
+  double baro_bias_walk_m_sqrt_s = 0.05;  ///< weather and the instrument's own drift
+  double mount_angle_sigma_rad = 0.035;
+  double mount_lever_sigma_m = 1.0;
 };
 
 enum class GateMode : std::uint8_t { whole = 0, per_component = 1 };

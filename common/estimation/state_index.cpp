@@ -38,8 +38,17 @@ constexpr std::array<GroupRow, kGroups> kRows{{
      {"heading_deviation_b_rad", "heading_deviation_c_rad", "heading_deviation_d_rad",
       "heading_deviation_e_rad"}},
     {2, {"usbl_bias_north_m", "usbl_bias_east_m"}},
+    {3, {"usbl_misalignment_x_rad", "usbl_misalignment_y_rad", "usbl_misalignment_z_rad"}},
     {3, {"gps_bias_north_m", "gps_bias_east_m", "gps_bias_down_m"}},
+    {1, {"gps_latency_s"}},
+    {3, {"gps_lever_x_m", "gps_lever_y_m", "gps_lever_z_m"}},
     {1, {"log_scale"}},
+    {1, {"airspeed_bias_m_s"}},
+    {1, {"airspeed_scale"}},
+    {2, {"sideslip_rad", "angle_of_attack_rad"}},
+    {1, {"baro_bias_m"}},
+    {2, {"mount_pitch_rad", "mount_yaw_rad"}},
+    {3, {"mount_lever_x_m", "mount_lever_y_m", "mount_lever_z_m"}},
 }};
 
 std::array<bool, kGroups> active(const StateGroups& g) {
@@ -62,14 +71,30 @@ std::array<bool, kGroups> active(const StateGroups& g) {
           g.heading_bias,
           g.heading_deviation,
           g.usbl_bias,
+          g.usbl_misalignment,
           g.gps_position_bias,
-          g.log_scale};
+          g.gps_latency,
+          g.gps_lever,
+          g.log_scale,
+          g.airspeed_bias,
+          g.airspeed_scale,
+          g.flow_angles,
+          g.baro_bias,
+          g.mount_angles,
+          g.mount_lever};
 }
 
 }  // namespace
 
 int group_size(Group group) {
   return kRows[static_cast<std::size_t>(group)].size;
+}
+
+int state_count(const StateGroups& groups) {
+  const auto on = active(groups);
+  int count = 0;
+  for (std::size_t i = 0; i < on.size(); ++i) count += on[i] ? kRows[i].size : 0;
+  return count;
 }
 
 StateIndex::StateIndex(const StateGroups& groups) {

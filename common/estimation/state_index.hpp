@@ -34,13 +34,24 @@ enum class Group : std::uint8_t {
   heading_bias,
   heading_deviation,
   usbl_bias,
+  usbl_misalignment,
   gps_position_bias,
+  gps_latency,
+  gps_lever,
   log_scale,
+  airspeed_bias,
+  airspeed_scale,
+  flow_angles,
+  baro_bias,
+  mount_angles,
+  mount_lever,
 };
-inline constexpr int kGroups = 21;
+inline constexpr int kGroups = 30;
 inline constexpr int kNavStates = 9;  ///< position, velocity, attitude
 
 [[nodiscard]] int group_size(Group group);
+/// How many states these groups make; a configuration with more than kMaxStates is refused.
+[[nodiscard]] int state_count(const StateGroups& groups);
 
 /// Where each active group begins.
 class StateIndex {
