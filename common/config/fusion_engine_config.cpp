@@ -168,6 +168,18 @@ void describe(Schema<SensorConfig>& s) {
        "frozen_change", &C::frozen_change,
        "the same reading while the prediction moves by this much is frozen, in the sensor's SI unit; 0: off")
       .range(0, 1e6);
+  s.field("use_beams", &C::use_beams,
+          "dvl: each beam on its own, one to four of them, where the sample carries them");
+  s.field("beam_angle_deg", &C::beam_angle_rad,
+          "dvl: of the beams from the instrument's down axis, where the sample does not say")
+      .unit("deg")
+      .range(3, 80)
+      .scaled(kRadPerDeg);
+  s.field("beam_azimuth_deg", &C::beam_azimuth_rad,
+          "dvl: where each of the four beams points, from forward towards right")
+      .unit("deg")
+      .range(-360, 360)
+      .scaled(kRadPerDeg);
   s.field("scale_m_s_per_rpm", &C::scale_m_s_per_rpm, "propulsion: water speed per shaft speed; 0: not used")
       .unit("m/s/rpm")
       .range(-10, 10);

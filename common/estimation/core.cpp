@@ -208,7 +208,7 @@ void Core::lose_attitude() {
 AidingState Core::aiding_state() const {
   const EngineConfig& config = setup_->config;
   return {setup_->index, state_, rate_B_,
-          config.magnetic_variation_known ? config.magnetic_variation_rad : kUnknown};
+          config.magnetic_variation_known ? config.magnetic_variation_rad : kUnknown, force_B_};
 }
 
 NavMode Core::mode() const {

@@ -30,7 +30,12 @@ VerdictKind verdict_of(Usable usable) {
 std::array<double, 3> reading_of(const AnySample& any) {
   if (const auto* gps = std::get_if<GpsSample>(&any))
     return {gps->latitude_rad, gps->longitude_rad, gps->altitude_m};
-  if (const auto* dvl = std::get_if<DvlSample>(&any)) return dvl->velocity_D_m_s;
+  if (const auto* dvl = std::get_if<DvlSample>(&any)) {
+    const auto& v = dvl->velocity_D_m_s;
+    const auto& beams = dvl->beam_velocity_m_s;
+    const bool vector = known(v[0]) || known(v[1]) || known(v[2]);
+    return vector ? v : std::array<double, 3>{beams[0], beams[1], known(beams[2]) ? beams[2] : beams[3]};
+  }
   if (const auto* depth = std::get_if<DepthSample>(&any)) return {depth->depth_m, 0.0, 0.0};
   if (const auto* heading = std::get_if<HeadingSample>(&any)) return {heading->heading_rad, 0.0, 0.0};
   if (const auto* usbl = std::get_if<UsblSample>(&any))

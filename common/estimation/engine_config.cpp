@@ -18,7 +18,8 @@ class Check {
     out << key << ": " << value << ": expected a number from " << low << " to " << high;
     text_ = out.str();
   }
-  void in(const std::string& key, const std::array<double, 3>& values, double low, double high) {
+  template <std::size_t N>
+  void in(const std::string& key, const std::array<double, N>& values, double low, double high) {
     for (std::size_t i = 0; i < values.size(); ++i)
       in(key + "[" + std::to_string(i) + "]", values[i], low, high);
   }
@@ -101,6 +102,8 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "robust_reject_ratio", sensor.robust_reject_ratio, 1, 1e12);
   check.in(at + "reacquire_s", sensor.reacquire_s, 0, 1e6);
   check.in(at + "frozen_change", sensor.frozen_change, 0, 1e6);
+  check.in(at + "beam_angle_rad", sensor.beam_angle_rad, 0.05, 1.4);
+  check.in(at + "beam_azimuth_rad", sensor.beam_azimuth_rad, -kAngle, kAngle);
   check.in(at + "scale_m_s_per_rpm", sensor.scale_m_s_per_rpm, -10, 10);
   check.in(at + "min_depth_m", sensor.min_depth_m, -1000, 12000);
   check.that(sensor.kind != SourceKind::imu, at + "kind: imu: expected an aiding sensor");

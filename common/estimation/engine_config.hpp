@@ -133,6 +133,11 @@ struct SensorConfig {
   double robust_reject_ratio = 25.0;  ///< robust weighting ends where the plain test ratio exceeds this
   double reacquire_s = 10.0;          ///< consistent rejections for this long are believed
   double frozen_change = 0.0;  ///< the same reading while the prediction moves by this much is frozen; 0: off
+  bool use_beams = false;      ///< DVL: the beams each on their own, where the sample carries them
+  double beam_angle_rad = 0.5235987755982988;  ///< DVL: of the beams from the down axis, where the sample
+                                               ///< does not say; 30 deg
+  /// DVL: where each beam points, from forward towards right. Default: 1 left, 2 right, 3 ahead, 4 astern.
+  std::array<double, 4> beam_azimuth_rad{-1.5707963267948966, 1.5707963267948966, 0.0, 3.141592653589793};
   double scale_m_s_per_rpm = 0.0;  ///< propulsion: water speed per shaft rpm; 0: not used
   double min_depth_m = 0.0;        ///< propulsion: shaft speed means nothing above it
 };

@@ -81,7 +81,7 @@ GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const Gat
                 Observation& observation, InnovationStatistics& statistics) {
   GateResult result;
   filter.statistics(observation, 1.0, statistics);
-  if (sensor.gate_mode == GateMode::per_component) {
+  if (observation.each_alone || sensor.gate_mode == GateMode::per_component) {
     // (GATE-1), each component on its own.
     result.limit = limits.chi_square[1];
     double worst_kept = 0.0;

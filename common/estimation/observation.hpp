@@ -13,6 +13,7 @@ namespace fathom::estimation {
 struct Observation {
   static constexpr int kMaxRows = 6;
   int rows = 0;
+  bool each_alone = false;  ///< rows are gated one by one whatever the configuration says
   std::array<double, kMaxRows> innovation{};
   std::array<double, kMaxRows> sigma{};
   std::array<std::array<double, kMaxStates>, kMaxRows> h{};

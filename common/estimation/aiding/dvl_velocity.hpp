@@ -43,7 +43,9 @@ class DvlVelocity {
     // (AID-DVL-1)
     return scale_.cwiseProduct(turn_ * (C_DB_ * v_B_)) + s_.value3(Group::dvl_bias);
   }
-  void jacobian(Jacobian& h) const {
+  /// `h` takes the three rows block by block: the rows of H, or what projects them (dvl_beams.hpp).
+  template <class Rows>
+  void jacobian(Rows& h) const {
     // (AID-DVL-2)
     const Vector3 v_D = C_DB_ * v_B_;
     const Matrix3 d = scale_.asDiagonal() * turn_ * C_DB_;

@@ -5,13 +5,20 @@
 
 namespace fathom::estimation {
 
-/// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..2).
+/// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..2). The
+/// latency state is what remains of the fix's age after the configured latency.
 class GpsPosition {
  public:
   static constexpr const char* kName = "gps_position";
 
   GpsPosition(const AidingState& s, const SensorConfig& sensor, const GpsSample& sample)
-      : s_(s), sensor_(sensor), sample_(sample), lever_N_(s.C_NB * geo::vec(sensor.lever_B_m)) {}
+      : s_(s),
+        sensor_(sensor),
+        sample_(sample),
+        lever_B_(geo::vec(sensor.lever_B_m) + s.value3(Group::gps_lever)),
+        lever_N_(s.C_NB * lever_B_),
+        swing_N_(s.C_NB * geo::cross(s.rate_nb_B_rad_s, lever_B_)),
+        latency_s_(s.value(Group::gps_latency, 0)) {}
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
     const bool fixed = static_cast<std::uint8_t>(sample.fix) >= sensor.min_fix;
@@ -29,12 +36,18 @@ class GpsPosition {
     if (!has_altitude) m.z() = kUnknown;
     return m;
   }
-  [[nodiscard]] Vector3 predicted() const { return lever_N_ + s_.value3(Group::gps_position_bias); }
+  [[nodiscard]] Vector3 predicted() const {
+    return lever_N_ + s_.value3(Group::gps_position_bias) - latency_s_ * (s_.state.nav.v_N_m_s + swing_N_);
+  }
   void jacobian(Jacobian& h) const {
     // (AID-GPSP-2)
     h.block(Group::position, Matrix3::Identity());
-    h.block(Group::attitude, geo::skew(lever_N_));
+    h.block(Group::velocity, -latency_s_ * Matrix3::Identity());
+    h.block(Group::attitude, geo::skew(lever_N_ - latency_s_ * swing_N_));
+    h.block(Group::gyro_bias, latency_s_ * s_.C_NB * geo::skew(lever_B_));
     h.block(Group::gps_position_bias, -Matrix3::Identity());
+    h.block(Group::gps_latency, s_.state.nav.v_N_m_s + swing_N_);
+    h.block(Group::gps_lever, s_.C_NB * (latency_s_ * geo::skew(s_.rate_nb_B_rad_s) - Matrix3::Identity()));
   }
   [[nodiscard]] Vector3 noise() const {
     Vector3 sigma;
@@ -48,7 +61,10 @@ class GpsPosition {
   const AidingState& s_;
   const SensorConfig& sensor_;
   const GpsSample& sample_;
+  Vector3 lever_B_;
   Vector3 lever_N_;
+  Vector3 swing_N_;
+  double latency_s_;
 };
 
 }  // namespace fathom::estimation

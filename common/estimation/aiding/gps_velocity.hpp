@@ -5,7 +5,8 @@
 
 namespace fathom::estimation {
 
-/// Velocity of the GPS antenna along N (AID-GPSV-1..2).
+/// Velocity of the GPS antenna along N (AID-GPSV-1..2). What the latency state does to the swing of the lever
+/// is left out.
 class GpsVelocity {
  public:
   static constexpr const char* kName = "gps_velocity";
@@ -14,8 +15,9 @@ class GpsVelocity {
       : s_(s),
         sensor_(sensor),
         sample_(sample),
-        lever_B_(geo::vec(sensor.lever_B_m)),
-        swing_N_(s.C_NB * geo::cross(s.rate_nb_B_rad_s, lever_B_)) {}
+        lever_B_(geo::vec(sensor.lever_B_m) + s.value3(Group::gps_lever)),
+        swing_N_(s.C_NB * geo::cross(s.rate_nb_B_rad_s, lever_B_)),
+        latency_s_(s.value(Group::gps_latency, 0)) {}
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
     if (static_cast<std::uint8_t>(sample.fix) < sensor.min_fix) return Usable::out_of_range;
@@ -34,12 +36,21 @@ class GpsVelocity {
   }
   [[nodiscard]] int dimension() const { return 3; }
   [[nodiscard]] Vector3 measured() const { return geo::vec(sample_.velocity_N_m_s); }
-  [[nodiscard]] Vector3 predicted() const { return s_.state.nav.v_N_m_s + swing_N_; }
+  [[nodiscard]] Vector3 predicted() const {
+    const Vector3 now = s_.state.nav.v_N_m_s + swing_N_;
+    return s_.index.has(Group::gps_latency) ? Vector3(now - latency_s_ * s_.acceleration_N_m_s2()) : now;
+  }
   void jacobian(Jacobian& h) const {
     // (AID-GPSV-2)
     h.block(Group::velocity, Matrix3::Identity());
-    h.block(Group::attitude, geo::skew(swing_N_));
+    const Vector3 force_N = s_.C_NB * s_.force_B_m_s2;
+    h.block(Group::attitude, geo::skew(swing_N_ - latency_s_ * force_N));
     h.block(Group::gyro_bias, -s_.C_NB * geo::skew(lever_B_));
+    h.block(Group::gps_lever, -s_.C_NB * geo::skew(s_.rate_nb_B_rad_s));
+    if (!s_.index.has(Group::gps_latency)) return;
+    h.block(Group::gps_latency, s_.acceleration_N_m_s2());
+    h.block(Group::accel_bias, -latency_s_ * s_.C_NB);
+    h.block(Group::accel_scale, -latency_s_ * s_.C_NB * s_.force_B_m_s2.asDiagonal());
   }
   [[nodiscard]] Vector3 noise() const {
     Vector3 sigma;
@@ -55,6 +66,7 @@ class GpsVelocity {
   const GpsSample& sample_;
   Vector3 lever_B_;
   Vector3 swing_N_;
+  double latency_s_;
 };
 
 }  // namespace fathom::estimation

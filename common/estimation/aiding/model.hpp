@@ -14,16 +14,19 @@ struct AidingState {
   Eigen::Matrix3d C_NB;
   Eigen::Vector3d rate_nb_B_rad_s;  ///< of B relative to N, bias-corrected
   double variation_rad;             ///< magnetic variation of the configuration, NaN when unknown
+  Eigen::Vector3d force_B_m_s2;     ///< specific force, bias-corrected
 
   AidingState(const StateIndex& states, const FilterState& filter, const Eigen::Vector3d& rate_ib_B_rad_s,
-              double magnetic_variation_rad)
+              double magnetic_variation_rad,
+              const Eigen::Vector3d& specific_force_B_m_s2 = Eigen::Vector3d::Zero())
       : index(states),
         state(filter),
         C_NB(geo::to_matrix(filter.nav.q_NB)),
         rate_nb_B_rad_s(rate_ib_B_rad_s -
                         C_NB.transpose() * (geo::earth_rate_N(filter.nav.position.latitude_rad) +
                                             geo::transport_rate_N(filter.nav.position, filter.nav.v_N_m_s))),
-        variation_rad(magnetic_variation_rad) {}
+        variation_rad(magnetic_variation_rad),
+        force_B_m_s2(specific_force_B_m_s2) {}
 
   /// Value of the states of a group, `fallback` where the group is not estimated.
   [[nodiscard]] double value(Group group, int component, double fallback = 0.0) const {
@@ -32,6 +35,14 @@ struct AidingState {
   }
   [[nodiscard]] Eigen::Vector3d value3(Group group) const {
     return {value(group, 0), value(group, 1), value(group, 2)};
+  }
+  /// Of the velocity relative to the Earth, along N.
+  [[nodiscard]] Eigen::Vector3d acceleration_N_m_s2() const {
+    const NavSolution& nav = state.nav;
+    const Eigen::Vector3d turning =
+        2.0 * geo::earth_rate_N(nav.position.latitude_rad) + geo::transport_rate_N(nav.position, nav.v_N_m_s);
+    const Eigen::Vector3d gravity(0.0, 0.0, geo::gravity(nav.position.latitude_rad, nav.position.altitude_m));
+    return C_NB * force_B_m_s2 + gravity - geo::cross(turning, nav.v_N_m_s);
   }
 };
 
@@ -53,7 +64,7 @@ class Jacobian {
     observation_.h[static_cast<std::size_t>(first_row_ + row)][static_cast<std::size_t>(start + component)] =
         value;
   }
-  /// Rows 0..2 of a three-component model.
+  /// All rows of a model, from its first one and the group's first state on.
   template <class Derived>
   void block(Group group, const Eigen::MatrixBase<Derived>& values) {
     for (int i = 0; i < values.rows(); ++i)
@@ -68,7 +79,7 @@ class Jacobian {
 
 /// Appends the components of a model that are known to an observation. A model offers
 ///   int dimension() const
-///   Vector3 measured() const, predicted() const, noise() const    (noise: sigmas)
+///   Vector3 measured() const, predicted() const, noise() const    (noise: sigmas; longer vectors likewise)
 ///   void jacobian(Jacobian&) const                                 d(predicted - measured)/dx
 ///   double wrapped(double) const      only where the innovation is an angle
 template <class Model>
@@ -76,9 +87,9 @@ void observe(const Model& model, const StateIndex& index, Observation& out) {
   const int first = out.rows;
   Jacobian rows(index, out, first);
   model.jacobian(rows);
-  const Vector3 measured = model.measured();
-  const Vector3 predicted = model.predicted();
-  const Vector3 sigma = model.noise();
+  const auto measured = model.measured();
+  const auto predicted = model.predicted();
+  const auto sigma = model.noise();
   for (int i = 0; i < model.dimension(); ++i) {
     double z = predicted(i) - measured(i);
     if constexpr (requires { model.wrapped(z); }) z = model.wrapped(z);

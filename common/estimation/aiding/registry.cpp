@@ -2,6 +2,7 @@
 
 #include "estimation/aiding/airspeed.hpp"
 #include "estimation/aiding/depth.hpp"
+#include "estimation/aiding/dvl_beams.hpp"
 #include "estimation/aiding/dvl_velocity.hpp"
 #include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/gps_velocity.hpp"
@@ -36,8 +37,18 @@ Usable gps_velocity(const AidingInput& in, const AnySample& any, Observation& ou
 
 Usable dvl_velocity(const AidingInput& in, const AnySample& any, Observation& out) {
   const auto& sample = std::get<DvlSample>(any);
+  if (DvlBeams::present(in.sensor, sample)) return Usable::not_estimated;
   const Usable usable = DvlVelocity::usable(in.state, sample);
   return usable == Usable::yes ? append(DvlVelocity(in.state, in.sensor, sample), in, out) : usable;
+}
+
+Usable dvl_beams(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<DvlSample>(any);
+  if (!DvlBeams::present(in.sensor, sample)) return Usable::not_estimated;
+  const Usable usable = DvlBeams::usable(in.state, sample);
+  if (usable != Usable::yes) return usable;
+  out.each_alone = true;
+  return append(DvlBeams(in.state, in.sensor, sample), in, out);
 }
 
 Usable depth(const AidingInput& in, const AnySample& any, Observation& out) {
@@ -73,10 +84,11 @@ Usable speed_log(const AidingInput& in, const AnySample& any, Observation& out) 
   return usable == Usable::yes ? append(SpeedLog(in.state, in.sensor, sample), in, out) : usable;
 }
 
-constexpr std::array<AidingEntry, 8> kRegistry{{
+constexpr std::array<AidingEntry, 9> kRegistry{{
     {SourceKind::gps, GpsPosition::kName, gps_position},
     {SourceKind::gps, GpsVelocity::kName, gps_velocity},
     {SourceKind::dvl, DvlVelocity::kName, dvl_velocity},
+    {SourceKind::dvl, DvlBeams::kName, dvl_beams},
     {SourceKind::depth, Depth::kName, depth},
     {SourceKind::heading, Heading::kName, heading},
     {SourceKind::usbl, UsblPosition::kName, usbl_position},

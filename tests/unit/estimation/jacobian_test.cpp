@@ -11,12 +11,19 @@ namespace {
 using Eigen::Vector3d;
 using test::Normal;
 
-/// Everything that can be estimated together.
-StateGroups all_groups() {
+/// Everything that a model may look at, in two halves because there is room for 64 states only: what is met
+/// under water, and what is met on land and in the air. GPS is met in both.
+StateGroups all_groups(bool under_water) {
   StateGroups g;
   g.accel_scale = g.gyro_scale = g.accel_misalignment = g.gyro_misalignment = true;
-  g.dvl_scale = g.dvl_misalignment = g.dvl_bias = g.current = g.depth_bias = g.surface_altitude = true;
-  g.heading_bias = g.heading_deviation = g.usbl_bias = g.gps_position_bias = g.log_scale = true;
+  g.gps_position_bias = g.gps_latency = g.gps_lever = g.current = true;
+  if (under_water) {
+    g.dvl_scale = g.dvl_misalignment = g.dvl_bias = g.depth_bias = g.surface_altitude = true;
+    g.heading_bias = g.heading_deviation = g.usbl_bias = g.usbl_misalignment = g.log_scale = true;
+  } else {
+    g.airspeed_bias = g.airspeed_scale = g.flow_angles = g.baro_bias = true;
+    g.mount_angles = g.mount_lever = true;
+  }
   return g;
 }
 
@@ -57,6 +64,8 @@ AnySample sample_of(SourceKind source, const FilterState& state, Normal& normal)
       DvlSample s;
       s.mode = normal(1.0) > 0.0 ? DvlMode::water : DvlMode::bottom;
       s.velocity_D_m_s = {1.0, 0.2, -0.1};
+      s.beam_velocity_m_s = {0.3, -0.2, 0.5, -0.4};
+      s.beam_angle_rad = normal(1.0) > 0.0 ? normal.uniform(0.3, 0.6) : kUnknown;
       return s;
     }
     case SourceKind::depth: {
@@ -91,9 +100,10 @@ AnySample sample_of(SourceKind source, const FilterState& state, Normal& normal)
 
 /// Rows of one registry entry at a state.
 Observation rows(const AidingEntry& entry, const StateIndex& index, const FilterState& state,
-                 const Vector3d& measured_rate, const SensorConfig& sensor, const AnySample& sample) {
+                 const Vector3d& measured_rate, const Vector3d& measured_force, const SensorConfig& sensor,
+                 const AnySample& sample) {
   const Vector3d rate = corrected_rate(index, state.x, measured_rate);
-  const AidingState aiding(index, state, rate, 0.1);
+  const AidingState aiding(index, state, rate, 0.1, corrected_force(index, state.x, measured_force));
   Observation observation;
   EXPECT_EQ(entry.observe({aiding, sensor, 18.0}, sample, observation), Usable::yes) << entry.name;
   return observation;
@@ -103,25 +113,33 @@ class Jacobians : public ::testing::TestWithParam<int> {};
 
 TEST_P(Jacobians, EqualCentralDifferencesOnTheManifold) {
   const AidingEntry& entry = aiding_registry()[static_cast<std::size_t>(GetParam())];
-  const StateIndex index(all_groups());
+  const bool under_water = entry.source != SourceKind::airspeed;
+  const StateIndex index(all_groups(under_water));
   Normal normal(100 + static_cast<std::uint64_t>(GetParam()));
   SensorConfig sensor = default_sensor(entry.source, "sensor");
   sensor.scale_m_s_per_rpm = 0.002;
+  sensor.use_beams = entry.name == std::string("dvl_beams");
+  sensor.beam_azimuth_rad = {-2.2, 2.3, 0.8, -0.7};
   double largest = 0.0;
   for (int trial = 0; trial < 120; ++trial) {
     sensor.lever_B_m = geo::arr(normal.vector(1.0));
     sensor.mounting_rpy_rad =
         entry.source == SourceKind::dvl ? geo::arr(normal.vector(0.5)) : std::array<double, 3>{0.0, 0.0, 0.3};
-    const FilterState state = random_state(normal, index);
+    FilterState state = random_state(normal, index);
+    // An aircraft flies.
+    if (!under_water) state.nav.v_N_m_s += state.nav.v_N_m_s.normalized() * 20.0;
     const Vector3d rate = normal.vector(0.2);
+    const Vector3d force = normal.vector(3.0) - Vector3d(0.0, 0.0, 9.8);
     const AnySample sample = sample_of(entry.source, state, normal);
-    const Observation at = rows(entry, index, state, rate, sensor, sample);
+    const Observation at = rows(entry, index, state, rate, force, sensor, sample);
     ASSERT_GT(at.rows, 0);
     for (int j = 0; j < index.size(); ++j) {
       // Navigation errors are estimate minus truth, the others truth minus estimate: remove_error() knows.
       const double step = j < 6 ? 1e-3 : 1e-5;
-      const Observation up = rows(entry, index, perturbed(state, index, j, step), rate, sensor, sample);
-      const Observation down = rows(entry, index, perturbed(state, index, j, -step), rate, sensor, sample);
+      const Observation up =
+          rows(entry, index, perturbed(state, index, j, step), rate, force, sensor, sample);
+      const Observation down =
+          rows(entry, index, perturbed(state, index, j, -step), rate, force, sensor, sample);
       for (std::size_t i = 0; i < static_cast<std::size_t>(at.rows); ++i) {
         const double slope = (up.innovation[i] - down.innovation[i]) / (2.0 * step);
         const double own = at.h[i][static_cast<std::size_t>(j)];
@@ -147,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(Registry, Jacobians, ::testing::Range(0, static_cast<in
 TEST(ErrorDynamics, PredictsHowAnErrorGrows) {
   // Two mechanisations a small error apart, fed with the same instrument: F and the columns of the inertial
   // errors must say how the difference develops.
-  const StateIndex index(all_groups());
+  const StateIndex index(all_groups(true));
   Normal normal(5);
   for (int trial = 0; trial < 100; ++trial) {
     FilterState state = random_state(normal, index);
