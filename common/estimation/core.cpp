@@ -175,6 +175,17 @@ void Core::finish(const ImuStep& step) {
   watch_alignment();
 }
 
+void Core::replace(const FilterState& state, const ErrorFilter& filter) {
+  const auto bias = [&](const FilterState& of, Group group) {
+    const auto at = static_cast<std::size_t>(setup_->index.of(group));
+    return Vector3d(of.x[at], of.x[at + 1], of.x[at + 2]);
+  };
+  rate_B_ += bias(state_, Group::gyro_bias) - bias(state, Group::gyro_bias);
+  force_B_ += bias(state_, Group::accel_bias) - bias(state, Group::accel_bias);
+  state_ = state;
+  filter_ = filter;
+}
+
 void Core::rebase(TimeNs now_ns, double unobserved_s) {
   const DurationNs shift = now_ns - now_ns_ - from_seconds(unobserved_s);
   const auto move = [shift](TimeNs& stamp) {

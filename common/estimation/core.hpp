@@ -76,6 +76,9 @@ class Core {
   void order(const Command& command);
   /// Starts at `now_ns` from a given state.
   void start(const InitialState& initial, TimeNs now_ns);
+  /// Another estimate for the present instant, as the smoother has it.
+  void replace(const FilterState& state, const ErrorFilter& filter);
+  void record_to(FilterTape* tape) { filter_.record_to(tape); }
   /// Puts the present instant elsewhere on the time axis, after a step of the stamps.
   void rebase(TimeNs now_ns, double unobserved_s);
 

@@ -33,6 +33,7 @@ bool factorise(std::array<double, kStride * kStride>& a, int n) {
 }  // namespace
 
 void ErrorFilter::reset(const std::array<double, kMaxStates>& sigma) {
+  if (tape_ != nullptr) tape_->restarted();
   std::fill(p_.begin(), p_.end(), 0.0);
   for (int i = 0; i < n_; ++i) {
     const double s = sigma[static_cast<std::size_t>(i)];
@@ -41,12 +42,14 @@ void ErrorFilter::reset(const std::array<double, kMaxStates>& sigma) {
 }
 
 void ErrorFilter::forget(int state, double sigma) {
+  if (tape_ != nullptr) tape_->forgot(state);
   for (int j = 0; j < n_; ++j) set(state, j, 0.0);
   p_[at(state, state)] = sigma * sigma;
 }
 
 void ErrorFilter::propagate(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise) {
   // (KF-1)
+  if (tape_ != nullptr) tape_->propagated(f, g, dt_s, noise);
   const int driven = kNavStates + static_cast<int>(g.cols());
   const Matrix9 half = Matrix9::Identity() + (0.5 * dt_s) * f;
   Matrix9 a;
@@ -158,6 +161,7 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
   const auto n = static_cast<std::size_t>(n_);
   auto lower = statistics.s;
   if (!factorise(lower, m)) return false;
+  if (tape_ != nullptr) tape_->updated(observation, statistics);
   std::array<double, static_cast<std::size_t>(kRows)* kMaxStates> v = statistics.ph;
   std::array<double, kRows> y{};
   for (int i = 0; i < m; ++i) {

@@ -24,6 +24,8 @@ struct ProcessNoise {
   std::array<double, kMaxStates> decay_per_s{};        ///< 1/time constant, 0 for a constant or walk
 };
 
+class FilterTape;
+
 /// Error-state covariance with the structure of an inertial navigator: only the nine navigation rows move,
 /// driven by the states up to StateIndex::imu_end(); the rest keep still or decay one by one. Fixed size,
 /// nothing allocated, trivially copyable. The matrix is exactly symmetric at all times.
@@ -44,6 +46,10 @@ class ErrorFilter {
   /// Adds variance to one state.
   void widen(int state, double variance) { p_[at(state, state)] += variance; }
 
+  /// Tells `tape`, which must outlive the filter's work, all that follows; nullptr for silence. Copies of the
+  /// filter tell the same tape.
+  void record_to(FilterTape* tape) { tape_ = tape; }
+
   /// P <- Phi P Phi' + Q dt with Phi = I + F dt + F^2 dt^2/2 (KF-1). `f` and `g` from error_dynamics.hpp.
   void propagate(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise);
 
@@ -61,7 +67,23 @@ class ErrorFilter {
   }
 
   int n_;
+  FilterTape* tape_ = nullptr;
   std::array<double, kMaxStates * kMaxStates> p_{};
+};
+
+/// Hears what a filter does, in its order: what a smoother goes back along. Variance added by widen() is
+/// process noise, which the way back does not ask for.
+class FilterTape {
+ public:
+  /// The arguments of ErrorFilter::propagate().
+  virtual void propagated(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise) = 0;
+  /// A measurement has been taken in; `statistics` are those of before.
+  virtual void updated(const Observation& observation, const InnovationStatistics& statistics) = 0;
+  virtual void forgot(int state) = 0;
+  virtual void restarted() = 0;
+
+ protected:
+  ~FilterTape() = default;
 };
 
 /// Moves the estimate by the estimated error and so makes the error zero (KF-4): navigation errors are

@@ -1,0 +1,132 @@
+#include "estimation/adjoint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace fathom::estimation {
+
+using Eigen::Index;
+
+Transition transition(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise) {
+  // (KF-1)
+  Transition out;
+  const Matrix9 half = Matrix9::Identity() + (0.5 * dt_s) * f;
+  out.a.noalias() = dt_s * (half * f);
+  out.a += Matrix9::Identity();
+  out.b.noalias() = dt_s * (half * g);
+  for (std::size_t i = 0; i < out.keep.size(); ++i)
+    out.keep[i] = noise.decay_per_s[i] > 0.0 ? std::exp(-noise.decay_per_s[i] * dt_s) : 1.0;
+  return out;
+}
+
+UpdateRecord::UpdateRecord(const Observation& observation, const InnovationStatistics& statistics,
+                           int states) {
+  const Index m = statistics.rows;
+  Square s(m, m);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Observation::kMaxRows, 1> z(m);
+  h.resize(m, states);
+  gain.resize(m, states);
+  for (Index i = 0; i < m; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    z(i) = observation.innovation[row];
+    for (Index j = 0; j < m; ++j)
+      s(i, j) = statistics.s[row * Observation::kMaxRows + static_cast<std::size_t>(j)];
+    for (Index j = 0; j < states; ++j) {
+      h(i, j) = observation.h[row][static_cast<std::size_t>(j)];
+      gain(i, j) = statistics.ph[row * kMaxStates + static_cast<std::size_t>(j)];
+    }
+  }
+  const Eigen::LLT<Square> factor(s);
+  weight = factor.solve(Square::Identity(m, m));
+  weighted_innovation = factor.solve(z);
+  gain = (weight * gain).eval();
+}
+
+Adjoint::Adjoint(int states) : lambda_(Vector::Zero(states)), curvature_(Matrix::Zero(states, states)) {}
+
+void Adjoint::back_through(const Transition& step) {
+  // (SMOOTH-2): lambda <- Phi' lambda, Lambda <- Phi' Lambda Phi, column by column and then row by row.
+  const Index n = size();
+  const Index m = step.b.cols();
+  const auto keep = [&](Index i) { return step.keep[static_cast<std::size_t>(i)]; };
+
+  const Eigen::Matrix<double, kNavStates, 1> nav = lambda_.head<kNavStates>();
+  lambda_.head<kNavStates>() = step.a.transpose() * nav;
+  for (Index i = kNavStates; i < n; ++i) lambda_(i) *= keep(i);
+  lambda_.segment(kNavStates, m) += step.b.transpose() * nav;
+
+  const Eigen::Matrix<double, Eigen::Dynamic, kNavStates, 0, kMaxStates, kNavStates> columns =
+      curvature_.leftCols<kNavStates>();
+  for (Index i = kNavStates; i < n; ++i)
+    if (keep(i) != 1.0) curvature_.col(i) *= keep(i);
+  curvature_.leftCols<kNavStates>().noalias() = columns * step.a;
+  curvature_.middleCols(kNavStates, m).noalias() += columns * step.b;
+
+  const Eigen::Matrix<double, kNavStates, Eigen::Dynamic, 0, kNavStates, kMaxStates> rows =
+      curvature_.topRows<kNavStates>();
+  for (Index i = kNavStates; i < n; ++i)
+    if (keep(i) != 1.0) curvature_.row(i) *= keep(i);
+  curvature_.topRows<kNavStates>().noalias() = step.a.transpose() * rows;
+  curvature_.middleRows(kNavStates, m).noalias() += step.b.transpose() * rows;
+  curvature_ = (0.5 * (curvature_ + curvature_.transpose())).eval();
+}
+
+void Adjoint::back_through(const UpdateRecord& update) {
+  // (SMOOTH-3), the curvature as Lambda + H'T + T'H with T = (K' Lambda K + S^-1) H / 2 - (Lambda K)'.
+  lambda_ -= update.h.transpose() * (update.gain * lambda_ + update.weighted_innovation);
+  UpdateRecord::Rows spread(update.h.rows(), size());
+  spread.noalias() = update.gain * curvature_;
+  UpdateRecord::Square own = 0.5 * update.weight;
+  own.noalias() += 0.5 * spread * update.gain.transpose();
+  UpdateRecord::Rows t = -spread;
+  t.noalias() += own * update.h;
+  Matrix change(size(), size());
+  change.noalias() = update.h.transpose() * t;
+  curvature_ += change + change.transpose();
+}
+
+void Adjoint::back_through_forgotten(int state) {
+  // (SMOOTH-4)
+  lambda_(state) = 0.0;
+  curvature_.row(state).setZero();
+  curvature_.col(state).setZero();
+}
+
+void Adjoint::cut() {
+  lambda_.setZero();
+  curvature_.setZero();
+}
+
+void Adjoint::smoothed_error(const ErrorFilter& p, std::array<double, kMaxStates>& x) const {
+  // (SMOOTH-1)
+  x.fill(0.0);
+  for (int i = 0; i < size(); ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < size(); ++j) sum += p(i, j) * lambda_(j);
+    x[static_cast<std::size_t>(i)] = -sum;
+  }
+}
+
+void Adjoint::smooth_covariance(std::span<const int> states, ErrorFilter& p) const {
+  // (SMOOTH-1)
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, kMaxStates, kMaxStates> rows(
+      static_cast<Index>(states.size()), size());
+  for (Index r = 0; r < rows.rows(); ++r)
+    for (int j = 0; j < size(); ++j) rows(r, j) = p(states[static_cast<std::size_t>(r)], j);
+  decltype(rows) product(rows.rows(), rows.cols());
+  product.noalias() = rows * curvature_;
+  Matrix reduction(rows.rows(), rows.rows());
+  reduction.noalias() = product * rows.transpose();
+  for (Index r = 0; r < rows.rows(); ++r)
+    for (Index c = 0; c <= r; ++c) {
+      const int i = states[static_cast<std::size_t>(r)];
+      const int j = states[static_cast<std::size_t>(c)];
+      const double value = p(i, j) - 0.5 * (reduction(r, c) + reduction(c, r));
+      // Rounding must not make a variance negative.
+      p.set(i, j, i == j ? std::max(value, 0.0) : value);
+    }
+}
+
+}  // namespace fathom::estimation
