@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace fathom::test {
@@ -35,5 +38,22 @@ inline Eigen::MatrixXd matrix(const nlohmann::json& j) {
 inline double relative_error(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected) {
   return (actual - expected).cwiseAbs().maxCoeff() / std::max(expected.cwiseAbs().maxCoeff(), 1e-300);
 }
+
+inline double relative_error(double actual, double expected) {
+  return std::abs(actual - expected) / std::max(std::abs(expected), 1e-300);
+}
+
+/// A test that needs the vectors; it is skipped where there are none.
+class VectorsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    vectors_ = load_vectors();
+    if (vectors_.empty()) GTEST_SKIP() << "no numerical vectors in " << FATHOM_VECTORS;
+  }
+  [[nodiscard]] const nlohmann::json& in(const char* name) const { return vectors_.at(name).at("inputs"); }
+  [[nodiscard]] const nlohmann::json& out(const char* name) const { return vectors_.at(name).at("expected"); }
+
+  nlohmann::json vectors_;
+};
 
 }  // namespace fathom::test

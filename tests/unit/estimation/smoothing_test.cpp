@@ -1,0 +1,335 @@
+// The way back over a filter: the numerical vectors, and equality with the solution of all equations at once.
+#include <cmath>
+#include <numeric>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "estimation/filter_log.hpp"
+#include "support/analytic_vehicle.hpp"
+#include "support/vectors.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using nlohmann::json;
+using test::matrix;
+using test::relative_error;
+
+constexpr double kTolerance = 1e-9;
+
+/// Position and velocity along one axis in the filter's own states: r' = v, nothing else.
+struct OneAxis {
+  static constexpr int kPosition = 0;
+  static constexpr int kVelocity = 3;
+  Matrix9 f = Matrix9::Zero();
+  ImuColumns g = ImuColumns::Zero(kNavStates, 6);
+  ProcessNoise noise;
+  OneAxis() { f(kPosition, kVelocity) = 1.0; }
+};
+
+Eigen::Matrix2d pair_of(const ErrorFilter& filter) {
+  Eigen::Matrix2d p;
+  p << filter(0, 0), filter(0, 3), filter(3, 0), filter(3, 3);
+  return p;
+}
+
+class SmoothingVectors : public test::VectorsTest {};
+
+TEST_F(SmoothingVectors, RtsStep) {
+  const json& j = in("rts_step");
+  const json& e = out("rts_step");
+  const OneAxis axis;
+  ErrorFilter before(15);
+  const MatrixXd p_plus = matrix(j.at("P_plus_k"));
+  before.set(0, 0, p_plus(0, 0));
+  before.set(0, 3, p_plus(0, 1));
+  before.set(3, 3, p_plus(1, 1));
+  FilterLog log(15);
+  ErrorFilter after = before;
+  after.record_to(&log);
+  after.propagate(axis.f, axis.g, 1.0, axis.noise);
+  const MatrixXd q = matrix(j.at("Q"));
+  after.widen(0, q(0, 0));
+  after.widen(3, q(1, 1));
+
+  // What the future says, from the smoothed state and covariance behind the step.
+  const Vector2d x_plus(j.at("x_plus_k").at(0).get<double>(), j.at("x_plus_k").at(1).get<double>());
+  const Vector2d x_later(j.at("x_s_k1").at(0).get<double>(), j.at("x_s_k1").at(1).get<double>());
+  const Vector2d x_predicted(x_plus(0) + x_plus(1), x_plus(1));
+  const Eigen::Matrix2d p_minus_inverse = pair_of(after).inverse();
+  const Eigen::Matrix2d p_later = matrix(j.at("P_s_k1"));
+  const auto adjoint = [&](const Vector2d& lambda2, const Eigen::Matrix2d& curvature2) {
+    Adjoint::Vector lambda = Adjoint::Vector::Zero(15);
+    Adjoint::Matrix curvature = Adjoint::Matrix::Zero(15, 15);
+    const std::array<int, 2> at{0, 3};
+    for (int r = 0; r < 2; ++r) {
+      lambda(at[static_cast<std::size_t>(r)]) = lambda2(r);
+      for (int c = 0; c < 2; ++c)
+        curvature(at[static_cast<std::size_t>(r)], at[static_cast<std::size_t>(c)]) = curvature2(r, c);
+    }
+    return Adjoint(lambda, curvature);
+  };
+  Adjoint way_back = adjoint(p_minus_inverse * (x_predicted - x_later),
+                             p_minus_inverse * (pair_of(after) - p_later) * p_minus_inverse);
+  log.back_through(log.size(), 0, way_back);
+  std::array<double, kMaxStates> x{};
+  way_back.smoothed_error(before, x);
+  ErrorFilter smoothed = before;
+  const std::array<int, 2> states{0, 3};
+  way_back.smooth_covariance(states, smoothed);
+  EXPECT_LT(relative_error(x_plus(0) + x[0], e.at("x_s_k").at(0).get<double>()), kTolerance);
+  EXPECT_LT(relative_error(x_plus(1) + x[3], e.at("x_s_k").at(1).get<double>()), kTolerance);
+  EXPECT_LT(relative_error(pair_of(smoothed), matrix(e.at("P_s_k"))), kTolerance);
+
+  // The gain: what a later correction of one state moves here.
+  Eigen::Matrix2d gain;
+  for (int column = 0; column < 2; ++column) {
+    Adjoint unit = adjoint(-p_minus_inverse.col(column), Eigen::Matrix2d::Zero());
+    log.back_through(log.size(), 0, unit);
+    unit.smoothed_error(before, x);
+    gain.col(column) << x[0], x[3];
+  }
+  EXPECT_LT(relative_error(gain, matrix(e.at("G"))), kTolerance);
+}
+
+TEST_F(SmoothingVectors, ClonedState) {
+  // A state that keeps still is a clone. The vector's white acceleration: q dt = 0.02 on the velocity.
+  const json& j = in("clone_delayed_update");
+  const json& e = out("clone_delayed_update");
+  constexpr int kClone = 9;
+  OneAxis axis;
+  axis.noise.velocity(0, 0) = 0.01;
+  const MatrixXd p0 = matrix(j.at("P0"));
+  ErrorFilter filter(15);
+  filter.set(0, 0, p0(0, 0));
+  filter.set(0, 3, p0(0, 1));
+  filter.set(3, 3, p0(1, 1));
+  const ErrorFilter at_the_ping = filter;
+  filter.set(kClone, 0, p0(0, 0));
+  filter.set(kClone, 3, p0(0, 1));
+  filter.set(kClone, kClone, p0(0, 0));
+  filter.propagate(axis.f, axis.g, 2.0, axis.noise);
+  const std::array<int, 3> at{0, 3, kClone};
+  const auto block = [&](const ErrorFilter& of, int size) {
+    MatrixXd p(size, size);
+    for (int r = 0; r < size; ++r)
+      for (int c = 0; c < size; ++c)
+        p(r, c) = of(at[static_cast<std::size_t>(r)], at[static_cast<std::size_t>(c)]);
+    return p;
+  };
+  EXPECT_LT(relative_error(block(filter, 3), matrix(e.at("P_aug_minus"))), kTolerance);
+
+  const auto measure = [&](ErrorFilter& of, std::size_t state, std::array<double, kMaxStates>& x) {
+    Observation observation;
+    observation.rows = 1;
+    observation.innovation[0] = j.at("z_pred_minus_meas_at_ping").get<double>();
+    observation.sigma[0] = std::sqrt(j.at("R").get<double>());
+    observation.h[0][state] = 1.0;
+    observation.list_columns(15);
+    InnovationStatistics statistics;
+    of.statistics(observation, 1.0, statistics);
+    ASSERT_TRUE(of.update(observation, statistics, x));
+  };
+  std::array<double, kMaxStates> x{};
+  measure(filter, kClone, x);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double dx = x[static_cast<std::size_t>(at[i])];
+    EXPECT_LT(relative_error(dx, e.at("dx").at(i).get<double>()), kTolerance);
+    EXPECT_LT(
+        relative_error(dx / j.at("z_pred_minus_meas_at_ping").get<double>(), e.at("K").at(i).get<double>()),
+        kTolerance);
+  }
+  EXPECT_LT(relative_error(block(filter, 2), matrix(e.at("P_plus"))), kTolerance);
+
+  // Going back to the ping, measuring and coming forward again, as the engine does, is the same.
+  ErrorFilter repeated = at_the_ping;
+  std::array<double, kMaxStates> dx{};
+  measure(repeated, 0, dx);
+  repeated.propagate(axis.f, axis.g, 2.0, axis.noise);
+  EXPECT_LT(relative_error(block(repeated, 2), matrix(e.at("P_plus"))), kTolerance);
+  EXPECT_LT(relative_error(dx[0] + 2.0 * dx[3], x[0]), kTolerance);
+  EXPECT_LT(relative_error(dx[3], x[3]), kTolerance);
+}
+
+/// A filter with all kinds of states on a fixed course, next to the joint distribution of its errors at all
+/// instants, from which the conditional means come by solving for all at once.
+class BatchTest : public ::testing::Test {
+ protected:
+  static constexpr int kStates = 17;  // 15 of the inertial navigator, a decaying one, a constant
+  static constexpr int kSteps = 24;
+
+  BatchTest() {
+    const Matrix9 f = error_dynamics(nav(), Vector3d(0.4, -0.3, -9.8));
+    const StateIndex index{StateGroups{}};
+    const ImuColumns g = imu_error_columns(index, geo::to_matrix(nav().q_NB), Vector3d(0.1, 0.0, 0.2),
+                                           Vector3d(0.5, 0.1, -9.7));
+    ProcessNoise noise;
+    noise.velocity = 0.04 * Eigen::Matrix3d::Identity();
+    noise.attitude = 1e-6 * Eigen::Matrix3d::Identity();
+    for (std::size_t i = 9; i < 15; ++i) noise.walk[i] = 1e-8;
+    noise.walk[15] = 0.02;
+    noise.decay_per_s[15] = 0.1;
+    std::array<double, kMaxStates> sigma{};
+    for (std::size_t i = 0; i < kStates; ++i) sigma[i] = i < 3 ? 5.0 : i < 6 ? 1.0 : i < 15 ? 0.01 : 0.5;
+
+    ErrorFilter filter(kStates);
+    ErrorFilter prior(kStates);  // never measures
+    filter.reset(sigma);
+    prior.reset(sigma);
+    filter.record_to(&log_);
+    joint_ = MatrixXd::Zero(kStates * (kSteps + 1), kStates * (kSteps + 1));
+    VectorXd mean = VectorXd::Zero(kStates);
+    MatrixXd transition = MatrixXd::Identity(kStates, kStates);
+    place(0, prior, transition);
+    for (int k = 0; k < kSteps; ++k) {
+      measure(k, filter, mean);
+      filters_.push_back(filter);
+      means_.push_back(mean);
+      ends_.push_back(log_.size());
+      const auto move = [&](ErrorFilter& one) {
+        one.propagate(f, g, 1.0, noise);
+        if (k == 9) one.widen(3, 0.7);
+        if (k == 15) one.forget(1, 20.0);
+      };
+      move(filter);
+      move(prior);
+      // The transition as the covariance shows it: that of unit vectors.
+      transition = transition_of(f, g, noise);
+      if (k == 15) transition.row(1).setZero();
+      mean = (transition * mean).eval();
+      place(k + 1, prior, transition);
+    }
+    filters_.push_back(filter);
+    means_.push_back(mean);
+    ends_.push_back(log_.size());
+  }
+
+  static NavSolution nav() {
+    NavSolution out;
+    out.position = {0.6, 0.2, 10.0};
+    out.v_N_m_s = {20.0, -10.0, 1.0};
+    out.q_NB = geo::from_rpy({0.1, -0.2, 1.2});
+    return out;
+  }
+  static MatrixXd transition_of(const Matrix9& f, const ImuColumns& g, const ProcessNoise& noise) {
+    MatrixXd rate = MatrixXd::Zero(kStates, kStates);
+    rate.topLeftCorner(9, 9) = f;
+    rate.block(0, 9, 9, 6) = g;
+    MatrixXd phi = MatrixXd::Identity(kStates, kStates) + rate + 0.5 * rate * rate;
+    for (int i = 9; i < kStates; ++i)
+      phi(i, i) = std::exp(-noise.decay_per_s[static_cast<std::size_t>(i)] * 1.0);
+    return phi;
+  }
+  /// Enters instant k: its own covariance, and that with all instants before.
+  void place(int k, const ErrorFilter& prior, const MatrixXd& transition) {
+    for (int i = 0; i < kStates; ++i)
+      for (int j = 0; j < kStates; ++j) joint_(k * kStates + i, k * kStates + j) = prior(i, j);
+    if (k == 0) return;
+    joint_.block(k * kStates, 0, kStates, k * kStates) =
+        transition * joint_.block((k - 1) * kStates, 0, kStates, k * kStates);
+    joint_.block(0, k * kStates, k * kStates, kStates) =
+        joint_.block(k * kStates, 0, kStates, k * kStates).transpose();
+  }
+  void measure(int k, ErrorFilter& filter, VectorXd& mean) {
+    Observation observation;
+    if (k % 3 == 1) {
+      observation.rows = 2;
+      observation.h[0][0] = observation.h[1][1] = 1.0;
+      observation.h[0][15] = -1.0;
+      observation.sigma = {2.0, 3.0};
+    } else if (k % 2 == 0) {
+      observation.rows = 1;
+      observation.h[0][3] = 0.8;
+      observation.h[0][4] = -0.6;
+      observation.h[0][8] = 1.5;
+      observation.h[0][16] = 1.0;
+      observation.sigma = {0.1};
+    } else {
+      return;
+    }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(observation.rows); ++i) {
+      VectorXd row = VectorXd::Zero(joint_.rows());
+      double expected = 0.0;
+      for (int s = 0; s < kStates; ++s) {
+        row(k * kStates + s) = observation.h[i][static_cast<std::size_t>(s)];
+        expected += row(k * kStates + s) * mean(s);
+      }
+      const double value = normal_(3.0);
+      rows_.push_back(row);
+      values_.push_back(value);
+      variances_.push_back(observation.sigma[i] * observation.sigma[i]);
+      // The estimate in use already has what was found before taken off.
+      observation.innovation[i] = value - expected;
+    }
+    observation.list_columns(kStates);
+    InnovationStatistics statistics;
+    filter.statistics(observation, 1.0, statistics);
+    std::array<double, kMaxStates> x{};
+    ASSERT_TRUE(filter.update(observation, statistics, x));
+    for (int s = 0; s < kStates; ++s) mean(s) += x[static_cast<std::size_t>(s)];
+  }
+
+  test::Normal normal_{7};
+  FilterLog log_{kStates};
+  std::vector<std::size_t> ends_;
+  std::vector<ErrorFilter> filters_;
+  std::vector<VectorXd> means_;
+  MatrixXd joint_;
+  std::vector<VectorXd> rows_;
+  std::vector<double> values_;
+  std::vector<double> variances_;
+};
+
+TEST_F(BatchTest, IsTheSolutionOfAllEquationsAtOnce) {
+  const auto count = static_cast<Eigen::Index>(rows_.size());
+  MatrixXd h(count, joint_.rows());
+  VectorXd z(count);
+  VectorXd r(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    h.row(i) = rows_[static_cast<std::size_t>(i)].transpose();
+    z(i) = values_[static_cast<std::size_t>(i)];
+    r(i) = variances_[static_cast<std::size_t>(i)];
+  }
+  const MatrixXd hp = h * joint_;
+  const MatrixXd s = hp * h.transpose() + MatrixXd(r.asDiagonal());
+  const Eigen::LDLT<MatrixXd> factor(s);
+  const VectorXd mean = hp.transpose() * factor.solve(z);
+  const MatrixXd covariance = joint_ - hp.transpose() * factor.solve(hp);
+
+  std::array<int, kStates> states{};
+  std::iota(states.begin(), states.end(), 0);
+  Adjoint adjoint(kStates);
+  std::size_t done = log_.size();
+  double most = 0.0;
+  for (int k = kSteps; k >= 0; --k) {
+    const auto at = static_cast<std::size_t>(k);
+    log_.back_through(done, ends_[at], adjoint);
+    done = ends_[at];
+    std::array<double, kMaxStates> x{};
+    adjoint.smoothed_error(filters_[at], x);
+    ErrorFilter smoothed = filters_[at];
+    adjoint.smooth_covariance(states, smoothed);
+    for (int i = 0; i < kStates; ++i) {
+      const double sigma = std::sqrt(covariance(k * kStates + i, k * kStates + i));
+      EXPECT_NEAR(means_[at](i) + x[static_cast<std::size_t>(i)], mean(k * kStates + i), 1e-8 * sigma)
+          << "state " << i << " at " << k;
+      EXPECT_NEAR(smoothed(i, i) / (sigma * sigma), 1.0, 1e-8) << "state " << i << " at " << k;
+      most = std::max(most, std::abs(x[static_cast<std::size_t>(i)]) / sigma);
+      for (int j = 0; j < i; ++j) {
+        const double other = std::sqrt(covariance(k * kStates + j, k * kStates + j));
+        EXPECT_NEAR(smoothed(i, j) / (sigma * other),
+                    covariance(k * kStates + i, k * kStates + j) / (sigma * other), 1e-8);
+      }
+    }
+  }
+  // Not by doing nothing.
+  EXPECT_GT(most, 1.0);
+}
+
+}  // namespace
+}  // namespace fathom::estimation
