@@ -9,15 +9,16 @@ namespace fathom::estimation {
 
 using Eigen::Index;
 
-Transition transition(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise) {
+Transition transition(const NavTransition& step, const ProcessNoise& noise) {
   // (KF-1)
   Transition out;
-  const Matrix9 half = Matrix9::Identity() + (0.5 * dt_s) * f;
-  out.a.noalias() = dt_s * (half * f);
-  out.a += Matrix9::Identity();
-  out.b.noalias() = dt_s * (half * g);
-  for (std::size_t i = 0; i < out.keep.size(); ++i)
-    out.keep[i] = noise.decay_per_s[i] > 0.0 ? std::exp(-noise.decay_per_s[i] * dt_s) : 1.0;
+  const NavTransition::Rows rows = step.rows();
+  out.a = rows.leftCols<kNavStates>();
+  out.b = rows.rightCols(step.driven() - kNavStates);
+  out.keep.fill(1.0);
+  if (noise.drift != nullptr)
+    for (const std::uint8_t state : noise.drift->decaying())
+      out.keep[state] = noise.drift->kept(state, step.dt_s());
   return out;
 }
 

@@ -14,8 +14,7 @@ struct Transition {
   std::array<double, kMaxStates> keep{};  ///< from index 9 on
 };
 /// Of what ErrorFilter::propagate() does with the same arguments.
-[[nodiscard]] Transition transition(const Matrix9& f, const ImuColumns& g, double dt_s,
-                                    const ProcessNoise& noise);
+[[nodiscard]] Transition transition(const NavTransition& step, const ProcessNoise& noise);
 
 /// What an update leaves behind for the way back.
 struct UpdateRecord {

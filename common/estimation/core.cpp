@@ -77,6 +77,7 @@ Setup::Setup(const EngineConfig& engine_config)
   fill(walk, index, Group::baro_bias, model.baro_bias_walk_m_sqrt_s * model.baro_bias_walk_m_sqrt_s);
   sigma(Group::mount_angles, model.mount_angle_sigma_rad);
   sigma(Group::mount_lever, model.mount_lever_sigma_m);
+  drift = StateDrift(walk, decay_per_s, index.size());
 }
 
 Core::Core(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {
@@ -84,34 +85,36 @@ Core::Core(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {
     sensors_[i].enabled = setup.config.sensors[i].enabled;
 }
 
-ProcessNoise Core::process_noise() const {
+ProcessNoise Core::process_noise(const Eigen::Matrix3d& C_NB) const {
   // (NOISE-1): white noise, and as equivalent noise the scale and misalignment that are not estimated.
   const ImuConfig& imu = setup_->config.imu;
+  const StateGroups& groups = setup_->config.groups;
+  const double arw = imu.angle_random_walk_rad_sqrt_s;
+  const double vrw = imu.velocity_random_walk_m_s_sqrt_s;
   ProcessNoise noise;
-  noise.walk = setup_->walk;
-  noise.decay_per_s = setup_->decay_per_s;
-  const Eigen::Matrix3d c = geo::to_matrix(state_.nav.q_NB);
-  const auto unmodelled = [&](const Vector3d& input, bool scale, double scale_sigma, bool misalignment,
-                              double misalignment_sigma) {
+  noise.drift = &setup_->drift;
+  noise.attitude = arw * arw * Eigen::Matrix3d::Identity();
+  noise.velocity = vrw * vrw * Eigen::Matrix3d::Identity();
+  const auto add = [&](Eigen::Matrix3d& to, const Vector3d& input, bool scale, double scale_sigma,
+                       bool misalignment, double misalignment_sigma) {
+    if (scale && misalignment) return;
     const Vector3d squares = input.cwiseAbs2();
     Vector3d variance = Vector3d::Zero();
     if (!scale) variance += scale_sigma * scale_sigma * squares;
     if (!misalignment)
       variance += misalignment_sigma * misalignment_sigma * (Vector3d::Constant(squares.sum()) - squares);
-    return Vector3d(imu.equivalent_noise_time_s * variance);
+    to += C_NB * (imu.equivalent_noise_time_s * variance).asDiagonal() * C_NB.transpose();
   };
-  const StateGroups& groups = setup_->config.groups;
-  const Vector3d rate = unmodelled(rate_B_, groups.gyro_scale, imu.gyro_scale_sigma, groups.gyro_misalignment,
-                                   imu.gyro_misalignment_sigma_rad);
+  add(noise.attitude, rate_B_, groups.gyro_scale, imu.gyro_scale_sigma, groups.gyro_misalignment,
+      imu.gyro_misalignment_sigma_rad);
   // Gravity is always there and looks like a bias; only the changing part of the force counts.
-  const Vector3d acceleration_B = force_B_ + c.transpose() * Vector3d(0.0, 0.0, 9.81);
-  const Vector3d force = unmodelled(acceleration_B, groups.accel_scale, imu.accel_scale_sigma,
-                                    groups.accel_misalignment, imu.accel_misalignment_sigma_rad);
-  const double arw = imu.angle_random_walk_rad_sqrt_s;
-  const double vrw = imu.velocity_random_walk_m_s_sqrt_s;
-  noise.attitude = c * rate.asDiagonal() * c.transpose() + arw * arw * Eigen::Matrix3d::Identity();
-  noise.velocity = c * force.asDiagonal() * c.transpose() + vrw * vrw * Eigen::Matrix3d::Identity();
+  add(noise.velocity, force_B_ + 9.81 * C_NB.row(2).transpose(), groups.accel_scale, imu.accel_scale_sigma,
+      groups.accel_misalignment, imu.accel_misalignment_sigma_rad);
   return noise;
+}
+
+ProcessNoise Core::process_noise() const {
+  return process_noise(geo::to_matrix(state_.nav.q_NB));
 }
 
 void Core::advance(const ImuStep& step, TimeNs until_ns) {
@@ -122,30 +125,27 @@ void Core::advance(const ImuStep& step, TimeNs until_ns) {
   if (!(fraction > 0.0)) return;
   const auto& x = state_.x;
   const StateIndex& index = setup_->index;
-  rate_B_ = corrected_rate(index, x, step.increments.dtheta_rad / whole_s);
-  force_B_ = corrected_force(index, x, step.increments.dv_m_s / whole_s);
+  const double per_s = 1.0 / whole_s;
+  rate_B_ = corrected_rate(index, x, per_s * step.increments.dtheta_rad);
+  force_B_ = corrected_force(index, x, per_s * step.increments.dv_m_s);
   if (!navigating_) return;
 
   Increments in;
   in.dt_s = whole_s;
   in.dtheta_rad = whole_s * rate_B_;
   in.dv_m_s = whole_s * force_B_;
-  in.dtheta_before_rad = whole_s * corrected_rate(index, x, step.increments.dtheta_before_rad / whole_s);
-  in.dv_before_m_s = whole_s * corrected_force(index, x, step.increments.dv_before_m_s / whole_s);
+  in.dtheta_before_rad = whole_s * corrected_rate(index, x, per_s * step.increments.dtheta_before_rad);
+  in.dv_before_m_s = whole_s * corrected_force(index, x, per_s * step.increments.dv_before_m_s);
   const double dt = fraction * whole_s;
 
+  const geo::LocalEarth earth(state_.nav.position);
   const Eigen::Matrix3d c = geo::to_matrix(state_.nav.q_NB);
-  const Matrix9 f = error_dynamics(state_.nav, c * force_B_);
-  const ImuColumns g = imu_error_columns(index, c, rate_B_, force_B_);
-  const ProcessNoise noise = process_noise();
   const Vector3d v_before = state_.nav.v_N_m_s;
-  state_.nav = mechanise(state_.nav, correct(in, fraction));
+  const ErrorRates rates = error_rates(earth, v_before, c * force_B_);
+  filter_.propagate(NavTransition(index, rates, c, rate_B_, force_B_, dt), process_noise(c));
+  state_.nav = mechanise(state_.nav, earth, c, correct(in, fraction));
   travelled_N_m_ += 0.5 * dt * (v_before + state_.nav.v_N_m_s);
-  filter_.propagate(f, g, dt, noise);
-  for (int i = kNavStates; i < index.size(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (noise.decay_per_s[at] > 0.0) state_.x[at] *= std::exp(-noise.decay_per_s[at] * dt);
-  }
+  for (const std::uint8_t state : setup_->drift.decaying()) state_.x[state] *= setup_->drift.kept(state, dt);
 }
 
 void Core::finish(const ImuStep& step) {
@@ -235,13 +235,13 @@ NavMode Core::mode() const {
 Vector3d Core::rpy_sigma_rad() const {
   if (!navigating_) return Vector3d::Constant(kUnknown);
   // (OUT-1): how roll, pitch and yaw turn with the attitude error about N.
-  const Vector3d rpy = geo::to_rpy(state_.nav.q_NB);
-  const double cosine = std::cos(rpy.z());
-  const double sine = std::sin(rpy.z());
-  const double level = std::max(std::abs(std::cos(rpy.y())), 1e-3);
+  const Eigen::Matrix3d c = geo::to_matrix(state_.nav.q_NB);
+  const double level = std::max(std::sqrt(c(0, 0) * c(0, 0) + c(1, 0) * c(1, 0)), 1e-3);  // cos(pitch)
+  const double cosine = c(0, 0) / level;                                                  // of yaw
+  const double sine = c(1, 0) / level;
+  const double tangent = -c(2, 0) / level;  // of pitch
   Eigen::Matrix3d j;
-  j << -cosine / level, -sine / level, 0.0, sine, -cosine, 0.0, -cosine * std::tan(rpy.y()),
-      -sine * std::tan(rpy.y()), -1.0;
+  j << -cosine / level, -sine / level, 0.0, sine, -cosine, 0.0, -cosine * tangent, -sine * tangent, -1.0;
   Eigen::Matrix3d p;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) p(i, k) = filter_(6 + i, 6 + k);

@@ -25,6 +25,7 @@ struct Setup {
   std::array<double, kMaxStates> initial_sigma{};  ///< of the states from index 9 on
   std::array<double, kMaxStates> walk{};
   std::array<double, kMaxStates> decay_per_s{};
+  StateDrift drift;         ///< of walk and decay_per_s
   geo::Quaternion q_B_imu;  ///< from the unit's own axes into B
 };
 
@@ -110,6 +111,7 @@ class Core {
   [[nodiscard]] double since(TimeNs stamp_ns) const {
     return stamp_ns == 0 ? kUnknown : to_seconds(now_ns_ - stamp_ns);
   }
+  [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB) const;
   [[nodiscard]] AidingState aiding_state() const;
   void enter(AlignmentPhase phase);
   void lose_attitude();

@@ -7,51 +7,63 @@ namespace fathom::estimation {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-Matrix9 error_dynamics(const NavSolution& nav, const Vector3d& f_N_m_s2) {
+ErrorRates error_rates(const geo::LocalEarth& earth, const Vector3d& v_N_m_s, const Vector3d& force_N_m_s2) {
   // (DYN-1)
-  const geo::Geodetic& p = nav.position;
-  const geo::Radii radii = geo::radii(p.latitude_rad);
-  const double rm = radii.meridian_m + p.altitude_m;
-  const double rn = radii.normal_m + p.altitude_m;
-  const double tangent = std::tan(p.latitude_rad);
-  const double cosine = std::cos(p.latitude_rad);
-  const double sine = std::sin(p.latitude_rad);
-  const double vn = nav.v_N_m_s.x();
-  const double ve = nav.v_N_m_s.y();
-  const double vd = nav.v_N_m_s.z();
+  const double per_rm = 1.0 / earth.meridian_m;
+  const double per_rn = 1.0 / earth.normal_m;
+  const double per_cosine = 1.0 / earth.cosine;
+  const double tangent = earth.sine * per_cosine;
+  const double vn = v_N_m_s.x();
+  const double ve = v_N_m_s.y();
+  const double vd = v_N_m_s.z();
 
-  // How the rates of the Earth (W) and of N (E by position, Ev by velocity) change with the error.
-  Matrix3d w = Matrix3d::Zero();
-  w(0, 0) = -geo::kEarthRate_rad_s * sine / rm;
-  w(2, 0) = -geo::kEarthRate_rad_s * cosine / rm;
-  Matrix3d e = Matrix3d::Zero();
-  e(0, 2) = ve / (rn * rn);
-  e(1, 2) = -vn / (rm * rm);
-  e(2, 0) = -ve / (rm * rn * cosine * cosine);
-  e(2, 2) = -ve * tangent / (rn * rn);
-  Matrix3d ev = Matrix3d::Zero();
-  ev(0, 1) = 1.0 / rn;
-  ev(1, 0) = -1.0 / rm;
-  ev(2, 1) = -tangent / rn;
+  // How the rates of the Earth (W) and of N (E by position, Ev by velocity) change with the error. Only the
+  // first and third columns of W and E, and the first two of Ev, are not zero.
+  const double w_nn = earth.earth_rate_N.z() * per_rm;
+  const double w_dn = -earth.earth_rate_N.x() * per_rm;
+  const double e_dn = -ve * per_rm * per_rn * per_cosine * per_cosine;
+  const double e_nd = ve * per_rn * per_rn;
+  const double e_ed = -vn * per_rm * per_rm;
+  const double e_dd = -e_nd * tangent;
 
-  const Vector3d rate_ie = geo::earth_rate_N(p.latitude_rad);
-  const Vector3d rate_en = geo::transport_rate_N(p, nav.v_N_m_s);
-  const Matrix3d v_cross = geo::skew(nav.v_N_m_s);
+  ErrorRates f;
+  f.r_r << -vd * per_rm, 0.0, vn * per_rm,                                //
+      ve * tangent * per_rm, -(vd + vn * tangent) * per_rn, ve * per_rn,  //
+      0.0, 0.0, 0.0;
+  f.phi_r << w_nn, 0.0, e_nd,  //
+      0.0, 0.0, e_ed,          //
+      w_dn + e_dn, 0.0, e_dd;
+  f.phi_v << 0.0, per_rn, 0.0,  //
+      -per_rm, 0.0, 0.0,        //
+      0.0, -tangent * per_rn, 0.0;
+  // [v x](2W + E), and gravity that weakens with height.
+  const double u_nn = 2.0 * w_nn;
+  const double u_dn = 2.0 * w_dn + e_dn;
+  const double weaker = 2.0 * earth.gravity_m_s2 * std::sqrt(per_rm * per_rn);
+  f.v_r << ve * u_dn, 0.0, ve * e_dd - vd * e_ed,         //
+      vd * u_nn - vn * u_dn, 0.0, vd * e_nd - vn * e_dd,  //
+      -ve * u_nn, 0.0, vn * e_ed - ve * e_nd + weaker;
+  f.rate_in_N_rad_s = earth.earth_rate_N + earth.transport_rate_N(v_N_m_s);
+  // [v x]Ev - [(2 rate_ie + rate_en) x]
+  const Vector3d t = earth.earth_rate_N + f.rate_in_N_rad_s;
+  f.v_v << vd * per_rm, t.z() - ve * tangent * per_rn, -t.y(),  //
+      -t.z(), (vd + vn * tangent) * per_rn, t.x(),              //
+      t.y() - vn * per_rm, -t.x() - ve * per_rn, 0.0;
+  f.force_N_m_s2 = force_N_m_s2;
+  return f;
+}
 
+Matrix9 error_dynamics(const NavSolution& nav, const Vector3d& force_N_m_s2) {
+  const ErrorRates rates = error_rates(geo::LocalEarth(nav.position), nav.v_N_m_s, force_N_m_s2);
   Matrix9 f = Matrix9::Zero();
-  f(0, 0) = -vd / rm;
-  f(0, 2) = vn / rm;
-  f(1, 0) = ve * tangent / rm;
-  f(1, 1) = -vd / rn - vn * tangent / rn;
-  f(1, 2) = ve / rn;
+  f.block<3, 3>(0, 0) = rates.r_r;
   f.block<3, 3>(0, 3).setIdentity();
-  f.block<3, 3>(3, 0) = v_cross * (2.0 * w + e);
-  f(5, 2) += 2.0 * geo::gravity(p.latitude_rad, p.altitude_m) / std::sqrt(rm * rn);
-  f.block<3, 3>(3, 3) = v_cross * ev - geo::skew(2.0 * rate_ie + rate_en);
-  f.block<3, 3>(3, 6) = geo::skew(f_N_m_s2);
-  f.block<3, 3>(6, 0) = w + e;
-  f.block<3, 3>(6, 3) = ev;
-  f.block<3, 3>(6, 6) = -geo::skew(rate_ie + rate_en);
+  f.block<3, 3>(3, 0) = rates.v_r;
+  f.block<3, 3>(3, 3) = rates.v_v;
+  f.block<3, 3>(3, 6) = geo::skew(force_N_m_s2);
+  f.block<3, 3>(6, 0) = rates.phi_r;
+  f.block<3, 3>(6, 3) = rates.phi_v;
+  f.block<3, 3>(6, 6) = -geo::skew(rates.rate_in_N_rad_s);
   return f;
 }
 
@@ -78,11 +90,9 @@ Vector3d corrected(const StateIndex& index, const std::array<double, kMaxStates>
   Vector3d excess = Vector3d::Zero();
   if (const int s = index.of(scale); s >= 0)
     excess += Vector3d(at(s) * v.x(), at(s + 1) * v.y(), at(s + 2) * v.z());
-  if (const int m = index.of(misalignment); m >= 0) {
-    Eigen::Matrix<double, 6, 1> states;
-    for (int i = 0; i < 6; ++i) states(i) = at(m + i);
-    excess += misalignment_columns(v) * states;
-  }
+  if (const int m = index.of(misalignment); m >= 0)
+    excess += Vector3d(at(m) * v.y() + at(m + 1) * v.z(), at(m + 2) * v.x() + at(m + 3) * v.z(),
+                       at(m + 4) * v.x() + at(m + 5) * v.y());
   return v - excess;
 }
 

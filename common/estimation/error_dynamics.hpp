@@ -8,8 +8,22 @@ using Matrix9 = Eigen::Matrix<double, kNavStates, kNavStates>;
 /// Columns: the states that drive the navigation error, in StateIndex order from index 9 on.
 using ImuColumns = Eigen::Matrix<double, kNavStates, Eigen::Dynamic, 0, kNavStates, 24>;
 
-/// dx/dt = F x for position (m, NED), velocity and attitude error (DYN-1). Position error in metres along N.
-[[nodiscard]] Matrix9 error_dynamics(const NavSolution& nav, const Eigen::Vector3d& f_N_m_s2);
+/// F of DYN-1 in 3 x 3 blocks of position r (m along N), velocity v and attitude phi. The others are the
+/// identity (v on r) or zero; [force x] and -[rate_in x] stand for phi on v and on itself.
+struct ErrorRates {
+  Eigen::Matrix3d r_r;
+  Eigen::Matrix3d v_r;
+  Eigen::Matrix3d v_v;
+  Eigen::Matrix3d phi_r;
+  Eigen::Matrix3d phi_v;
+  Eigen::Vector3d force_N_m_s2;
+  Eigen::Vector3d rate_in_N_rad_s;
+};
+[[nodiscard]] ErrorRates error_rates(const geo::LocalEarth& earth, const Eigen::Vector3d& v_N_m_s,
+                                     const Eigen::Vector3d& force_N_m_s2);
+
+/// The whole of F, dx/dt = F x.
+[[nodiscard]] Matrix9 error_dynamics(const NavSolution& nav, const Eigen::Vector3d& force_N_m_s2);
 
 /// What one unit of remaining bias, scale or misalignment of the inertial unit does to the rates of the nine
 /// navigation errors (DYN-2).

@@ -47,66 +47,49 @@ void ErrorFilter::forget(int state, double sigma) {
   p_[at(state, state)] = sigma * sigma;
 }
 
-void ErrorFilter::propagate(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise) {
+void ErrorFilter::propagate(const NavTransition& transition, const ProcessNoise& noise) {
   // (KF-1)
-  if (tape_ != nullptr) tape_->propagated(f, g, dt_s, noise);
-  const int driven = kNavStates + static_cast<int>(g.cols());
-  const Matrix9 half = Matrix9::Identity() + (0.5 * dt_s) * f;
-  Matrix9 a;
-  a.noalias() = dt_s * (half * f);
-  a += Matrix9::Identity();
-  ImuColumns b(kNavStates, g.cols());
-  b.noalias() = dt_s * (half * g);
+  if (tape_ != nullptr) tape_->propagated(transition, noise);
+  double* p = p_.data();
+  const double dt = transition.dt_s();
+  transition.apply(p, width());
+  // What the others share with the navigation states is now in the nine rows; the columns follow. The corner
+  // is turned over, so that the same map, applied to it once more, completes Phi P Phi'.
+  for (int i = 1; i < kNavStates; ++i)
+    for (int j = 0; j < i; ++j) std::swap(p[at(i, j)], p[at(j, i)]);
+  for (int i = kNavStates; i < n_; ++i)
+    for (int j = 0; j < kNavStates; ++j) p[at(i, j)] = p[at(j, i)];
+  transition.apply(p, kNavStates);
 
-  std::array<double, static_cast<std::size_t>(kNavStates) * kMaxStates> t{};
-  const auto n = static_cast<std::size_t>(n_);
-  for (int i = 0; i < kNavStates; ++i) {
-    double* row = t.data() + static_cast<std::size_t>(i) * n;
-    for (int k = 0; k < driven; ++k) {
-      const double factor = k < kNavStates ? a(i, k) : b(i, k - kNavStates);
-      if (factor == 0.0) continue;
-      const double* source = p_.data() + static_cast<std::size_t>(k) * n;
-      for (std::size_t j = 0; j < n; ++j) row[j] += factor * source[j];
+  // White noise of the acceleration reaches the position through the velocity within the step.
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const double q = dt * noise.velocity(i, j);
+      p[at(i, j)] += dt * dt * (1.0 / 3.0) * q;
+      p[at(3 + i, j)] += 0.5 * dt * q;
+      p[at(3 + i, 3 + j)] += q;
+      p[at(6 + i, 6 + j)] += dt * noise.attitude(i, j);
     }
+  for (int i = 1; i < kNavStates; ++i)
+    for (int j = 0; j < i; ++j) p[at(j, i)] = p[at(i, j)];
+
+  if (noise.drift == nullptr) return;
+  for (const std::uint8_t state : noise.drift->decaying()) {
+    const double kept = noise.drift->kept(state, dt);
+    double* row = p + at(state, 0);
+    for (int j = 0; j < n_; ++j) row[j] *= kept;
+    row[state] *= kept;
+    for (int j = 0; j < n_; ++j) p[at(j, state)] = row[j];
   }
-  for (int i = 0; i < kNavStates; ++i) {
-    const double* row = t.data() + static_cast<std::size_t>(i) * n;
-    for (int j = 0; j <= i; ++j) {
-      double sum = 0.0;
-      for (int k = 0; k < kNavStates; ++k) sum += row[k] * a(j, k);
-      for (int k = kNavStates; k < driven; ++k) sum += row[k] * b(j, k - kNavStates);
-      // White noise of the acceleration reaches the position through the velocity within the step.
-      if (i < 3) sum += dt_s * dt_s * dt_s / 3.0 * noise.velocity(i, j);
-      if (i >= 3 && i < 6)
-        sum += j < 3 ? 0.5 * dt_s * dt_s * noise.velocity(i - 3, j) : dt_s * noise.velocity(i - 3, j - 3);
-      if (i >= 6 && j >= 6) sum += dt_s * noise.attitude(i - 6, j - 6);
-      set(i, j, sum);
-    }
-  }
-  // The others keep what they share with each other, and with the navigation rows what those now carry.
-  std::array<double, kMaxStates> keep{};
-  bool decaying = false;
-  for (int i = kNavStates; i < n_; ++i) {
-    const double rate = noise.decay_per_s[static_cast<std::size_t>(i)];
-    keep[static_cast<std::size_t>(i)] = rate > 0.0 ? std::exp(-rate * dt_s) : 1.0;
-    decaying = decaying || rate > 0.0;
-  }
-  for (int i = kNavStates; i < n_; ++i) {
-    const double own = keep[static_cast<std::size_t>(i)];
-    for (int j = 0; j < kNavStates; ++j)
-      set(i, j, own * t[static_cast<std::size_t>(j) * n + static_cast<std::size_t>(i)]);
-    if (decaying) {
-      for (int j = kNavStates; j <= i; ++j) set(i, j, own * keep[static_cast<std::size_t>(j)] * p_[at(i, j)]);
-    }
-    p_[at(i, i)] += dt_s * noise.walk[static_cast<std::size_t>(i)];
-  }
+  for (const std::uint8_t state : noise.drift->walking())
+    p[at(state, state)] += dt * noise.drift->walk(state);
 }
 
 void ErrorFilter::statistics(const Observation& observation, double noise_scale,
                              InnovationStatistics& out) const {
   // (KF-2)
   const int m = observation.rows;
-  const auto n = static_cast<std::size_t>(n_);
+  const auto n = static_cast<std::size_t>(width());
   out.rows = m;
   out.s.fill(0.0);
   for (int i = 0; i < m; ++i) {
@@ -117,7 +100,7 @@ void ErrorFilter::statistics(const Observation& observation, double noise_scale,
       const auto column = observation.columns[static_cast<std::size_t>(c)];
       const double factor = h[column];
       if (factor == 0.0) continue;
-      const double* row = p_.data() + column * n;
+      const double* row = p_.data() + at(column, 0);
       for (std::size_t j = 0; j < n; ++j) ph[j] += factor * row[j];
     }
   }
@@ -158,7 +141,7 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
                          std::array<double, kMaxStates>& x) {
   // (KF-3): with S = L L', V = L^-1 (P H')' and y = L^-1 innovation: x = V' y and P <- P - V' V.
   const int m = statistics.rows;
-  const auto n = static_cast<std::size_t>(n_);
+  const auto n = static_cast<std::size_t>(width());
   auto lower = statistics.s;
   if (!factorise(lower, m)) return false;
   if (tape_ != nullptr) tape_->updated(observation, statistics);
@@ -184,7 +167,7 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
     for (std::size_t r = 0; r < n; ++r) {
       const double factor = row[r];
       if (factor == 0.0) continue;
-      double* target = p_.data() + r * n;
+      double* target = p_.data() + at(static_cast<int>(r), 0);
       for (std::size_t j = 0; j < n; ++j) target[j] -= factor * row[j];
     }
   }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
-#include "estimation/error_dynamics.hpp"
+#include "estimation/nav_transition.hpp"
 #include "estimation/observation.hpp"
+#include "estimation/state_drift.hpp"
 
 namespace fathom::estimation {
 
@@ -20,18 +22,24 @@ struct InnovationStatistics {
 struct ProcessNoise {
   Eigen::Matrix3d velocity = Eigen::Matrix3d::Zero();  ///< m^2/s^3
   Eigen::Matrix3d attitude = Eigen::Matrix3d::Zero();  ///< rad^2/s
-  std::array<double, kMaxStates> walk{};               ///< of the states from index 9 on, unit^2/s
-  std::array<double, kMaxStates> decay_per_s{};        ///< 1/time constant, 0 for a constant or walk
+  const StateDrift* drift = nullptr;                   ///< of the states from index 9 on; must outlive this
 };
 
 class FilterTape;
 
 /// Error-state covariance with the structure of an inertial navigator: only the nine navigation rows move,
 /// driven by the states up to StateIndex::imu_end(); the rest keep still or decay one by one. Fixed size,
-/// nothing allocated, trivially copyable. The matrix is exactly symmetric at all times.
+/// nothing allocated; a copy costs what is in use. The matrix is exactly symmetric at all times.
 class ErrorFilter {
  public:
   explicit ErrorFilter(int states = 0) : n_(states) {}
+  ErrorFilter(const ErrorFilter& other) : n_(other.n_), tape_(other.tape_) { copy(other); }
+  ErrorFilter& operator=(const ErrorFilter& other) {
+    n_ = other.n_;
+    tape_ = other.tape_;
+    if (this != &other) copy(other);
+    return *this;
+  }
 
   [[nodiscard]] int size() const { return n_; }
   [[nodiscard]] double operator()(int row, int column) const { return p_[at(row, column)]; }
@@ -50,8 +58,8 @@ class ErrorFilter {
   /// filter tell the same tape.
   void record_to(FilterTape* tape) { tape_ = tape; }
 
-  /// P <- Phi P Phi' + Q dt with Phi = I + F dt + F^2 dt^2/2 (KF-1). `f` and `g` from error_dynamics.hpp.
-  void propagate(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise);
+  /// P <- Phi P Phi' + Q (KF-1).
+  void propagate(const NavTransition& transition, const ProcessNoise& noise);
 
   /// (KF-2). With `noise_scale` R is multiplied by it.
   void statistics(const Observation& observation, double noise_scale, InnovationStatistics& out) const;
@@ -63,12 +71,18 @@ class ErrorFilter {
 
  private:
   [[nodiscard]] std::size_t at(int row, int column) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(n_) + static_cast<std::size_t>(column);
+    return static_cast<std::size_t>(row * kRowStride + column);
+  }
+  /// Columns that the loops run over: an even number, so that two always go together. The odd one is zero.
+  [[nodiscard]] int width() const { return (n_ + 1) & ~1; }
+  void copy(const ErrorFilter& other) {
+    for (int i = 0; i < n_; ++i)
+      std::copy_n(other.p_.data() + at(i, 0), static_cast<std::size_t>(width()), p_.data() + at(i, 0));
   }
 
   int n_;
   FilterTape* tape_ = nullptr;
-  std::array<double, kMaxStates * kMaxStates> p_{};
+  alignas(64) std::array<double, static_cast<std::size_t>(kMaxStates) * kRowStride> p_{};
 };
 
 /// Hears what a filter does, in its order: what a smoother goes back along. Variance added by widen() is
@@ -76,7 +90,7 @@ class ErrorFilter {
 class FilterTape {
  public:
   /// The arguments of ErrorFilter::propagate().
-  virtual void propagated(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise) = 0;
+  virtual void propagated(const NavTransition& transition, const ProcessNoise& noise) = 0;
   /// A measurement has been taken in; `statistics` are those of before.
   virtual void updated(const Observation& observation, const InnovationStatistics& statistics) = 0;
   virtual void forgot(int state) = 0;

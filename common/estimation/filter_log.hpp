@@ -18,8 +18,8 @@ class FilterLog final : public FilterTape {
   /// From after entry `end` - 1 to before entry `begin`.
   void back_through(std::size_t end, std::size_t begin, Adjoint& adjoint) const;
 
-  void propagated(const Matrix9& f, const ImuColumns& g, double dt_s, const ProcessNoise& noise) override {
-    entries_.emplace_back(transition(f, g, dt_s, noise));
+  void propagated(const NavTransition& step, const ProcessNoise& noise) override {
+    entries_.emplace_back(transition(step, noise));
   }
   void updated(const Observation& observation, const InnovationStatistics& statistics) override {
     entries_.emplace_back(UpdateRecord(observation, statistics, states_));

@@ -48,8 +48,7 @@ double radius_95(double larger_sigma, double smaller_sigma) {
   return larger_sigma * (1.960790 + c * (0.004071 + c * (0.114276 + c * 0.371625)));
 }
 
-Forecaster::Forecaster(const Setup& setup)
-    : setup_(&setup), filter_(setup.index.size()), g_(kNavStates, setup.index.imu_end() - kNavStates) {}
+Forecaster::Forecaster(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {}
 
 void Forecaster::remember(int sensor, const AnySample& sample) {
   last_[static_cast<std::size_t>(sensor)] = sample;
@@ -64,7 +63,7 @@ bool Forecaster::aids(const Core& core, int sensor) const {
 }
 
 void Forecaster::step(double dt_s) {
-  filter_.propagate(f_, g_, dt_s, noise_);
+  filter_.propagate(NavTransition(setup_->index, nav_, Eigen::Vector3d::Zero(), force_B_, dt_s), noise_);
   InnovationStatistics statistics;
   std::array<double, kMaxStates> ignored{};
   for (std::size_t i = 0; i < setup_->config.sensors.size(); ++i) {
@@ -90,8 +89,8 @@ void Forecaster::fill(const Core& core, Forecast& out) {
   const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
   const Eigen::Vector3d force_N(0.0, 0.0, -geo::gravity(nav.position.latitude_rad, nav.position.altitude_m));
   filter_ = core.filter();
-  f_ = error_dynamics(nav, force_N);
-  g_ = imu_error_columns(setup_->index, c, Eigen::Vector3d::Zero(), c.transpose() * force_N);
+  nav_ = nav;
+  force_B_ = c.transpose() * force_N;
   noise_ = core.process_noise();
   const AidingState state(setup_->index, core.state(), core.rate_B_rad_s(), 0.0);
   for (std::size_t i = 0; i < setup_->config.sensors.size(); ++i) {

@@ -25,8 +25,8 @@ class Forecaster {
 
   const Setup* setup_;
   ErrorFilter filter_;
-  Matrix9 f_ = Matrix9::Zero();
-  ImuColumns g_;
+  NavSolution nav_;  ///< at the start, and the force that keeps it unaccelerated
+  Eigen::Vector3d force_B_ = Eigen::Vector3d::Zero();
   ProcessNoise noise_;
   std::array<AnySample, kMaxSensors> last_{};
   std::array<Observation, kMaxSensors> observations_{};

@@ -28,5 +28,8 @@ struct CorrectedIncrements {
 /// One step of the mechanisation (STRAP-2): attitude with the frame rate at the start, Coriolis at the
 /// midpoint velocity, trapezoidal position.
 [[nodiscard]] NavSolution mechanise(const NavSolution& start, const CorrectedIncrements& increments);
+/// The same with what the caller has already: the Earth at the start and its attitude as a matrix.
+[[nodiscard]] NavSolution mechanise(const NavSolution& start, const geo::LocalEarth& earth,
+                                    const Eigen::Matrix3d& C_NB, const CorrectedIncrements& increments);
 
 }  // namespace fathom::estimation

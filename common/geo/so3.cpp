@@ -5,26 +5,22 @@
 
 namespace fathom::geo {
 
-Quaternion operator*(const Quaternion& a, const Quaternion& b) {
-  return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-          a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
-}
-
-Quaternion conjugate(const Quaternion& q) {
-  return {q.w, -q.x, -q.y, -q.z};
-}
-
-Quaternion normalized(const Quaternion& q) {
-  const double scale = 1.0 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
-}
-
 Quaternion exp(const Eigen::Vector3d& rotation_rad) {
-  const double angle = rotation_rad.norm();
-  const double half = 0.5 * angle;
-  // sin(x)/x to rounding where the quotient would lose digits.
-  const double factor = angle < 1e-4 ? 0.5 * (1.0 - half * half / 6.0) : std::sin(half) / angle;
-  return {std::cos(half), factor * rotation_rad.x(), factor * rotation_rad.y(), factor * rotation_rad.z()};
+  const double square = 0.25 * rotation_rad.squaredNorm();
+  double cosine = 0.0;
+  double factor = 0.0;
+  if (square < 0.01) {
+    // Series in the square of the half angle, exact to rounding, and far from the quotient that would lose
+    // digits at zero: the steps of a mechanisation are all of this kind.
+    const auto term = [square](double divisor, double rest) { return 1.0 - square * (1.0 / divisor) * rest; };
+    cosine = term(2.0, term(12.0, term(30.0, term(56.0, term(90.0, 1.0)))));
+    factor = 0.5 * term(6.0, term(20.0, term(42.0, term(72.0, 1.0))));
+  } else {
+    const double half = std::sqrt(square);
+    cosine = std::cos(half);
+    factor = 0.5 * std::sin(half) / half;
+  }
+  return {cosine, factor * rotation_rad.x(), factor * rotation_rad.y(), factor * rotation_rad.z()};
 }
 
 Eigen::Vector3d log(const Quaternion& q) {
@@ -34,14 +30,6 @@ Eigen::Vector3d log(const Quaternion& q) {
   const double half = std::atan2(sine, sign * q.w);
   const double factor = sine < 1e-8 ? 2.0 / (sign * q.w) : 2.0 * half / sine;
   return sign * factor * axis;
-}
-
-Eigen::Matrix3d to_matrix(const Quaternion& q) {
-  Eigen::Matrix3d c;
-  c << 1.0 - 2.0 * (q.y * q.y + q.z * q.z), 2.0 * (q.x * q.y - q.w * q.z), 2.0 * (q.x * q.z + q.w * q.y),
-      2.0 * (q.x * q.y + q.w * q.z), 1.0 - 2.0 * (q.x * q.x + q.z * q.z), 2.0 * (q.y * q.z - q.w * q.x),
-      2.0 * (q.x * q.z - q.w * q.y), 2.0 * (q.y * q.z + q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y);
-  return c;
 }
 
 Quaternion from_matrix(const Eigen::Matrix3d& c) {
@@ -88,16 +76,6 @@ Eigen::Vector3d to_rpy(const Quaternion& q) {
   const double pitch = std::atan2(-c(2, 0), level);
   if (level < 1e-9) return {0.0, pitch, std::atan2(-c(0, 1), c(1, 1))};
   return {std::atan2(c(2, 1), c(2, 2)), pitch, std::atan2(c(1, 0), c(0, 0))};
-}
-
-Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
-  Eigen::Matrix3d m;
-  m << 0.0, -v.z(), v.y(), v.z(), 0.0, -v.x(), -v.y(), v.x(), 0.0;
-  return m;
-}
-
-Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
 
 }  // namespace fathom::geo

@@ -19,6 +19,15 @@ double away_from_zero(double cosine) {
   return cosine < kLeastCosine ? kLeastCosine : cosine;
 }
 
+/// `w` is 1 / sqrt(1 - e^2 sine^2).
+double gravity_at(double sine, double w, double altitude_m) {
+  const double s2 = sine * sine;
+  const double surface = kGravityEquator_m_s2 * (1.0 + kSomigliana * s2) * w;
+  const double linear = 2.0 / kSemiMajorAxis_m * (1.0 + kFlattening + kRotation - 2.0 * kFlattening * s2);
+  const double ratio = altitude_m / kSemiMajorAxis_m;
+  return surface * (1.0 - linear * altitude_m + 3.0 * ratio * ratio);
+}
+
 }  // namespace
 
 Radii radii(double latitude_rad) {
@@ -30,12 +39,17 @@ Radii radii(double latitude_rad) {
 
 double gravity(double latitude_rad, double altitude_m) {
   const double sine = std::sin(latitude_rad);
-  const double s2 = sine * sine;
-  const double surface =
-      kGravityEquator_m_s2 * (1.0 + kSomigliana * s2) / std::sqrt(1.0 - kEccentricitySquared * s2);
-  const double linear = 2.0 / kSemiMajorAxis_m * (1.0 + kFlattening + kRotation - 2.0 * kFlattening * s2);
-  const double ratio = altitude_m / kSemiMajorAxis_m;
-  return surface * (1.0 - linear * altitude_m + 3.0 * ratio * ratio);
+  return gravity_at(sine, 1.0 / std::sqrt(1.0 - kEccentricitySquared * sine * sine), altitude_m);
+}
+
+LocalEarth::LocalEarth(const Geodetic& at)
+    : sine(std::sin(at.latitude_rad)), cosine(away_from_zero(std::cos(at.latitude_rad))) {
+  // One root and its reciprocal serve the radii and gravity.
+  const double w = 1.0 / std::sqrt(1.0 - kEccentricitySquared * sine * sine);
+  normal_m = kSemiMajorAxis_m * w + at.altitude_m;
+  meridian_m = kSemiMajorAxis_m * (1.0 - kEccentricitySquared) * w * w * w + at.altitude_m;
+  gravity_m_s2 = gravity_at(sine, w, at.altitude_m);
+  earth_rate_N = {kEarthRate_rad_s * cosine, 0.0, -kEarthRate_rad_s * sine};
 }
 
 Eigen::Vector3d earth_rate_N(double latitude_rad) {

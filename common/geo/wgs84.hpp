@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 
 /// The WGS-84 ellipsoid, its gravity, and the rates of the local level frame N (north, east, down).
@@ -24,6 +26,10 @@ struct Radii {
   double normal_m = 0.0;    ///< R_N, of the prime vertical
 };
 [[nodiscard]] Radii radii(double latitude_rad);
+/// R_N by the sine of the latitude.
+[[nodiscard]] inline double normal_radius_m(double sine) {
+  return kSemiMajorAxis_m / std::sqrt(1.0 - kEccentricitySquared * sine * sine);
+}
 
 /// Plumb gravity along down, m/s^2: Somigliana on the ellipsoid, second order in altitude.
 [[nodiscard]] double gravity(double latitude_rad, double altitude_m);
@@ -33,6 +39,24 @@ struct Radii {
 
 /// Rate of N relative to the Earth when moving at v_N.
 [[nodiscard]] Eigen::Vector3d transport_rate_N(const Geodetic& at, const Eigen::Vector3d& v_N_m_s);
+
+/// The ellipsoid at one point, with the sine and cosine of the latitude taken once: what a step of the
+/// mechanisation and its error dynamics share. The same figures as the functions above.
+struct LocalEarth {
+  explicit LocalEarth(const Geodetic& at);
+
+  double sine;
+  double cosine;                 ///< kept away from zero: nearer to a pole longitude means nothing
+  double meridian_m;             ///< R_M + altitude
+  double normal_m;               ///< R_N + altitude
+  double gravity_m_s2;           ///< along down
+  Eigen::Vector3d earth_rate_N;  ///< rad/s
+
+  [[nodiscard]] Eigen::Vector3d transport_rate_N(const Eigen::Vector3d& v_N_m_s) const {
+    const double east = v_N_m_s.y() / normal_m;
+    return {east, -v_N_m_s.x() / meridian_m, -east * sine / cosine};
+  }
+};
 
 /// `to` minus `from` in metres north, east, down, with the radii halfway: exact to 1e-6 of the distance
 /// within 10 km, and consistent with moved_by().

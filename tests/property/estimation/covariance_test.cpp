@@ -34,8 +34,7 @@ TEST(Covariance, StaysSymmetricAndPositive) {
       FilterState state;
       state.nav.position = {0.6, 0.2, -10.0};
       ProcessNoise noise;
-      noise.walk = setup.walk;
-      noise.decay_per_s = setup.decay_per_s;
+      noise.drift = &setup.drift;
       noise.velocity = 1e-7 * Eigen::Matrix3d::Identity();
       noise.attitude = 1e-9 * Eigen::Matrix3d::Identity();
       std::array<double, kMaxStates> x{};
@@ -44,8 +43,7 @@ TEST(Covariance, StaysSymmetricAndPositive) {
         state.nav.v_N_m_s = normal.vector(5.0);
         const Eigen::Matrix3d c = geo::to_matrix(state.nav.q_NB);
         const Vector3d force = normal.vector(4.0) - c.transpose() * Vector3d(0.0, 0.0, 9.8);
-        filter.propagate(error_dynamics(state.nav, c * force),
-                         imu_error_columns(index, c, normal.vector(0.5), force), 0.01, noise);
+        filter.propagate(NavTransition(index, state.nav, normal.vector(0.5), force, 0.01), noise);
         if (step % 3 != 0) continue;
         const AidingState aiding(index, state, normal.vector(0.5), 0.0);
         SensorConfig sensor = default_sensor(SourceKind::dvl, "dvl0");
@@ -94,14 +92,33 @@ TEST(Covariance, StaysSymmetricAndPositive) {
   }
 }
 
+/// A random situation: everything that one step of the covariance depends on.
+struct Situation {
+  explicit Situation(Normal& normal) {
+    nav.position = {normal.uniform(-1.2, 1.2), normal.uniform(-3.0, 3.0), 200.0};
+    nav.v_N_m_s = normal.vector(20.0);
+    nav.q_NB = geo::from_rpy(normal.vector(1.0));
+    force_B = normal.vector(10.0);
+    rate_B = normal.vector(1.0);
+  }
+  NavSolution nav;
+  Vector3d force_B;
+  Vector3d rate_B;
+};
+
 TEST(Covariance, PropagationEqualsTheDenseProduct) {
-  EngineConfig config;
-  ASSERT_TRUE(named_state_groups("full", config.groups));
-  const estimation::Setup setup(config);
-  const StateIndex& index = setup.index;
-  const int n = index.size();
-  Normal normal(3);
-  for (int trial = 0; trial < 20; ++trial) {
+  // With every subset of the inertial groups: scale and misalignment stand in different rows each time.
+  for (int groups = 0; groups < 16; ++groups) {
+    EngineConfig config;
+    ASSERT_TRUE(named_state_groups("full", config.groups));
+    config.groups.accel_scale = (groups & 1) != 0;
+    config.groups.gyro_scale = (groups & 2) != 0;
+    config.groups.accel_misalignment = (groups & 4) != 0;
+    config.groups.gyro_misalignment = (groups & 8) != 0;
+    config.states.heading_bias_time_constant_s = 5.0;
+    const estimation::Setup setup(config);
+    const int n = setup.index.size();
+    Normal normal(static_cast<std::uint64_t>(3 + groups));
     Eigen::MatrixXd root(n, n);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) root(i, j) = normal();
@@ -109,30 +126,54 @@ TEST(Covariance, PropagationEqualsTheDenseProduct) {
     ErrorFilter filter(n);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j <= i; ++j) filter.set(i, j, p0(i, j));
-    NavSolution nav;
-    nav.position = {0.5, 1.0, 200.0};
-    nav.v_N_m_s = normal.vector(20.0);
-    nav.q_NB = geo::from_rpy(normal.vector(1.0));
-    const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
-    const Vector3d force = normal.vector(10.0);
-    const Matrix9 f = error_dynamics(nav, c * force);
-    const ImuColumns g = imu_error_columns(index, c, normal.vector(1.0), force);
+    const Situation at(normal);
     ProcessNoise noise;
-    noise.walk = setup.walk;
-    noise.decay_per_s = setup.decay_per_s;
+    noise.drift = &setup.drift;
+    noise.velocity = Vector3d(0.1, 0.2, 0.3).asDiagonal();
+    noise.attitude = Vector3d(0.3, 0.1, 0.2).asDiagonal();
     constexpr double dt = 0.02;
-    filter.propagate(f, g, dt, noise);
+    const NavTransition transition(setup.index, at.nav, at.rate_B, at.force_B, dt);
+    filter.propagate(transition, noise);
 
-    Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
-    full.topLeftCorner(9, 9) = f;
-    full.block(0, 9, 9, g.cols()) = g;
-    Eigen::MatrixXd phi = Eigen::MatrixXd::Identity(n, n) + dt * full + 0.5 * dt * dt * full * full;
+    Eigen::MatrixXd phi = Eigen::MatrixXd::Identity(n, n);
+    phi.topLeftCorner(9, transition.driven()) = transition.rows();
     for (int i = 9; i < n; ++i) phi(i, i) = std::exp(-dt * setup.decay_per_s[static_cast<std::size_t>(i)]);
     Eigen::MatrixXd expected = phi * p0 * phi.transpose();
     for (int i = 9; i < n; ++i) expected(i, i) += dt * setup.walk[static_cast<std::size_t>(i)];
+    expected.block<3, 3>(0, 0) += dt * dt * dt / 3.0 * noise.velocity;
+    expected.block<3, 3>(3, 0) += dt * dt / 2.0 * noise.velocity;
+    expected.block<3, 3>(0, 3) += dt * dt / 2.0 * noise.velocity;
+    expected.block<3, 3>(3, 3) += dt * noise.velocity;
+    expected.block<3, 3>(6, 6) += dt * noise.attitude;
     for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        ASSERT_EQ(filter(i, j), filter(j, i));
+        ASSERT_NEAR(filter(i, j), expected(i, j), 1e-13 * p0.cwiseAbs().maxCoeff()) << i << ' ' << j;
+      }
+  }
+}
+
+TEST(Covariance, TransitionEqualsTheSecondOrderExponentialOfF) {
+  EngineConfig config;
+  ASSERT_TRUE(named_state_groups("full", config.groups));
+  const StateIndex index(config.groups);
+  const int n = index.imu_end();
+  Normal normal(8);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Situation at(normal);
+    const double dt = trial % 2 == 0 ? 0.01 : 0.25;
+    const NavTransition transition(index, at.nav, at.rate_B, at.force_B, dt);
+    const Eigen::Matrix3d c = geo::to_matrix(at.nav.q_NB);
+    Eigen::MatrixXd f = Eigen::MatrixXd::Zero(n, n);
+    f.topLeftCorner(9, 9) = error_dynamics(at.nav, c * at.force_B);
+    f.topRightCorner(9, n - 9) = imu_error_columns(index, c, at.rate_B, at.force_B);
+    const Eigen::MatrixXd second = 0.5 * dt * dt * f * f;
+    const Eigen::MatrixXd expected = (Eigen::MatrixXd::Identity(n, n) + dt * f + second).topRows(9);
+    const Eigen::MatrixXd own = transition.rows();
+    for (int i = 0; i < 9; ++i)
       for (int j = 0; j < n; ++j)
-        ASSERT_NEAR(filter(i, j), expected(i, j), 1e-11 * p0.cwiseAbs().maxCoeff()) << i << ' ' << j;
+        ASSERT_NEAR(own(i, j), expected(i, j), 1e-12 * std::max(std::abs(expected(i, j)), 1e-6))
+            << i << ' ' << j << " trial " << trial;
   }
 }
 

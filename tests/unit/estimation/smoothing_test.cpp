@@ -26,10 +26,12 @@ constexpr double kTolerance = 1e-9;
 struct OneAxis {
   static constexpr int kPosition = 0;
   static constexpr int kVelocity = 3;
-  Matrix9 f = Matrix9::Zero();
-  ImuColumns g = ImuColumns::Zero(kNavStates, 6);
   ProcessNoise noise;
-  OneAxis() { f(kPosition, kVelocity) = 1.0; }
+  [[nodiscard]] static NavTransition step(double dt_s) {
+    const Eigen::Matrix3d none = Eigen::Matrix3d::Zero();
+    const ErrorRates still{none, none, none, none, none, Vector3d::Zero(), Vector3d::Zero()};
+    return {StateIndex(StateGroups{}), still, none, Vector3d::Zero(), Vector3d::Zero(), dt_s};
+  }
 };
 
 Eigen::Matrix2d pair_of(const ErrorFilter& filter) {
@@ -52,7 +54,7 @@ TEST_F(SmoothingVectors, RtsStep) {
   FilterLog log(15);
   ErrorFilter after = before;
   after.record_to(&log);
-  after.propagate(axis.f, axis.g, 1.0, axis.noise);
+  after.propagate(OneAxis::step(1.0), axis.noise);
   const MatrixXd q = matrix(j.at("Q"));
   after.widen(0, q(0, 0));
   after.widen(3, q(1, 1));
@@ -113,7 +115,7 @@ TEST_F(SmoothingVectors, ClonedState) {
   filter.set(kClone, 0, p0(0, 0));
   filter.set(kClone, 3, p0(0, 1));
   filter.set(kClone, kClone, p0(0, 0));
-  filter.propagate(axis.f, axis.g, 2.0, axis.noise);
+  filter.propagate(OneAxis::step(2.0), axis.noise);
   const std::array<int, 3> at{0, 3, kClone};
   const auto block = [&](const ErrorFilter& of, int size) {
     MatrixXd p(size, size);
@@ -150,7 +152,7 @@ TEST_F(SmoothingVectors, ClonedState) {
   ErrorFilter repeated = at_the_ping;
   std::array<double, kMaxStates> dx{};
   measure(repeated, 0, dx);
-  repeated.propagate(axis.f, axis.g, 2.0, axis.noise);
+  repeated.propagate(OneAxis::step(2.0), axis.noise);
   EXPECT_LT(relative_error(block(repeated, 2), matrix(e.at("P_plus"))), kTolerance);
   EXPECT_LT(relative_error(dx[0] + 2.0 * dx[3], x[0]), kTolerance);
   EXPECT_LT(relative_error(dx[3], x[3]), kTolerance);
@@ -164,16 +166,25 @@ class BatchTest : public ::testing::Test {
   static constexpr int kSteps = 24;
 
   BatchTest() {
-    const Matrix9 f = error_dynamics(nav(), Vector3d(0.4, -0.3, -9.8));
+    const Vector3d force_N(0.4, -0.3, -9.8);
+    const Vector3d rate_B(0.1, 0.0, 0.2);
+    const Vector3d force_B(0.5, 0.1, -9.7);
+    const Eigen::Matrix3d c = geo::to_matrix(nav().q_NB);
     const StateIndex index{StateGroups{}};
-    const ImuColumns g = imu_error_columns(index, geo::to_matrix(nav().q_NB), Vector3d(0.1, 0.0, 0.2),
-                                           Vector3d(0.5, 0.1, -9.7));
+    const Matrix9 f = error_dynamics(nav(), force_N);
+    const ImuColumns g = imu_error_columns(index, c, rate_B, force_B);
+    const ErrorRates rates = error_rates(geo::LocalEarth(nav().position), nav().v_N_m_s, force_N);
+    const NavTransition step(index, rates, c, rate_B, force_B, 1.0);
+    std::array<double, kMaxStates> walk{};
+    std::array<double, kMaxStates> decay_per_s{};
+    for (std::size_t i = 9; i < 15; ++i) walk[i] = 1e-8;
+    walk[15] = 0.02;
+    decay_per_s[15] = 0.1;
+    const StateDrift drift(walk, decay_per_s, kStates);
     ProcessNoise noise;
     noise.velocity = 0.04 * Eigen::Matrix3d::Identity();
     noise.attitude = 1e-6 * Eigen::Matrix3d::Identity();
-    for (std::size_t i = 9; i < 15; ++i) noise.walk[i] = 1e-8;
-    noise.walk[15] = 0.02;
-    noise.decay_per_s[15] = 0.1;
+    noise.drift = &drift;
     std::array<double, kMaxStates> sigma{};
     for (std::size_t i = 0; i < kStates; ++i) sigma[i] = i < 3 ? 5.0 : i < 6 ? 1.0 : i < 15 ? 0.01 : 0.5;
 
@@ -192,7 +203,7 @@ class BatchTest : public ::testing::Test {
       means_.push_back(mean);
       ends_.push_back(log_.size());
       const auto move = [&](ErrorFilter& one) {
-        one.propagate(f, g, 1.0, noise);
+        one.propagate(step, noise);
         if (k == 9) one.widen(3, 0.7);
         if (k == 15) one.forget(1, 20.0);
       };
@@ -221,8 +232,7 @@ class BatchTest : public ::testing::Test {
     rate.topLeftCorner(9, 9) = f;
     rate.block(0, 9, 9, 6) = g;
     MatrixXd phi = MatrixXd::Identity(kStates, kStates) + rate + 0.5 * rate * rate;
-    for (int i = 9; i < kStates; ++i)
-      phi(i, i) = std::exp(-noise.decay_per_s[static_cast<std::size_t>(i)] * 1.0);
+    for (int i = 9; i < kStates; ++i) phi(i, i) = std::exp(-noise.drift->decay_per_s(i) * 1.0);
     return phi;
   }
   /// Enters instant k: its own covariance, and that with all instants before.

@@ -258,7 +258,6 @@ TEST_F(Vectors, PredictAndUpdate15) {
   state.nav.position = {j.at("lat_deg").get<double>() * kDegree, 0.0, j.at("h").get<double>()};
   state.nav.v_N_m_s = vector3(j.at("v_ned"));
   state.nav.q_NB = geo::from_rpy(kDegree * vector3(j.at("rpy_deg")));
-  const Eigen::Matrix3d c = geo::to_matrix(state.nav.q_NB);
   const Vector3d force = vector3(j.at("f_body"));
   std::array<double, kMaxStates> sigma{};
   for (std::size_t i = 0; i < 15; ++i) sigma[i] = std::sqrt(j.at("P0_diag").at(i).get<double>());
@@ -269,8 +268,7 @@ TEST_F(Vectors, PredictAndUpdate15) {
   const double arw = j.at("arw").get<double>();
   noise.velocity = vrw * vrw * Eigen::Matrix3d::Identity();
   noise.attitude = arw * arw * Eigen::Matrix3d::Identity();
-  filter.propagate(error_dynamics(state.nav, c * force), imu_error_columns(index, c, Vector3d::Zero(), force),
-                   j.at("dt").get<double>(), noise);
+  filter.propagate(NavTransition(index, state.nav, Vector3d::Zero(), force, j.at("dt").get<double>()), noise);
   for (int i = 0; i < 15; ++i)
     EXPECT_NEAR(filter(i, i) / e.at("Pminus_diag").at(static_cast<std::size_t>(i)).get<double>(), 1.0, 1e-9)
         << i;
