@@ -62,7 +62,7 @@ class FusionEngine::Impl final : public VerdictSink {
     nav_.header.stamp_ns = sample.header.stamp_ns;
     nav_.header.received_ns = sample.header.received_ns;
     ++nav_.header.sequence;
-    estimation::fill(setup_, history_.core(), nav_);
+    filled_ = false;
     return true;
   }
 
@@ -138,9 +138,15 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   void start_from(const InitialState& state) {
+    (void)nav_state();  // the last one stands until the next inertial sample
     history_.clear(*this);
     intake_ = ImuIntake(setup_);
     pending_start_ = state;
+  }
+
+  void finish() {
+    history_.settle(*this);
+    if (nav_.header.sequence > 0) filled_ = false;
   }
 
   void judged(const Measurement& measurement, const Judgement& judgement) override {
@@ -166,7 +172,12 @@ class FusionEngine::Impl final : public VerdictSink {
     forecaster_.fill(history_.core(), out);
   }
 
-  [[nodiscard]] const NavState& nav_state() const { return nav_; }
+  [[nodiscard]] const NavState& nav_state() const {
+    if (!filled_) estimation::fill(setup_, history_.core(), nav_);
+    filled_ = true;
+    return nav_;
+  }
+  [[nodiscard]] std::uint64_t repeated_steps() const { return history_.repeated_steps(); }
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
@@ -209,7 +220,8 @@ class FusionEngine::Impl final : public VerdictSink {
   ImuIntake intake_;
   History history_;
   Forecaster forecaster_;
-  NavState nav_;
+  mutable NavState nav_;  ///< filled when asked for
+  mutable bool filled_ = true;
   Measurement incoming_;
   std::uint64_t commands_ = 0;
   std::vector<Name> names_;
@@ -257,6 +269,12 @@ bool FusionEngine::apply(const Command& command) {
 }
 void FusionEngine::start_from(const InitialState& state) {
   impl_->start_from(state);
+}
+void FusionEngine::finish() {
+  impl_->finish();
+}
+std::uint64_t FusionEngine::repeated_steps() const {
+  return impl_->repeated_steps();
 }
 const NavState& FusionEngine::nav_state() const {
   return impl_->nav_state();

@@ -66,6 +66,10 @@ class FusionEngine {
   /// Forgets everything and starts from a given state with the first inertial sample at or after its stamp.
   void start_from(const InitialState& state);
 
+  /// At the end of a recording: every measurement that still waits gets its verdict. Late ones act now, and
+  /// nav_state() follows; those stamped after the newest inertial sample are from_the_future.
+  void finish();
+
   /// At the newest accepted inertial sample. header.sequence counts navigation states.
   [[nodiscard]] const NavState& nav_state() const;
 
@@ -73,6 +77,9 @@ class FusionEngine {
   /// and counted.
   bool next_verdict(Verdict& verdict);
   [[nodiscard]] std::uint64_t verdicts_dropped() const;
+
+  /// Inertial steps done again for the sake of late measurements, since construction.
+  [[nodiscard]] std::uint64_t repeated_steps() const;
 
   void fill(NavDetail& detail) const;
   void fill(AlignmentStatus& status) const;

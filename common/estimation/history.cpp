@@ -7,13 +7,21 @@
 namespace fathom::estimation {
 namespace {
 
+/// Room for young snapshots, and the steps between the youngest.
+constexpr std::size_t kYoung = 48;
+constexpr std::uint64_t kFineSteps = 2;
+/// An eighth of the age between snapshots, a quarter where one between two is given up.
+constexpr DurationNs kSaveShare = 8;
+constexpr DurationNs kThinShare = 4;
+
 std::size_t step_capacity(const EngineConfig& config) {
   const double span = config.horizon_s + 2.0 * config.snapshot_interval_s;
   return static_cast<std::size_t>(std::ceil(1.5 * span * config.imu.nominal_rate_hz)) + 64;
 }
 
 std::size_t snapshot_capacity(const EngineConfig& config) {
-  return static_cast<std::size_t>(std::ceil(config.horizon_s / config.snapshot_interval_s)) + 4;
+  // Beside the regular ones those that stand closer: eight for each factor of e in age.
+  return static_cast<std::size_t>(std::ceil(config.horizon_s / config.snapshot_interval_s)) + 4 + kYoung;
 }
 
 }  // namespace
@@ -23,9 +31,11 @@ History::History(const Setup& setup)
       core_(setup),
       steps_(step_capacity(setup.config)),
       snapshots_(snapshot_capacity(setup.config), Snapshot{0, Core(setup)}),
+      snapshot_order_(snapshots_.size()),
       pool_(setup.config.measurement_capacity),
       order_(setup.config.measurement_capacity) {
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint16_t>(i);
+  for (std::size_t i = 0; i < snapshot_order_.size(); ++i) snapshot_order_[i] = static_cast<std::uint16_t>(i);
 }
 
 std::size_t History::first_after(TimeNs stamp_ns) const {
@@ -51,7 +61,7 @@ History::Placing History::insert(const Measurement& measurement) {
     if (kept == snapshot_count_) return Placing::late;
     const TimeNs floor = snapshot(kept).core.now_ns();
     if (stamp <= floor || (dirty_ns_ != 0 && dirty_ns_ <= floor)) return Placing::late;
-    for (std::size_t i = 0; i < kept; ++i) drop_oldest_snapshot();
+    for (std::size_t i = 0; i < kept; ++i) drop_snapshot(0);
     drop_before(floor);
   }
   const auto begin = order_.begin();
@@ -71,32 +81,51 @@ History::Placing History::insert(const Measurement& measurement) {
 
 void History::advance(const ImuStep& step, VerdictSink& sink) {
   steps_[steps_done_ % steps_.size()] = step;
-  const std::uint64_t target = steps_done_ + 1;
+  repeat_until(steps_done_ + 1, sink);
+}
+
+void History::settle(VerdictSink& sink) {
+  if (!started_) return;
+  if (dirty_ns_ != 0) repeat_until(steps_done_, sink);
+  Judgement unplaced;
+  unplaced.kind = VerdictKind::from_the_future;
+  std::size_t kept = first_after(core_.now_ns());
+  for (std::size_t rank = kept; rank < event_count_; ++rank) {
+    // An order stays for the step that may yet come.
+    if (event(rank).command) {
+      std::swap(order_[kept++], order_[rank]);
+    } else if (!event(rank).judged) {
+      sink.judged(event(rank), unplaced);
+    }
+  }
+  event_count_ = kept;
+}
+
+void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
   if (dirty_ns_ != 0) {
     // Back to the newest snapshot before the earliest of the late events. insert() has seen to it that there
     // is one.
     while (snapshot_count_ > 1 && snapshot(snapshot_count_ - 1).core.now_ns() >= dirty_ns_) --snapshot_count_;
     const Snapshot& from = snapshot(snapshot_count_ - 1);
     repeated_steps_ += steps_done_ - from.after_step;
+    fine_until_step_ = target + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
     core_ = from.core;
     steps_done_ = from.after_step;
-    saved_ns_ = core_.now_ns();
     dirty_ns_ = 0;
   }
+  const TimeNs newest_ns =
+      target == steps_done_ ? core_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
   while (steps_done_ < target) {
-    const ImuStep& next = steps_[steps_done_ % steps_.size()];
-    run(next, sink);
+    run(steps_[steps_done_ % steps_.size()], sink);
     ++steps_done_;
-    const std::uint64_t unsaved = steps_done_ - snapshot(snapshot_count_ - 1).after_step;
-    if (core_.now_ns() - saved_ns_ >= from_seconds(setup_->config.snapshot_interval_s) ||
-        unsaved >= steps_.size() / 4)
-      save();
+    if (save_due(newest_ns)) save();
     // A snapshot from which some step since is no longer held is of no use.
     while (snapshot_count_ > 1 && steps_done_ - snapshot(0).after_step >= steps_.size()) {
-      drop_oldest_snapshot();
+      drop_snapshot(0);
       drop_before(snapshot(0).core.now_ns());
     }
   }
+  thin_snapshots(newest_ns);
 }
 
 void History::run(const ImuStep& step, VerdictSink& sink) {
@@ -112,18 +141,39 @@ void History::run(const ImuStep& step, VerdictSink& sink) {
   core_.finish(step);
 }
 
+bool History::save_due(TimeNs newest_ns) const {
+  const Snapshot& last = snapshot(snapshot_count_ - 1);
+  const std::uint64_t steps = steps_done_ - last.after_step;
+  if (steps >= steps_.size() / 4) return true;
+  const DurationNs since = core_.now_ns() - last.core.now_ns();
+  if (since >= from_seconds(setup_->config.snapshot_interval_s)) return true;
+  return steps_done_ < fine_until_step_ && steps >= kFineSteps &&
+         since >= (newest_ns - core_.now_ns()) / kSaveShare;
+}
+
 void History::save() {
-  if (snapshot_count_ == snapshots_.size()) drop_oldest_snapshot();
+  if (snapshot_count_ == snapshots_.size()) drop_snapshot(0);
   Snapshot& slot = snapshot(snapshot_count_);
   slot.after_step = steps_done_;
   slot.core = core_;
   ++snapshot_count_;
-  saved_ns_ = core_.now_ns();
   drop_before(snapshot(0).core.now_ns());
 }
 
-void History::drop_oldest_snapshot() {
-  first_snapshot_ = (first_snapshot_ + 1) % snapshots_.size();
+void History::thin_snapshots(TimeNs newest_ns) {
+  const TimeNs horizon = newest_ns - from_seconds(setup_->config.horizon_s);
+  while (snapshot_count_ > 1 && snapshot(1).core.now_ns() < horizon) drop_snapshot(0);
+  const DurationNs widest = from_seconds(setup_->config.snapshot_interval_s);
+  for (std::size_t i = snapshot_count_; i-- > 2;) {
+    const TimeNs before = snapshot(i - 2).core.now_ns();
+    const DurationNs gap = snapshot(i).core.now_ns() - before;
+    if (gap <= std::min(widest, (newest_ns - before) / kThinShare)) drop_snapshot(i - 1);
+  }
+}
+
+void History::drop_snapshot(std::size_t age_order) {
+  const auto place = snapshot_order_.begin() + static_cast<std::ptrdiff_t>(age_order);
+  std::rotate(place, place + 1, snapshot_order_.begin() + static_cast<std::ptrdiff_t>(snapshot_count_));
   --snapshot_count_;
 }
 
@@ -144,6 +194,7 @@ void History::forget_past(VerdictSink& sink, VerdictKind verdict) {
   event_count_ = 0;
   snapshot_count_ = 0;
   steps_done_ = 0;
+  fine_until_step_ = 0;
   dirty_ns_ = 0;
 }
 

@@ -20,6 +20,10 @@ class VerdictSink {
 /// instant. The state is a function of the sorted events alone: an event that comes late takes the navigator
 /// back to the newest snapshot before it, and everything since is applied again in the one order of
 /// Measurement::key(). All storage is made by the constructor.
+///
+/// Snapshots stand snapshot_interval_s apart; while late events come, the younger ones closer, by an eighth
+/// of their age: most measurements are late by tens of milliseconds, and then little more than that is
+/// repeated. Where snapshots stand changes the work and never the result.
 class History {
  public:
   enum class Placing : std::uint8_t { taken, late, duplicate, from_the_future, not_started };
@@ -33,6 +37,8 @@ class History {
   Placing insert(const Measurement& measurement);
   /// One inertial interval, with all the repetition that late events ask for.
   void advance(const ImuStep& step, VerdictSink& sink);
+  /// Lets late events act now instead of with the next step; those after the present instant are given up.
+  void settle(VerdictSink& sink);
   /// Lets the present instant be this one, with no past.
   void begin(TimeNs now_ns);
   void begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink);
@@ -51,12 +57,18 @@ class History {
 
   /// Events that have not acted yet get this verdict.
   void forget_past(VerdictSink& sink, VerdictKind verdict);
+  /// Goes back if it must, and on to the given number of steps.
+  void repeat_until(std::uint64_t target, VerdictSink& sink);
   void run(const ImuStep& step, VerdictSink& sink);
+  /// Whether a snapshot is due, `newest_ns` being the end of the newest step.
+  [[nodiscard]] bool save_due(TimeNs newest_ns) const;
   void save();
-  void drop_oldest_snapshot();
+  void thin_snapshots(TimeNs newest_ns);
+  void drop_snapshot(std::size_t age_order);
   void drop_before(TimeNs stamp_ns);
-  [[nodiscard]] Snapshot& snapshot(std::size_t age_order) {
-    return snapshots_[(first_snapshot_ + age_order) % snapshots_.size()];
+  [[nodiscard]] Snapshot& snapshot(std::size_t age_order) { return snapshots_[snapshot_order_[age_order]]; }
+  [[nodiscard]] const Snapshot& snapshot(std::size_t age_order) const {
+    return snapshots_[snapshot_order_[age_order]];
   }
   [[nodiscard]] Measurement& event(std::size_t rank) { return pool_[order_[rank]]; }
   [[nodiscard]] std::size_t first_after(TimeNs stamp_ns) const;
@@ -65,16 +77,17 @@ class History {
   Core core_;
   bool started_ = false;
   std::uint64_t steps_done_ = 0;
-  TimeNs dirty_ns_ = 0;  ///< earliest event that has not acted although its instant is past; 0: none
-  TimeNs saved_ns_ = 0;
+  TimeNs dirty_ns_ = 0;         ///< earliest event that has not acted although its instant is past; 0: none
   std::vector<ImuStep> steps_;  ///< ring, by step number
   std::vector<Snapshot> snapshots_;
-  std::size_t first_snapshot_ = 0;
+  std::vector<std::uint16_t>
+      snapshot_order_;  ///< places by age, oldest first; the first snapshot_count_ are in use
   std::size_t snapshot_count_ = 0;
   std::vector<Measurement> pool_;
   std::vector<std::uint16_t> order_;  ///< ranks to places in the pool; the first event_count_ are in use
   std::size_t event_count_ = 0;
   std::uint64_t repeated_steps_ = 0;
+  std::uint64_t fine_until_step_ = 0;  ///< snapshots stand close as long as late events keep coming
 };
 
 }  // namespace fathom::estimation

@@ -39,7 +39,11 @@ PassageResult run(const Passage& passage) {
   Progress progress(passage.label, passage.arrivals->size());
   const SystemClock clock;
   const TimeNs begin_ns = clock.monotonic_ns();
-  Verdict verdict;
+  const auto take_verdicts = [&] {
+    Verdict verdict;
+    while (engine.next_verdict(verdict))
+      ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+  };
   std::uint64_t done = 0;
   for (const dataset::Arrival& arrival : *passage.arrivals) {
     progress.update(++done);
@@ -56,9 +60,10 @@ PassageResult run(const Passage& passage) {
         engine.add(sample);
       }
     });
-    while (engine.next_verdict(verdict))
-      ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+    take_verdicts();
   }
+  engine.finish();
+  take_verdicts();
   result.wall_s = to_seconds(clock.monotonic_ns() - begin_ns);
   return result;
 }
