@@ -273,6 +273,33 @@ void describe(Schema<AlignmentConfig>& s) {
       .range(1e-3, 1e4);
 }
 
+void describe(Schema<NonHolonomicConfig>& s) {
+  using C = NonHolonomicConfig;
+  s.field("enabled", &C::enabled, "the vehicle runs on wheels: no velocity sideways and upwards");
+  s.field("rate_hz", &C::rate_hz, "how often it is applied").unit("Hz").range(0.01, 1000);
+  s.field("lever_B_m", &C::lever_B_m, "from the inertial unit to the point where it holds, the rear axle")
+      .unit("m")
+      .range(-1000, 1000);
+  s.field("mounting_rpy_deg", &C::mounting_rpy_rad, "roll, pitch, yaw of the wheels' axes in the body frame")
+      .unit("deg")
+      .range(-360, 360)
+      .scaled(kRadPerDeg);
+  s.field("lateral_sigma_m_s", &C::lateral_sigma_m_s, "sideways").unit("m/s").range(1e-5, 1e3);
+  s.field("vertical_sigma_m_s", &C::vertical_sigma_m_s, "upwards").unit("m/s").range(1e-5, 1e3);
+}
+
+void describe(Schema<ConstantDepthConfig>& s) {
+  using C = ConstantDepthConfig;
+  s.field("enabled", &C::enabled, "the vehicle keeps its depth: no velocity down");
+  s.field("rate_hz", &C::rate_hz, "how often it is applied").unit("Hz").range(0.01, 1000);
+  s.field("sigma_m_s", &C::sigma_m_s, "of the heave").unit("m/s").range(1e-5, 1e3);
+}
+
+void describe(Schema<ConstraintsConfig>& s) {
+  s.field("non_holonomic", &ConstraintsConfig::non_holonomic, "wheels");
+  s.field("constant_depth", &ConstraintsConfig::constant_depth, "level flight of a body in water");
+}
+
 void describe(Schema<ForecastLimitConfig>& s) {
   s.field("name", &ForecastLimitConfig::name,
           "one that begins with \"heading\" limits the heading, others the position")
@@ -292,6 +319,7 @@ void describe(Schema<EngineConfig>& s) {
   s.field("states", &C::states, "initial uncertainty and drift of the states beyond the core");
   s.field("sensors", &C::sensors, "aiding instruments; one that is not listed is never used").required();
   s.field("alignment", &C::alignment, "finding the attitude");
+  s.field("constraints", &C::constraints, "what is known about the motion without an instrument");
   s.field("horizon_s", &C::horizon_s, "measurements up to this late count as punctual ones")
       .unit("s")
       .range(0.1, 60);

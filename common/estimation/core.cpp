@@ -29,6 +29,10 @@ Setup::Setup(const EngineConfig& engine_config)
       q_B_imu(geo::from_rpy(geo::vec(engine_config.imu.mounting_rpy_rad))) {
   for (std::size_t i = 0; i < config.sensors.size() && i < limits.size(); ++i)
     limits[i] = gate_limits(config.sensors[i]);
+  // A constraint is weighed down as far as it is broken and never refused: a slide ends some time.
+  constraint_gate.robust = RobustKind::student_t;
+  constraint_gate.robust_reject_ratio = 1e12;
+  constraint_limits = gate_limits(constraint_gate);
 
   const ImuConfig& imu = config.imu;
   const StateModelConfig& model = config.states;
@@ -168,10 +172,7 @@ void Core::finish(const ImuStep& step) {
     align(step);
     return;
   }
-  if (now_ns_ < rest_until_ns_ && now_ns_ >= next_zero_velocity_ns_) {
-    next_zero_velocity_ns_ = now_ns_ + kNsPerSecond;
-    apply_zero_velocity();
-  }
+  apply_constraints(step);
   watch_alignment();
 }
 

@@ -22,6 +22,8 @@ struct Setup {
   EngineConfig config;
   StateIndex index;
   std::array<GateLimits, kMaxSensors> limits{};
+  SensorConfig constraint_gate;  ///< how what no instrument measures is gated
+  GateLimits constraint_limits;
   std::array<double, kMaxStates> initial_sigma{};  ///< of the states from index 9 on
   std::array<double, kMaxStates> walk{};
   std::array<double, kMaxStates> decay_per_s{};
@@ -123,6 +125,10 @@ class Core {
   bool believe_rejections(Sensor& sensor, const SensorConfig& config, const Observation& observation);
   void make_room(SourceKind source, const Observation& observation);
   void mark_used(const Measurement& measurement, bool with_position);
+
+  // core_constraints.cpp
+  void apply_constraints(const ImuStep& step);
+  void constrain(Observation& observation);
   void apply_zero_velocity();
 
   // core_align.cpp

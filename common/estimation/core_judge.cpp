@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/aiding/zero_velocity.hpp"
 #include "estimation/core.hpp"
 
 namespace fathom::estimation {
@@ -251,21 +250,6 @@ void Core::mark_used(const Measurement& measurement, bool with_position) {
     default:
       break;
   }
-}
-
-void Core::apply_zero_velocity() {
-  // (AID-ZUPT-1)
-  const AidingState state = aiding_state();
-  Observation observation;
-  observe(ZeroVelocity(state, setup_->config.zero_velocity_sigma_m_s), setup_->index, observation);
-  observation.list_columns(setup_->index.size());
-  InnovationStatistics statistics;
-  filter_.statistics(observation, 1.0, statistics);
-  std::array<double, kMaxStates> x{};
-  // Somebody's word is not better than the instruments: nothing is believed that is far from possible.
-  if (statistics.squared_distance > 100.0 || !filter_.update(observation, statistics, x)) return;
-  remove_error(x, setup_->index.size(), state_);
-  velocity_used_ns_ = now_ns_;
 }
 
 void Core::order(const Command& command) {

@@ -134,6 +134,17 @@ void check_alignment(const AlignmentConfig& alignment, Check& check) {
   check.in("alignment.position_sigma_m", alignment.position_sigma_m, 1e-3, 1e4);
 }
 
+void check_constraints(const ConstraintsConfig& constraints, Check& check) {
+  const NonHolonomicConfig& wheels = constraints.non_holonomic;
+  check.in("constraints.non_holonomic.rate_hz", wheels.rate_hz, 0.01, 1000);
+  check.in("constraints.non_holonomic.lever_B_m", wheels.lever_B_m, -1000, 1000);
+  check.in("constraints.non_holonomic.mounting_rpy_rad", wheels.mounting_rpy_rad, -kAngle, kAngle);
+  check.in("constraints.non_holonomic.lateral_sigma_m_s", wheels.lateral_sigma_m_s, 1e-5, 1e3);
+  check.in("constraints.non_holonomic.vertical_sigma_m_s", wheels.vertical_sigma_m_s, 1e-5, 1e3);
+  check.in("constraints.constant_depth.rate_hz", constraints.constant_depth.rate_hz, 0.01, 1000);
+  check.in("constraints.constant_depth.sigma_m_s", constraints.constant_depth.sigma_m_s, 1e-5, 1e3);
+}
+
 }  // namespace
 
 bool named_state_groups(const std::string& name, StateGroups& groups) {
@@ -230,6 +241,7 @@ std::string EngineConfig::validate() const {
   check_imu(imu, check);
   check_states(states, check);
   check_alignment(alignment, check);
+  check_constraints(constraints, check);
   std::set<std::string> names;
   check.that(sensors.size() <= 24, "sensors: " + std::to_string(sensors.size()) + ": expected at most 24");
   for (const SensorConfig& one : sensors) {

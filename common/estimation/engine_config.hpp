@@ -186,6 +186,29 @@ struct AlignmentConfig {
   double position_sigma_m = 3.0;  ///< floor of the start position taken from GPS
 };
 
+/// A vehicle on wheels: no velocity sideways and upwards at one point of it.
+struct NonHolonomicConfig {
+  bool enabled = false;
+  double rate_hz = 10.0;
+  std::array<double, 3> lever_B_m{0, 0, 0};         ///< from the IMU to that point, along B; the rear axle
+  std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< attitude of the wheels' axes in B
+  double lateral_sigma_m_s = 0.1;
+  double vertical_sigma_m_s = 0.1;
+};
+
+/// A vehicle that keeps its depth: no velocity down.
+struct ConstantDepthConfig {
+  bool enabled = false;
+  double rate_hz = 1.0;
+  double sigma_m_s = 0.1;
+};
+
+/// What is known about the motion without an instrument; applied at a rate of its own, without verdicts.
+struct ConstraintsConfig {
+  NonHolonomicConfig non_holonomic;
+  ConstantDepthConfig constant_depth;
+};
+
 /// A limit that the forecast watches.
 struct ForecastLimitConfig {
   std::string name;      ///< e.g. "horizontal_100m"
@@ -201,6 +224,7 @@ struct EngineConfig {
   StateModelConfig states;
   std::vector<SensorConfig> sensors;
   AlignmentConfig alignment;
+  ConstraintsConfig constraints;
   double horizon_s = 5.0;            ///< measurements up to this late give the same bits as punctual ones
   double snapshot_interval_s = 0.2;  ///< a roll-back repeats at most this much more than it must
   double future_tolerance_s = 0.5;   ///< stamps further ahead of the newest inertial sample are refused

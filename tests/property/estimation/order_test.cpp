@@ -31,7 +31,12 @@ std::vector<test::Sample> shuffled(const SurveyRun& run, std::uint64_t seed, dou
 
 /// Feeds the aiding samples stamped before `until` and all inertial samples.
 NavState final_state(const std::vector<test::Sample>& samples, TimeNs until, NavDetail& detail) {
-  FusionEngine engine(SurveyRun::config());
+  EngineConfig config = SurveyRun::config();
+  // What comes with the inertial steps must be repeated by a roll-back as well.
+  config.constraints.non_holonomic.enabled = config.constraints.constant_depth.enabled = true;
+  config.constraints.non_holonomic.lateral_sigma_m_s = config.constraints.non_holonomic.vertical_sigma_m_s =
+      0.5;
+  FusionEngine engine(config);
   for (const test::Sample& sample : samples)
     if (std::holds_alternative<ImuSample>(sample) || test::header(sample).stamp_ns < until)
       test::feed(engine, sample);

@@ -1,0 +1,58 @@
+#include <gtest/gtest.h>
+
+#include "support/survey_run.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using test::SurveyRun;
+
+/// Horizontal error at the end of a run whose only instrument beside the inertial unit, GPS, ends at 50 s.
+/// The vehicle moves along its own axis, as a car does.
+double end_error_m(const ConstraintsConfig& constraints, const SurveyRun& run) {
+  EngineConfig config = SurveyRun::config();
+  config.groups = StateGroups{};
+  config.groups.mount_angles = true;
+  config.sensors.resize(1);
+  config.alignment.heading_source = HeadingSource::given;
+  config.alignment.given_heading_rad = 1.12;
+  config.constraints = constraints;
+  FusionEngine engine(config);
+  for (const auto& sample : run.samples) test::feed(engine, sample);
+  const NavState& state = engine.nav_state();
+  const Truth& truth = run.truth.back();
+  const Eigen::Vector3d error =
+      geo::difference_N({truth.latitude_rad, truth.longitude_rad, truth.altitude_m},
+                        {state.latitude_rad, state.longitude_rad, state.altitude_m});
+  return error.head<2>().norm();
+}
+
+TEST(Constraints, WheelsHoldTheTrackWhenGpsEnds) {
+  SurveyRun::Options options;
+  options.duration_s = 180.0;
+  options.accel_bias_m_s2 = 0.03;
+  options.gyro_bias_rad_s = 5e-5;
+  const SurveyRun run(options);
+  ConstraintsConfig none;
+  ConstraintsConfig wheels;
+  wheels.non_holonomic.enabled = true;
+  wheels.non_holonomic.lateral_sigma_m_s = wheels.non_holonomic.vertical_sigma_m_s = 0.05;
+  const double free_m = end_error_m(none, run);
+  const double held_m = end_error_m(wheels, run);
+  EXPECT_GT(free_m, 30.0);
+  EXPECT_LT(held_m, 0.2 * free_m) << free_m;
+}
+
+TEST(Constraints, AWrongConstraintIsWeighedDown) {
+  // The vehicle dives at up to 0.35 m/s: constant depth with a heave of 1 cm/s is wrong there, and must not
+  // take the rest with it.
+  SurveyRun::Options options;
+  const SurveyRun run(options);
+  ConstraintsConfig level;
+  level.constant_depth.enabled = true;
+  level.constant_depth.sigma_m_s = 0.01;
+  EXPECT_LT(end_error_m(level, run), 2.0 * end_error_m({}, run) + 5.0);
+}
+
+}  // namespace
+}  // namespace fathom::estimation
