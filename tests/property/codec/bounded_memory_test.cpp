@@ -15,13 +15,19 @@ namespace {
 std::atomic<std::size_t> live_bytes{0};
 std::atomic<std::size_t> peak_bytes{0};
 
-void* counted(std::size_t size) {
+void* counted_or_null(std::size_t size) noexcept {
   void* memory = std::malloc(size == 0 ? 1 : size);
-  if (memory == nullptr) throw std::bad_alloc();
+  if (memory == nullptr) return nullptr;
   const std::size_t now = live_bytes += malloc_usable_size(memory);
   std::size_t peak = peak_bytes;
   while (now > peak && !peak_bytes.compare_exchange_weak(peak, now)) {
   }
+  return memory;
+}
+
+void* counted(std::size_t size) {
+  void* memory = counted_or_null(size);
+  if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
 
@@ -38,6 +44,11 @@ void release(void* memory) noexcept {
 }
 [[gnu::noinline]] void* operator new[](std::size_t size) {
   return counted(size);
+}
+// The library's own ends in the above; AddressSanitizer's does not, and would miss its other half
+// (stable_sort).
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted_or_null(size);
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
   release(memory);
