@@ -33,6 +33,9 @@ void RestWindow::add(double dt_s, const Eigen::Vector3d& rate_B_rad_s, const Eig
   const Eigen::Vector3d turn = geo::log(q_start_now_);
   turn_sum_ += turn;
   turn_square_ += turn.cwiseAbs2();
+  time_sum_ += duration_s_;
+  time_square_ += duration_s_ * duration_s_;
+  turn_time_ += duration_s_ * turn;
 }
 
 void RestWindow::add_heading(double heading_rad) {
@@ -64,8 +67,16 @@ RestResult RestWindow::result() const {
   const double shrink = std::sqrt(std::min(1.0, kUnrestTime_s / duration_s_));
   out.tilt_sigma_rad = std::sqrt(variance(force_sum_, force_square_, count_).maxCoeff()) * shrink /
                        out.force_start_m_s2.norm();
-  // A swinging vehicle ends the window elsewhere than it began: that is what spoils the mean rate.
-  out.rate_sigma_rad_s = 2.0 * variance(turn_sum_, turn_square_, count_).cwiseSqrt() / duration_s_;
+  // A swinging vehicle ends the window elsewhere than it began: that is what spoils the mean rate. The steady
+  // turn with the Earth is no unrest, it is what is measured.
+  const double n = count_;
+  const double time_variance = time_square_ / n - std::pow(time_sum_ / n, 2);
+  Eigen::Vector3d swing = variance(turn_sum_, turn_square_, count_);
+  if (time_variance > 0.0) {
+    const Eigen::Vector3d covariance = turn_time_ / n - (time_sum_ / n) * (turn_sum_ / n);
+    swing = (swing - covariance.cwiseAbs2() / time_variance).cwiseMax(0.0);
+  }
+  out.rate_sigma_rad_s = 2.0 * swing.cwiseSqrt() / duration_s_;
   return out;
 }
 

@@ -45,6 +45,9 @@ class RestWindow {
   Eigen::Vector3d force_square_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_sum_ = Eigen::Vector3d::Zero();  ///< of the rotation since the start
   Eigen::Vector3d turn_square_ = Eigen::Vector3d::Zero();
+  double time_sum_ = 0.0;  ///< of the time since the start
+  double time_square_ = 0.0;
+  Eigen::Vector3d turn_time_ = Eigen::Vector3d::Zero();  ///< of rotation times time
   int headings_ = 0;
   double heading_sine_ = 0.0;
   double heading_cosine_ = 0.0;

@@ -167,6 +167,20 @@ TEST(Alignment, GyrocompassPointsNorth) {
   }
 }
 
+TEST(Alignment, TheTurnWithTheEarthIsNoUnrest) {
+  const Eigen::Vector3d rate = geo::earth_rate_N(0.6);
+  const Eigen::Vector3d force(0.0, 0.0, -9.8);
+  RestWindow still;
+  RestWindow swinging;
+  for (int i = 0; i < 3000; ++i) {
+    still.add(0.01, rate, force);
+    swinging.add(0.01, rate + Eigen::Vector3d(0.0, 0.0, 0.01 * std::cos(0.02 * i)), force);
+  }
+  EXPECT_LT(still.result().rate_sigma_rad_s.maxCoeff(), 1e-9);
+  // A swing of 5 mrad to either side, seen over 30 s.
+  EXPECT_NEAR(swinging.result().rate_sigma_rad_s.z(), 2.0 * 0.005 / std::sqrt(2.0) / 30.0, 0.1e-3);
+}
+
 TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   const SurveyRun run({.duration_s = 60.0});
   EngineConfig config = SurveyRun::config();
