@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -47,10 +48,14 @@ class CsvReader::Source {
 
   // The next chunk of bytes, empty at the end of the file; an error text instead when the file is damaged.
   std::string_view read(const char*& error) {
+    errno = 0;
     const int got = gzread(file_, buffer_.data(), static_cast<unsigned>(buffer_.size()));
     int code = Z_OK;
     gzerror(file_, &code);
-    if (code == Z_BUF_ERROR) {
+    if (code == Z_ERRNO) {
+      error_text_ = std::string("cannot be read: ") + std::strerror(errno);
+      error = error_text_.c_str();
+    } else if (code == Z_BUF_ERROR) {
       error = "gzip data end too early: the file is truncated, expected a complete .gz file";
     } else if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
       error = "gzip data are damaged, expected an intact .gz file";
@@ -64,6 +69,7 @@ class CsvReader::Source {
 
  private:
   gzFile file_;
+  std::string error_text_;
   std::array<char, 1U << 16U> buffer_{};
 };
 

@@ -15,6 +15,7 @@
 #include "cli/solve_metrics.hpp"
 #include "cli/solve_outage.hpp"
 #include "cli/solve_run.hpp"
+#include "cli/solve_smooth.hpp"
 #include "config/fusion_config.hpp"
 #include "dataset/dataset.hpp"
 #include "dataset/nav_csv.hpp"
@@ -77,9 +78,6 @@ void write_text(const std::string& path, const std::string& text) {
 }
 
 SolveReport solve(const SolveOptions& options) {
-  if (options.smooth) {
-    throw Failure(ExitCode::bad_configuration, "--smooth: the smoother is not available in this version");
-  }
   std::optional<OutageRequest> outages;
   if (!options.outages.empty()) outages = parse_outages(options.outages);
 
@@ -104,28 +102,44 @@ SolveReport solve(const SolveOptions& options) {
   }
 
   const dataset::TruthTrack truth(data.reference);
-  dataset::Scorer scorer;
-  dataset::NavCsv csv(options.out, dataset::kDefaultEpochNs);
-  Thinning rows(options.rate_hz);
-  passage.on_state = [&](const NavState& state, estimation::FusionEngine&) {
-    // The file begins with the first position.
-    if (!known(state.latitude_rad)) return;
-    if (rows.pass(state.header.stamp_ns)) csv.add(state);
+  const auto score = [&truth](const NavState& state, dataset::Scorer& scorer) {
     if (state.mode == NavMode::none || state.mode == NavMode::aligning) return;
     if (const auto at = truth.at(state.header.stamp_ns)) scorer.add(dataset::error_of(state, *at));
   };
-
+  dataset::Scorer scorer;
+  dataset::NavCsv csv(options.out, dataset::kDefaultEpochNs);
+  Thinning rows(options.rate_hz);
   SolveReport report;
+  const auto take = [&](const NavState& state) {
+    report.alignment = state.alignment;
+    // The file begins with the first position.
+    if (!known(state.latitude_rad)) return;
+    ++report.positions;
+    if (rows.pass(state.header.stamp_ns)) csv.add(state);
+    score(state, scorer);
+  };
+
   report.dataset = options.directory;
   report.config = options.config;
   report.config_hash = loaded.hash;
   report.start = passage.start ? "reference" : "configured";
-  report.passage = run(passage);
+  report.smoothed = options.smooth;
+  if (options.smooth) {
+    dataset::Scorer filtered;
+    report.passage = run_smoothed(passage, {[&](const NavState& state) { score(state, filtered); }, take});
+    report.filtered = filtered.score();
+  } else {
+    passage.on_state = [&](const NavState& state, estimation::FusionEngine&) { take(state); };
+    report.passage = run(passage);
+  }
   csv.close();
   report.score = scorer.score();
   if (report.score.count > 0)
     report.distance_m = truth.distance_m(report.score.first_ns, report.score.last_ns);
-  if (outages) report.outages = run_outages(passage, *outages, dataset::kDefaultEpochNs, options.directory);
+  if (outages) {
+    report.outages =
+        run_outages(passage, *outages, options.smooth, dataset::kDefaultEpochNs, options.directory);
+  }
   return report;
 }
 
@@ -159,13 +173,16 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--rate", options->rate_hz,
                    "rows per second of the solution; one per inertial sample otherwise")
       ->check(CLI::Range(1e-3, 1e5));
-  command->add_flag("--smooth", options->smooth, "smooth backwards in time after filtering");
+  command->add_flag(
+      "--smooth", options->smooth,
+      "every state from all measurements before and after it: filter forward, each measurement at its own "
+      "instant, then backward");
   command->add_flag("--json", options->json, "print the metrics as JSON");
   command->callback([options, &exit_code] {
     const SolveReport report = solve(*options);
     if (!options->metrics.empty()) write_text(options->metrics, to_json(report));
     std::fputs((options->json ? to_json(report) : to_text(report)).c_str(), stdout);
-    if (report.passage.nav_states == 0) exit_code = ExitCode::no;
+    if (report.positions == 0) exit_code = ExitCode::no;
   });
 }
 

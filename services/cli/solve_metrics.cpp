@@ -61,6 +61,7 @@ json outage(const OutageFigures& f) {
     list.push_back({{"start_s", number(window.start_s)},
                     {"end_s", number(window.end_s)},
                     {"horizontal_error_m", number(window.horizontal_error_m)},
+                    {"smoothed_horizontal_error_m", number(window.smoothed_horizontal_error_m)},
                     {"predicted_95_m", number(window.predicted_95_m)},
                     {"forecast_95_m", number(window.forecast_95_m)},
                     {"forecast_time_to_limit_s", limits}});
@@ -69,11 +70,28 @@ json outage(const OutageFigures& f) {
       {"duration_s", f.duration_s},
       {"count", f.windows.size()},
       {"horizontal_error_m", {{"rms", number(f.rms_m)}, {"p95", number(f.p95_m)}, {"max", number(f.max_m)}}},
+      {"smoothed_horizontal_error_m", {{"rms", number(f.smoothed_rms_m)}}},
       {"windows", list}};
 }
 
 double percent(double part, double whole) {
   return whole > 0.0 ? 100.0 * part / whole : kUnknown;
+}
+
+json errors(const dataset::Score& score, double distance_m) {
+  return {{"horizontal_error_m", figures(score.horizontal_m)},
+          {"position_error_m", figures3(score.position_N_m, {"north", "east", "down"})},
+          {"distance_3d_error_m", figures(score.distance_3d_m)},
+          {"velocity_error_m_s", figures3(score.velocity_N_m_s, {"north", "east", "down"})},
+          {"attitude_error_deg", figures3(score.rpy_rad, {"roll", "pitch", "yaw"}, kDegPerRad)},
+          {"horizontal_error_percent",
+           {{"end", number(percent(score.horizontal_m.end, distance_m))},
+            {"rms", number(percent(score.horizontal_m.rms, distance_m))},
+            {"max", number(percent(score.horizontal_m.max, distance_m))}}},
+          {"nees",
+           {{"horizontal", nees(score.nees_horizontal)},
+            {"position", nees(score.nees_position)},
+            {"velocity", nees(score.nees_velocity)}}}};
 }
 
 double us_per_sample(const PassageResult& passage) {
@@ -96,8 +114,11 @@ std::string to_json(const SolveReport& report) {
   out["config_hash"] = report.config_hash;
   out["version"] = std::string(runtime::version());
   out["start"] = report.start;
+  out["smoothed"] = report.smoothed;
   out["imu_samples"] = report.passage.imu_samples;
   out["nav_states"] = report.passage.nav_states;
+  out["positions"] = report.positions;
+  out["alignment"] = std::string(to_string(report.alignment));
   out["wall_time_s"] = report.passage.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.passage));
   out["verdicts"] = verdicts(report.passage.verdicts);
@@ -106,18 +127,9 @@ std::string to_json(const SolveReport& report) {
   if (score.count > 0) {
     out["scored_s"] = to_seconds(score.last_ns - score.first_ns);
     out["distance_m"] = number(report.distance_m);
-    out["horizontal_error_m"] = figures(score.horizontal_m);
-    out["position_error_m"] = figures3(score.position_N_m, {"north", "east", "down"});
-    out["distance_3d_error_m"] = figures(score.distance_3d_m);
-    out["velocity_error_m_s"] = figures3(score.velocity_N_m_s, {"north", "east", "down"});
-    out["attitude_error_deg"] = figures3(score.rpy_rad, {"roll", "pitch", "yaw"}, kDegPerRad);
-    out["horizontal_error_percent"] = {{"end", number(percent(score.horizontal_m.end, report.distance_m))},
-                                       {"rms", number(percent(score.horizontal_m.rms, report.distance_m))},
-                                       {"max", number(percent(score.horizontal_m.max, report.distance_m))}};
-    out["nees"] = {{"horizontal", nees(score.nees_horizontal)},
-                   {"position", nees(score.nees_position)},
-                   {"velocity", nees(score.nees_velocity)}};
+    out.update(errors(score, report.distance_m));
   }
+  if (report.filtered.count > 0) out["filtered"] = errors(report.filtered, report.distance_m);
   if (!report.outages.empty()) {
     out["gps_outages"] = json::array();
     for (const OutageFigures& f : report.outages) out["gps_outages"].push_back(outage(f));
@@ -137,20 +149,29 @@ std::string to_text(const SolveReport& report) {
     }
     out += words + "\n";
   }
+  if (report.positions == 0)
+    out +=
+        "no position was found: alignment is " + std::string(to_string(report.alignment)) + " at the end\n";
   const dataset::Score& score = report.score;
   if (score.count > 0) {
     out += line("horizontal error: rms %.2f m, 95 %% %.2f m, end %.2f m, %.3f %% of %.0f m",
                 score.horizontal_m.rms, score.horizontal_m.p95, score.horizontal_m.end,
                 percent(score.horizontal_m.end, report.distance_m), report.distance_m);
-    out += line("attitude error rms: roll %.3f, pitch %.3f, yaw %.3f deg", score.rpy_rad[0].rms * kDegPerRad,
-                score.rpy_rad[1].rms * kDegPerRad, score.rpy_rad[2].rms * kDegPerRad);
+    if (known(score.rpy_rad[2].rms))
+      out +=
+          line("attitude error rms: roll %.3f, pitch %.3f, yaw %.3f deg", score.rpy_rad[0].rms * kDegPerRad,
+               score.rpy_rad[1].rms * kDegPerRad, score.rpy_rad[2].rms * kDegPerRad);
     out += line("horizontal NEES %.2f, consistent from %.2f to %.2f", score.nees_horizontal.mean,
                 score.nees_horizontal.band_95[0], score.nees_horizontal.band_95[1]);
   }
+  if (report.filtered.count > 0)
+    out += line("before smoothing: horizontal error rms %.2f m, 95 %% %.2f m",
+                report.filtered.horizontal_m.rms, report.filtered.horizontal_m.p95);
   for (const OutageFigures& f : report.outages) {
     out +=
         line("GPS outage %g s: horizontal error at its end rms %.2f m, 95 %% %.2f m, max %.2f m, %zu windows",
              f.duration_s, f.rms_m, f.p95_m, f.max_m, f.windows.size());
+    if (known(f.smoothed_rms_m)) out += line("  smoothed rms %.2f m", f.smoothed_rms_m);
   }
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,12 @@ struct SolveReport {
   std::string config_hash;
   std::string start;  ///< "configured" or "reference"
   PassageResult passage;
-  dataset::Score score;          ///< against the reference; count 0 without one
-  double distance_m = kUnknown;  ///< horizontal, of the reference while it was scored
+  bool smoothed = false;
+  std::uint64_t positions = 0;                      ///< navigation states with a position
+  AlignmentPhase alignment = AlignmentPhase::none;  ///< at the end
+  dataset::Score score;                             ///< against the reference; count 0 without one
+  dataset::Score filtered;                          ///< of the forward pass where smoothed
+  double distance_m = kUnknown;                     ///< horizontal, of the reference while it was scored
   std::vector<OutageFigures> outages;
 };
 

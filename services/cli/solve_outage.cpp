@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cli/command.hpp"
+#include "cli/solve_smooth.hpp"
 #include "estimation/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -83,15 +84,18 @@ double predicted_95_m(const NavState& state) {
 void pool(OutageFigures& figures) {
   std::vector<double> errors;
   double sum2 = 0.0;
+  double smoothed2 = 0.0;
   for (const OutageWindow& window : figures.windows) {
     if (!known(window.horizontal_error_m)) continue;
     errors.push_back(window.horizontal_error_m);
     sum2 += window.horizontal_error_m * window.horizontal_error_m;
+    smoothed2 += window.smoothed_horizontal_error_m * window.smoothed_horizontal_error_m;
   }
   if (errors.empty()) return;
   std::sort(errors.begin(), errors.end());
   const auto count = static_cast<double>(errors.size());
   figures.rms_m = std::sqrt(sum2 / count);
+  figures.smoothed_rms_m = std::sqrt(smoothed2 / count);
   figures.p95_m = errors[static_cast<std::size_t>(std::ceil(0.95 * count)) - 1];
   figures.max_m = errors.back();
 }
@@ -119,7 +123,7 @@ const GpsSample* last_fix(const std::vector<GpsSample>& gps, const GpsWindow& wi
 }
 
 // One passage with windows removed; appends what became of them.
-void run_windows(Passage passage, const std::vector<GpsWindow>& removed, TimeNs epoch_ns,
+void run_windows(Passage passage, const std::vector<GpsWindow>& removed, bool smooth, TimeNs epoch_ns,
                  OutageFigures& figures) {
   const Antenna antenna = antenna_of(*passage.config);
   struct Watch {
@@ -168,6 +172,21 @@ void run_windows(Passage passage, const std::vector<GpsWindow>& removed, TimeNs 
     before = state;
   };
   static_cast<void>(run(passage));
+  if (smooth) {
+    next = 0;
+    before = NavState{};
+    const auto meet = [&](const NavState& state) {
+      for (; next < watches.size() && state.header.stamp_ns >= watches[next].instant_ns; ++next) {
+        if (!known(state.latitude_rad)) continue;
+        Watch& watch = watches[next];
+        const NavState& from = known(before.latitude_rad) ? before : state;
+        watch.window.smoothed_horizontal_error_m =
+            horizontal_error_m(from, state, watch.instant_ns, *watch.fix, antenna);
+      }
+      before = state;
+    };
+    static_cast<void>(run_smoothed(passage, {{}, meet}));
+  }
   for (const Watch& watch : watches) {
     if (watch.done) figures.windows.push_back(watch.window);
   }
@@ -231,8 +250,8 @@ std::vector<GpsWindow> first_windows(const dataset::Dataset& data, const OutageR
   return planned(data, request, request.durations_s.front(), 0.0, epoch_ns, directory);
 }
 
-std::vector<OutageFigures> run_outages(const Passage& passage, const OutageRequest& request, TimeNs epoch_ns,
-                                       const std::string& directory) {
+std::vector<OutageFigures> run_outages(const Passage& passage, const OutageRequest& request, bool smooth,
+                                       TimeNs epoch_ns, const std::string& directory) {
   std::vector<OutageFigures> all;
   for (const double duration_s : request.durations_s) {
     OutageFigures& figures = all.emplace_back();
@@ -242,7 +261,7 @@ std::vector<OutageFigures> run_outages(const Passage& passage, const OutageReque
       if (removed.empty()) continue;
       Passage one = passage;
       one.label = "outage of " + std::to_string(static_cast<int>(duration_s)) + " s";
-      run_windows(std::move(one), removed, epoch_ns, figures);
+      run_windows(std::move(one), removed, smooth, epoch_ns, figures);
     }
     if (figures.windows.empty()) {
       throw Failure(ExitCode::bad_input,

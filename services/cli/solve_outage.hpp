@@ -37,8 +37,9 @@ struct OutageWindow {
   double start_s = kUnknown;             ///< seconds of the data set
   double end_s = kUnknown;               ///< instant of the last removed fix, where the error is taken
   double horizontal_error_m = kUnknown;  ///< of the antenna against the removed fix
-  double predicted_95_m = kUnknown;      ///< the filter's own 95 % at that instant
-  double forecast_95_m = kUnknown;       ///< what its forecast said when the window began
+  double smoothed_horizontal_error_m = kUnknown;  ///< with the fixes behind the window too; where asked for
+  double predicted_95_m = kUnknown;               ///< the filter's own 95 % at that instant
+  double forecast_95_m = kUnknown;                ///< what its forecast said when the window began
   std::map<std::string, double> time_to_limit_s;  ///< of that forecast
 };
 
@@ -49,12 +50,15 @@ struct OutageFigures {
   double rms_m = kUnknown;
   double p95_m = kUnknown;
   double max_m = kUnknown;
+  double smoothed_rms_m = kUnknown;
 };
 
 /// Runs the data set with the windows removed, once for start, start + 13, + 26 and + 39 s of each duration.
-/// Throws Failure (exit 3) when no window fits. `passage.on_state` and `passage.gps_removed` are not used.
+/// With `smooth` each also through the smoother. Throws Failure (exit 3) when no window fits.
+/// `passage.on_state` and `passage.gps_removed` are not used.
 [[nodiscard]] std::vector<OutageFigures> run_outages(const Passage& passage, const OutageRequest& request,
-                                                     TimeNs epoch_ns, const std::string& directory);
+                                                     bool smooth, TimeNs epoch_ns,
+                                                     const std::string& directory);
 
 /// The windows of the first duration and start: those that nav.csv shows.
 [[nodiscard]] std::vector<GpsWindow> first_windows(const dataset::Dataset& data, const OutageRequest& request,

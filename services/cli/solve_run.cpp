@@ -1,7 +1,6 @@
 #include "cli/solve_run.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 #include "base/clock.hpp"
 #include "base/unknown.hpp"
@@ -11,11 +10,6 @@
 
 namespace fathom::cli {
 namespace {
-
-bool removed(const Passage& passage, TimeNs stamp_ns) {
-  return std::any_of(passage.gps_removed.begin(), passage.gps_removed.end(),
-                     [stamp_ns](const GpsWindow& window) { return window.contains(stamp_ns); });
-}
 
 template <class T>
 void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig& config) {
@@ -28,13 +22,21 @@ void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig&
 
 }  // namespace
 
+bool Passage::removes(const GpsSample& fix) const {
+  return std::any_of(gps_removed.begin(), gps_removed.end(),
+                     [&](const GpsWindow& window) { return window.contains(fix.header.stamp_ns); });
+}
+
+std::optional<estimation::InitialState> start_of(const Passage& passage) {
+  if (passage.start) return passage.start;
+  if (passage.config->start.mode == estimation::StartMode::given)
+    return config::initial_state(*passage.config);
+  return std::nullopt;
+}
+
 PassageResult run(const Passage& passage) {
   estimation::FusionEngine engine(config::engine_config(*passage.config));
-  if (passage.start) {
-    engine.start_from(*passage.start);
-  } else if (passage.config->start.mode == estimation::StartMode::given) {
-    engine.start_from(config::initial_state(*passage.config));
-  }
+  if (const auto start = start_of(passage)) engine.start_from(*start);
   PassageResult result;
   Progress progress(passage.label, passage.arrivals->size());
   const SystemClock clock;
@@ -45,23 +47,19 @@ PassageResult run(const Passage& passage) {
       ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
   };
   std::uint64_t done = 0;
-  for (const dataset::Arrival& arrival : *passage.arrivals) {
+  for_each_sample(passage, [&](const auto& sample) {
     progress.update(++done);
-    dataset::visit(*passage.data, arrival, [&](const auto& sample) {
-      using Sample = std::decay_t<decltype(sample)>;
-      if constexpr (std::is_same_v<Sample, ImuSample>) {
-        ++result.imu_samples;
-        if (engine.add(sample)) {
-          ++result.nav_states;
-          if (passage.on_state) passage.on_state(engine.nav_state(), engine);
-        }
-      } else {
-        if (std::is_same_v<Sample, GpsSample> && removed(passage, sample.header.stamp_ns)) return;
-        engine.add(sample);
+    if constexpr (std::is_same_v<std::decay_t<decltype(sample)>, ImuSample>) {
+      ++result.imu_samples;
+      if (engine.add(sample)) {
+        ++result.nav_states;
+        if (passage.on_state) passage.on_state(engine.nav_state(), engine);
       }
-    });
+    } else {
+      engine.add(sample);
+    }
     take_verdicts();
-  }
+  });
   engine.finish();
   take_verdicts();
   result.wall_s = to_seconds(clock.monotonic_ns() - begin_ns);
@@ -86,6 +84,8 @@ estimation::InitialState start_from_reference(const dataset::Dataset& data,
   const auto row = std::find_if(data.reference.begin(), data.reference.end(),
                                 [first_ns](const Truth& truth) { return truth.header.stamp_ns >= first_ns; });
   const std::string file = directory + "/reference.csv: ";
+  if (data.reference.empty())
+    throw Failure(ExitCode::bad_input, file + "no rows, expected a reference to start from");
   if (row == data.reference.end()) {
     throw Failure(ExitCode::bad_input,
                   file + "no row at or after the first inertial sample, expected one to start from");

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/time.hpp"
@@ -42,7 +43,24 @@ struct Passage {
   std::string label;                              ///< of the progress bar
   /// Called with each navigation state. The engine may be asked for more.
   std::function<void(const NavState&, estimation::FusionEngine&)> on_state;
+
+  [[nodiscard]] bool removes(const GpsSample& fix) const;
 };
+
+/// Calls `consumer` with each sample in the order of arrival, without the removed fixes.
+template <class Consumer>
+void for_each_sample(const Passage& passage, Consumer&& consumer) {
+  for (const dataset::Arrival& arrival : *passage.arrivals) {
+    dataset::visit(*passage.data, arrival, [&](const auto& sample) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(sample)>, GpsSample>)
+        if (passage.removes(sample)) return;
+      consumer(sample);
+    });
+  }
+}
+
+/// The state that the passage or its configuration gives to start from, if any.
+[[nodiscard]] std::optional<estimation::InitialState> start_of(const Passage& passage);
 
 struct PassageResult {
   VerdictCounts verdicts;
