@@ -168,6 +168,20 @@ void describe(Schema<SensorConfig>& s) {
        "frozen_change", &C::frozen_change,
        "the same reading while the prediction moves by this much is frozen, in the sensor's SI unit; 0: off")
       .range(0, 1e6);
+  s.field(
+       "sideslip_sigma_deg", &C::sideslip_sigma_rad,
+       "airspeed: the aircraft flies straight into the air but for its sideslip state and this; 0: not used")
+      .unit("deg")
+      .range(0, 57)
+      .scaled(kRadPerDeg);
+  s.field("attack_sigma_deg", &C::attack_sigma_rad, "airspeed: likewise the angle of attack; 0: not used")
+      .unit("deg")
+      .range(0, 57)
+      .scaled(kRadPerDeg);
+  s.field("baro_sigma_m", &C::baro_sigma_m,
+          "airspeed: noise of the barometric height in its samples; 0: not used")
+      .unit("m")
+      .range(0, 1e4);
   s.field("use_beams", &C::use_beams,
           "dvl: each beam on its own, one to four of them, where the sample carries them");
   s.field("beam_angle_deg", &C::beam_angle_rad,

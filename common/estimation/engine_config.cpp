@@ -102,6 +102,9 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "robust_reject_ratio", sensor.robust_reject_ratio, 1, 1e12);
   check.in(at + "reacquire_s", sensor.reacquire_s, 0, 1e6);
   check.in(at + "frozen_change", sensor.frozen_change, 0, 1e6);
+  check.in(at + "sideslip_sigma_rad", sensor.sideslip_sigma_rad, 0, 1);
+  check.in(at + "attack_sigma_rad", sensor.attack_sigma_rad, 0, 1);
+  check.in(at + "baro_sigma_m", sensor.baro_sigma_m, 0, 1e4);
   check.in(at + "beam_angle_rad", sensor.beam_angle_rad, 0.05, 1.4);
   check.in(at + "beam_azimuth_rad", sensor.beam_azimuth_rad, -kAngle, kAngle);
   check.in(at + "scale_m_s_per_rpm", sensor.scale_m_s_per_rpm, -10, 10);

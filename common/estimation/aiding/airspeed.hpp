@@ -5,37 +5,42 @@
 
 namespace fathom::estimation {
 
-/// Speed through air whose horizontal motion is the `current` state (AID-AIR-1..2). The indicated speed is
-/// taken to true speed with the standard atmosphere's density at the estimated altitude.
+/// Velocity through air whose horizontal motion is the `current` state, along N.
+[[nodiscard]] inline Vector3 velocity_through_air_N(const AidingState& s) {
+  return s.state.nav.v_N_m_s - Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0);
+}
+
+/// Slower than this the direction of the flow is not known well enough to linearise.
+inline constexpr double kLeastAirspeed_m_s = 3.0;
+
+/// Indicated airspeed (AID-AIR-1..2): the speed through the air, its scale, the standard atmosphere's density
+/// at the estimated altitude, and a bias.
 class Airspeed {
  public:
   static constexpr const char* kName = "airspeed";
 
   Airspeed(const AidingState& s, const SensorConfig& sensor, const AirspeedSample& sample)
-      : s_(s),
-        sensor_(sensor),
-        sample_(sample),
-        through_N_(s.state.nav.v_N_m_s -
-                   Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0)) {}
+      : s_(s), sensor_(sensor), sample_(sample), through_N_(velocity_through_air_N(s)) {}
 
   [[nodiscard]] static Usable usable(const AidingState& s, const AirspeedSample& sample) {
     if (!(sample.airspeed_m_s > 0.0 && sample.airspeed_m_s < 700.0)) return Usable::out_of_range;
     if (!s.index.has(Group::current)) return Usable::not_estimated;
-    // Slower than this the direction of the flow is not known well enough to linearise.
-    const Vector3 through =
-        s.state.nav.v_N_m_s - Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0);
-    return through.norm() > 3.0 ? Usable::yes : Usable::out_of_range;
+    return velocity_through_air_N(s).norm() > kLeastAirspeed_m_s ? Usable::yes : Usable::out_of_range;
   }
   [[nodiscard]] int dimension() const { return 1; }
-  [[nodiscard]] Vector3 measured() const { return {sample_.airspeed_m_s * true_per_indicated(), 0.0, 0.0}; }
-  [[nodiscard]] Vector3 predicted() const { return {through_N_.norm(), 0.0, 0.0}; }
+  [[nodiscard]] Vector3 measured() const { return {sample_.airspeed_m_s, 0.0, 0.0}; }
+  [[nodiscard]] Vector3 predicted() const {
+    return {indicated_per_true() * through_N_.norm() + s_.value(Group::airspeed_bias, 0), 0.0, 0.0};
+  }
   void jacobian(Jacobian& h) const {
     // (AID-AIR-2)
-    const Vector3 along = through_N_.normalized();
+    const Vector3 along = indicated_per_true() * through_N_.normalized();
     for (int i = 0; i < 3; ++i) h.set(0, Group::velocity, i, along(i));
     for (int i = 0; i < 2; ++i) h.set(0, Group::current, i, along(i));
-    const double slope = kDensityExponent * kLapse_1_m / base();
-    h.set(0, Group::position, 2, slope * sample_.airspeed_m_s * true_per_indicated());
+    const double speed = through_N_.norm();
+    h.set(0, Group::position, 2, kDensityExponent * kLapse_1_m / base() * indicated_per_true() * speed);
+    h.set(0, Group::airspeed_scale, 0, -density_ratio_root() * speed);
+    h.set(0, Group::airspeed_bias, 0, -1.0);
   }
   [[nodiscard]] Vector3 noise() const {
     const double own = std::hypot(sensor_.sigma[0], sensor_.proportional_sigma * sample_.airspeed_m_s);
@@ -50,7 +55,10 @@ class Airspeed {
     const double value = 1.0 - kLapse_1_m * s_.state.nav.position.altitude_m;
     return value > 0.3 ? value : 0.3;
   }
-  [[nodiscard]] double true_per_indicated() const { return std::pow(base(), -kDensityExponent); }
+  [[nodiscard]] double density_ratio_root() const { return std::pow(base(), kDensityExponent); }
+  [[nodiscard]] double indicated_per_true() const {
+    return (1.0 + s_.value(Group::airspeed_scale, 0)) * density_ratio_root();
+  }
 
   const AidingState& s_;
   const SensorConfig& sensor_;

@@ -1,9 +1,11 @@
 #include "estimation/aiding/registry.hpp"
 
 #include "estimation/aiding/airspeed.hpp"
+#include "estimation/aiding/baro_altitude.hpp"
 #include "estimation/aiding/depth.hpp"
 #include "estimation/aiding/dvl_beams.hpp"
 #include "estimation/aiding/dvl_velocity.hpp"
+#include "estimation/aiding/flow_angles.hpp"
 #include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/gps_velocity.hpp"
 #include "estimation/aiding/heading.hpp"
@@ -78,13 +80,29 @@ Usable airspeed(const AidingInput& in, const AnySample& any, Observation& out) {
   return usable == Usable::yes ? append(Airspeed(in.state, in.sensor, sample), in, out) : usable;
 }
 
+Usable flow_angles(const AidingInput& in, const AnySample& any, Observation& out) {
+  if (!FlowAngles::wanted(in.sensor)) return Usable::not_estimated;
+  const Usable usable = Airspeed::usable(in.state, std::get<AirspeedSample>(any));
+  if (usable != Usable::yes) return usable;
+  out.each_alone = true;
+  return append(FlowAngles(in.state, in.sensor), in, out);
+}
+
+Usable baro_altitude(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<AirspeedSample>(any);
+  const Usable usable = BaroAltitude::usable(in.sensor, sample);
+  if (usable != Usable::yes) return usable;
+  out.each_alone = true;
+  return append(BaroAltitude(in.state, in.sensor, sample), in, out);
+}
+
 Usable speed_log(const AidingInput& in, const AnySample& any, Observation& out) {
   const auto& sample = std::get<PropulsionSample>(any);
   const Usable usable = SpeedLog::usable(in.state, in.sensor, sample, in.surface_altitude_m);
   return usable == Usable::yes ? append(SpeedLog(in.state, in.sensor, sample), in, out) : usable;
 }
 
-constexpr std::array<AidingEntry, 9> kRegistry{{
+constexpr std::array<AidingEntry, 11> kRegistry{{
     {SourceKind::gps, GpsPosition::kName, gps_position},
     {SourceKind::gps, GpsVelocity::kName, gps_velocity},
     {SourceKind::dvl, DvlVelocity::kName, dvl_velocity},
@@ -93,6 +111,8 @@ constexpr std::array<AidingEntry, 9> kRegistry{{
     {SourceKind::heading, Heading::kName, heading},
     {SourceKind::usbl, UsblPosition::kName, usbl_position},
     {SourceKind::airspeed, Airspeed::kName, airspeed},
+    {SourceKind::airspeed, FlowAngles::kName, flow_angles},
+    {SourceKind::airspeed, BaroAltitude::kName, baro_altitude},
     {SourceKind::propulsion, SpeedLog::kName, speed_log},
 }};
 

@@ -91,6 +91,7 @@ AnySample sample_of(SourceKind source, const FilterState& state, Normal& normal)
     case SourceKind::airspeed: {
       AirspeedSample s;
       s.airspeed_m_s = 25.0;
+      s.baro_altitude_m = 300.0;
       return s;
     }
     default: {
@@ -149,6 +150,8 @@ TEST_P(Jacobians, EqualCentralDifferencesOnTheManifold) {
   Normal normal(100 + static_cast<std::uint64_t>(GetParam()));
   SensorConfig sensor = default_sensor(entry.source, "sensor");
   sensor.scale_m_s_per_rpm = 0.002;
+  sensor.sideslip_sigma_rad = sensor.attack_sigma_rad = 0.05;
+  sensor.baro_sigma_m = 1.0;
   sensor.use_beams = entry.name == std::string("dvl_beams");
   sensor.beam_azimuth_rad = {-2.2, 2.3, 0.8, -0.7};
   double largest = 0.0;

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "estimation/aiding/airspeed.hpp"
+
+namespace fathom::estimation {
+
+/// An aircraft flies nearly straight into the air: sideslip and angle of attack are their states, which are
+/// small and change slowly, and a rest that is noise (AID-FLOW-1..2). Comes with each airspeed, whose wind it
+/// shares; a sigma of 0 leaves the row out.
+class FlowAngles {
+ public:
+  static constexpr const char* kName = "flow_angles";
+  using Vector2 = Eigen::Vector2d;
+
+  FlowAngles(const AidingState& s, const SensorConfig& sensor)
+      : s_(s),
+        sensor_(sensor),
+        through_N_(velocity_through_air_N(s)),
+        through_B_(s.C_NB.transpose() * through_N_),
+        angles_(s.value(Group::flow_angles, 0), s.value(Group::flow_angles, 1)) {}
+
+  [[nodiscard]] static bool wanted(const SensorConfig& sensor) {
+    return sensor.sideslip_sigma_rad > 0.0 || sensor.attack_sigma_rad > 0.0;
+  }
+  [[nodiscard]] int dimension() const { return 2; }
+  [[nodiscard]] Vector2 measured() const {
+    return {sensor_.sideslip_sigma_rad > 0.0 ? 0.0 : kUnknown,
+            sensor_.attack_sigma_rad > 0.0 ? 0.0 : kUnknown};
+  }
+  // (AID-FLOW-1)
+  [[nodiscard]] Vector2 predicted() const { return through_B_.tail<2>() - through_B_.x() * angles_; }
+  void jacobian(Jacobian& h) const {
+    // (AID-FLOW-2)
+    Eigen::Matrix<double, 2, 3> d;
+    d << -angles_(0), 1.0, 0.0, -angles_(1), 0.0, 1.0;
+    const Eigen::Matrix<double, 2, 3> to_flow = d * s_.C_NB.transpose();
+    h.block(Group::velocity, to_flow);
+    h.block(Group::attitude, -to_flow * geo::skew(through_N_));
+    h.block(Group::current, to_flow.leftCols<2>());
+    h.block(Group::flow_angles, through_B_.x() * Eigen::Matrix2d::Identity());
+  }
+  [[nodiscard]] Vector2 noise() const {
+    return through_N_.norm() * Vector2(sensor_.sideslip_sigma_rad, sensor_.attack_sigma_rad);
+  }
+
+ private:
+  const AidingState& s_;
+  const SensorConfig& sensor_;
+  Vector3 through_N_;
+  Vector3 through_B_;
+  Vector2 angles_;
+};
+
+}  // namespace fathom::estimation
