@@ -30,6 +30,33 @@ bool factorise(std::array<double, kStride * kStride>& a, int n) {
   return true;
 }
 
+/// P <- P - V' V for kCount rows of V. Both halves are computed, by the same products in the same order,
+/// which costs less than copying one.
+template <int kCount>
+void subtract(const double* v, int states, double* p) {
+  const int width = (states + 1) & ~1;
+  for (int r = 0; r < states; ++r) {
+    double* target = p + static_cast<std::size_t>(r * kRowStride);
+    if constexpr (kCount == 3) {
+      const double a = v[r];
+      const double b = v[r + kMaxStates];
+      const double c = v[r + 2 * kMaxStates];
+#pragma GCC ivdep
+      for (int j = 0; j < width; ++j)
+        target[j] -= a * v[j] + b * v[j + kMaxStates] + c * v[j + 2 * kMaxStates];
+    } else if constexpr (kCount == 2) {
+      const double a = v[r];
+      const double b = v[r + kMaxStates];
+#pragma GCC ivdep
+      for (int j = 0; j < width; ++j) target[j] -= a * v[j] + b * v[j + kMaxStates];
+    } else {
+      const double a = v[r];
+#pragma GCC ivdep
+      for (int j = 0; j < width; ++j) target[j] -= a * v[j];
+    }
+  }
+}
+
 }  // namespace
 
 void ErrorFilter::reset(const std::array<double, kMaxStates>& sigma) {
@@ -145,10 +172,11 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
   auto lower = statistics.s;
   if (!factorise(lower, m)) return false;
   if (tape_ != nullptr) tape_->updated(observation, statistics);
-  std::array<double, static_cast<std::size_t>(kRows)* kMaxStates> v = statistics.ph;
+  std::array<double, static_cast<std::size_t>(kRows) * kMaxStates> v;
   std::array<double, kRows> y{};
   for (int i = 0; i < m; ++i) {
     double* row = v.data() + static_cast<std::size_t>(i) * kMaxStates;
+    std::copy_n(statistics.ph.data() + static_cast<std::size_t>(i) * kMaxStates, n, row);
     double value = observation.innovation[static_cast<std::size_t>(i)];
     for (int k = 0; k < i; ++k) {
       const double factor = lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(k)];
@@ -164,13 +192,12 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
   for (int i = 0; i < m; ++i) {
     const double* row = v.data() + static_cast<std::size_t>(i) * kMaxStates;
     for (std::size_t j = 0; j < n; ++j) x[j] += row[j] * y[static_cast<std::size_t>(i)];
-    for (std::size_t r = 0; r < n; ++r) {
-      const double factor = row[r];
-      if (factor == 0.0) continue;
-      double* target = p_.data() + at(static_cast<int>(r), 0);
-      for (std::size_t j = 0; j < n; ++j) target[j] -= factor * row[j];
-    }
   }
+  // Three rows at a time: each element of P is fetched and stored once for them.
+  int i = 0;
+  for (; i + 3 <= m; i += 3) subtract<3>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
+  if (m - i == 2) subtract<2>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
+  if (m - i == 1) subtract<1>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
   // Rounding must not make a variance vanish: a state is never known better than to a millionth of a
   // millionth.
   for (int i = 0; i < n_; ++i) p_[at(i, i)] = std::max(p_[at(i, i)], 1e-24);

@@ -35,5 +35,6 @@ void add_status(CLI::App& app, ExitCode& exit_code);
 void add_solve(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_study(CLI::App& app, ExitCode& exit_code);
+void add_bench(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli
