@@ -44,8 +44,9 @@ std::optional<TimeNs> from_civil(const CivilTime& civil) {
   if (civil.hour < 0 || civil.hour > 23 || civil.minute < 0 || civil.minute > 59) return std::nullopt;
   if (civil.second < 0 || civil.second > 60) return std::nullopt;
   if (civil.nanosecond <= -kNsPerSecond || civil.nanosecond >= kNsPerSecond) return std::nullopt;
-  const std::int64_t seconds = days_from_civil(civil.year, civil.month, civil.day) * kSecondsPerDay +
-                               civil.hour * 3600 + civil.minute * 60 + civil.second;
+  const int second_of_day = civil.hour * 3600 + civil.minute * 60 + civil.second;
+  const std::int64_t seconds =
+      days_from_civil(civil.year, civil.month, civil.day) * kSecondsPerDay + second_of_day;
   return seconds * kNsPerSecond + civil.nanosecond;
 }
 
@@ -83,12 +84,12 @@ CivilTime to_civil(TimeNs utc) {
 std::string to_iso8601(TimeNs utc, int decimals) {
   const CivilTime civil = to_civil(utc);
   std::array<char, 64> text{};
-  int length = std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d", civil.year,
-                             civil.month, civil.day, civil.hour, civil.minute, civil.second);
+  const int length = std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d", civil.year,
+                                   civil.month, civil.day, civil.hour, civil.minute, civil.second);
   std::string out(text.data(), static_cast<std::size_t>(length));
   if (decimals > 0) {
-    length = std::snprintf(text.data(), text.size(), ".%09lld", static_cast<long long>(civil.nanosecond));
-    out.append(text.data(), static_cast<std::size_t>(std::min(decimals, 9) + 1));
+    (void)std::snprintf(text.data(), text.size(), ".%09lld", static_cast<long long>(civil.nanosecond));
+    out.append(text.data(), 1 + static_cast<std::size_t>(std::min(decimals, 9)));
   }
   return out + "Z";
 }
