@@ -99,7 +99,7 @@ void check_interfaces(const std::vector<std::string>& interfaces) {
   for (const std::string& interface : interfaces) {
     if (std::find(present.begin(), present.end(), interface) != present.end()) continue;
     std::string text;
-    for (const std::string& address : present) text += (text.empty() ? "" : ", ") + address;
+    for (const std::string& address : present) text.append(text.empty() ? "" : ", ").append(address);
     throw BusError("interface '" + interface + "': this host has no such address, only " + text);
   }
 }
@@ -244,8 +244,9 @@ void Participant::Impl::check_types(const std::string& topic) {
     type = found->second;
   }
   for (const std::string& conflict : peers.type_conflicts(topic, type)) {
-    events.report(BusEventKind::incompatible_qos, topic, conflict,
-                  conflict + " differs from ours, '" + type + "': they never meet");
+    std::string text = conflict;
+    text.append(" differs from ours, '").append(type).append("': they never meet");
+    events.report(BusEventKind::incompatible_qos, topic, conflict, text);
   }
 }
 
