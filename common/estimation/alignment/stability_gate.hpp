@@ -1,0 +1,150 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "base/unknown.hpp"
+
+namespace fathom::estimation {
+
+/// What "straight and steady" means (ALN-11): each magnitude below its limit for its hold time.
+struct StabilityConfig {
+  double roll_rad = 0.26179938779914941;  ///< 15 degrees, navigated
+  double roll_hold_s = 3.0;
+  double pitch_rad = 0.087266462599716474;  ///< 5 degrees, navigated
+  double pitch_hold_s = 1.0;
+  double depth_error_m = 10.0;  ///< from the set depth
+  double depth_hold_s = 1.0;
+  double rate_y_rad_s = 0.052359877559829883;  ///< 3 degrees/s
+  double rate_y_hold_s = 1.0;
+  double force_x_m_s2 = 1.0;
+  double force_x_hold_s = 1.0;
+  // Beyond the published ones, against false alignment in a turn or with a large roll error.
+  double rate_z_rad_s = 0.034906585039886591;  ///< 2 degrees/s
+  double rate_z_hold_s = 1.0;
+  double gravity_defect_m_s2 = 0.35;  ///< of | |f| - g |
+  double gravity_hold_s = 1.0;
+  double speed_slope_m_s2 = 0.25;  ///< of the speed log's rate of change
+  double speed_slope_hold_s = 1.0;
+  double force_spread_m_s2 = 0.12;  ///< standard deviation of each low-passed force within the window
+  double low_pass_s = 0.1;          ///< time constant before the gates; 0: none
+  double window_s = 1.0;            ///< of averaging
+  double max_gap_s = 0.02;          ///< between inertial samples
+};
+
+/// Navigated and measured quantities at one inertial sample.
+struct StabilityInput {
+  double dt_s = 0.0;  ///< since the sample before
+  double roll_rad = kUnknown;
+  double pitch_rad = kUnknown;
+  double depth_error_m = kUnknown;  ///< unknown: the depth is missing
+  double speed_m_s = kUnknown;      ///< unknown: the propulsor's speed is missing
+  double speed_slope_m_s2 = 0.0;
+  Eigen::Vector3d rate_B_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();
+  double g_m_s2 = 9.80665;
+};
+
+enum class StabilityCondition : std::uint8_t {
+  roll = 0,
+  pitch,
+  depth,
+  rate_y,
+  force_x,
+  rate_z,
+  gravity,
+  speed_slope,
+  count
+};
+inline constexpr std::size_t kStabilityConditions = static_cast<std::size_t>(StabilityCondition::count);
+[[nodiscard]] std::string_view to_string(StabilityCondition condition);
+
+/// Why timers and window were last set back to nothing.
+enum class StabilityReset : std::uint8_t {
+  none = 0,
+  not_finite = 1,  ///< a sample that is not a number
+  gap = 2,         ///< the inertial samples were interrupted
+  stale = 3,       ///< a sample with an instant not after the one before
+  repeated = 4,    ///< the same inertial readings again, bit for bit
+  no_depth = 5,
+  no_speed = 6,
+  condition = 7,     ///< a condition failed while averaging
+  spread = 8,        ///< the window was full and too restless
+  level = 9,         ///< its mean was no gravity
+  disagreement = 10  ///< its level contradicts what the fine alignment knows
+};
+[[nodiscard]] std::string_view to_string(StabilityReset reset);
+
+/// Means over one full window.
+struct StabilityWindow {
+  double roll_rad = 0.0;  ///< navigated
+  double pitch_rad = 0.0;
+  Eigen::Vector3d rate_B_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_spread_m_s2 = Eigen::Vector3d::Zero();  ///< standard deviation, low-passed
+  double speed_m_s = 0.0;
+  double speed_slope_m_s2 = 0.0;
+};
+
+/// Decides, sample by sample, when the vehicle has been steady for long enough and averages the window after
+/// that. Conditions are sampled: averaging begins with the sample after the one that completes the hold
+/// times. Whatever interrupts it throws the window away; a partial window is never given. A value of fixed
+/// size.
+class StabilityGate {
+ public:
+  struct Watched {
+    double value = kUnknown;
+    double limit = 0.0;
+    double held_s = 0.0;
+    double needed_s = 0.0;
+    [[nodiscard]] bool met() const;
+  };
+  enum class Phase : std::uint8_t { waiting = 0, averaging = 1, full = 2 };
+
+  explicit StabilityGate(const StabilityConfig& config = {});
+
+  /// Takes one sample; `full` exactly at the last sample of a window, after which waiting begins anew.
+  Phase add(const StabilityInput& input);
+  /// Sets all timers and the window back.
+  void reset(StabilityReset reason);
+
+  [[nodiscard]] Phase phase() const { return phase_; }
+  [[nodiscard]] const Watched& watched(StabilityCondition condition) const {
+    return watched_[static_cast<std::size_t>(condition)];
+  }
+  [[nodiscard]] StabilityReset last_reset() const { return last_reset_; }
+  [[nodiscard]] double averaged_s() const { return averaged_s_; }
+  /// Until a window could be full if all conditions held from now on.
+  [[nodiscard]] double time_to_full_s() const;
+  [[nodiscard]] const StabilityWindow& window() const { return window_; }
+  /// Low-passed specific force.
+  [[nodiscard]] const Eigen::Vector3d& smooth_force_B_m_s2() const { return force_; }
+
+ private:
+  [[nodiscard]] StabilityReset fault(const StabilityInput& input) const;
+  void watch(StabilityCondition condition, double value, double dt_s);
+  void average(const StabilityInput& input);
+
+  StabilityConfig config_;
+  Phase phase_ = Phase::waiting;
+  std::array<Watched, kStabilityConditions> watched_{};
+  StabilityReset last_reset_ = StabilityReset::none;
+  bool primed_ = false;  ///< the low-pass has a value
+  bool has_before_ = false;
+  Eigen::Vector3d raw_rate_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d raw_force_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  double averaged_s_ = 0.0;
+  int samples_ = 0;
+  StabilityWindow sum_;
+  Eigen::Vector3d first_force_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d excess_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d excess_square_ = Eigen::Vector3d::Zero();
+  StabilityWindow window_;
+};
+
+}  // namespace fathom::estimation
