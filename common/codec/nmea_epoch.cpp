@@ -6,7 +6,7 @@
 namespace fathom::codec {
 namespace {
 
-constexpr DurationNs kHalfDay = 12 * 3600 * kNsPerSecond;
+constexpr DurationNs kHalfDay = kNsPerSecond * 3600 * 12;
 constexpr DurationNs kDay = 2 * kHalfDay;
 
 /// The fix of the epoch: the sentence that grades it best decides, RMC may only take away.
@@ -157,7 +157,10 @@ void GpsEpochs::deliver_open(const Deliver& deliver) {
   const GpsReport* vtg = epoch_->find(GpsSentence::vtg);
   const GpsReport* gst = epoch_->find(GpsSentence::gst);
   const GpsReport* fixed = gga != nullptr ? gga : gns;
-  const GpsReport& position = fixed != nullptr ? *fixed : *rmc;
+  // GGA, GNS or RMC opened the epoch.
+  const GpsReport* opening = fixed != nullptr ? fixed : rmc;
+  if (opening == nullptr) return;
+  const GpsReport& position = *opening;
 
   GpsSample sample;
   sample.satellites = position.satellites;

@@ -155,7 +155,7 @@ std::optional<DurationNs> FieldReader::time_of_day(std::size_t index) {
     refuse(RejectReason::out_of_range);
     return std::nullopt;
   }
-  return (DurationNs{hour} * 3600 + minute * 60 + second) * kNsPerSecond + fraction;
+  return (DurationNs{hour} * 3600 + DurationNs{minute} * 60 + second) * kNsPerSecond + fraction;
 }
 
 double FieldReader::latitude(std::size_t index) {

@@ -11,7 +11,7 @@ namespace {
 
 // Long enough for profilers with all their cells and inserted text; short enough that a damaged length field
 // does not hold back a live stream for more than seconds.
-constexpr std::size_t kMaxFrame = 12 * 1024;
+constexpr std::size_t kMaxFrame = std::size_t{12} * 1024;
 
 std::uint16_t byte_sum(Bytes bytes) {
   std::uint32_t sum = 0;
