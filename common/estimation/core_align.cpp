@@ -177,7 +177,8 @@ void Core::start_at_rest() {
   start.nav.q_NB = geo::normalized(q_start * rest.q_start_now);
   start.nav.position = position;
   std::array<double, kMaxStates> sigma = setup_->initial_sigma;
-  const double tilt_noise = std::hypot(config.tilt_sigma_floor_rad, rest.tilt_sigma_rad);
+  const double oblique = index.has(Group::accel_misalignment) ? 0.0 : imu.accel_misalignment_sigma_rad;
+  const double tilt_noise = std::hypot(config.tilt_sigma_floor_rad, rest.tilt_sigma_rad, oblique);
   for (std::size_t i = 0; i < 3; ++i) sigma[3 + i] = config.rest_velocity_sigma_m_s;
   sigma[6] = sigma[7] = tilt_noise;
   sigma[8] = heading_sigma;
@@ -199,20 +200,32 @@ void Core::start_at_rest() {
   }
   begin(start, sigma);
 
-  // (ALN-5): what the remaining accelerometer bias did to the level, and the gyro bias to the gyrocompass.
+  // (ALN-5): what the remaining errors of the accelerometers did to the level, and the gyro bias to the
+  // gyrocompass.
   const double g = geo::gravity(position.latitude_rad, position.altitude_m);
   Matrix3d t = Matrix3d::Zero();
   t(0, 1) = 1.0 / g;
   t(1, 0) = -1.0 / g;
   const Matrix3d tc = t * c;
-  const int accel = index.of(Group::accel_bias);
-  const double accel_variance = imu.accel_bias_sigma_m_s2 * imu.accel_bias_sigma_m_s2;
-  const Matrix3d tilt_covariance = accel_variance * tc * tc.transpose();
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) {
-      if (k <= i) filter_.set(6 + i, 6 + k, filter_(6 + i, 6 + k) + tilt_covariance(i, k));
-      filter_.set(6 + i, accel + k, accel_variance * tc(i, k));
+  const auto carries = [&](Group group, int component, const Vector3d& force_B) {
+    const int state = index.of(group);
+    if (state < 0) return;
+    const double variance = filter_(state + component, state + component);
+    const Vector3d tilt = tc * force_B;
+    for (int i = 0; i < 3; ++i) {
+      filter_.set(6 + i, state + component, variance * tilt(i));
+      for (int k = 0; k <= i; ++k)
+        filter_.set(6 + i, 6 + k, filter_(6 + i, 6 + k) + variance * tilt(i) * tilt(k));
     }
+  };
+  const Vector3d rest_force_B = -g * c.row(2).transpose();
+  for (int i = 0; i < 3; ++i) {
+    carries(Group::accel_bias, i, Vector3d::Unit(i));
+    carries(Group::accel_scale, i, rest_force_B(i) * Vector3d::Unit(i));
+    // (IMU-1): two cross terms a row, in the order of the columns.
+    carries(Group::accel_misalignment, 2 * i, rest_force_B(i == 0 ? 1 : 0) * Vector3d::Unit(i));
+    carries(Group::accel_misalignment, 2 * i + 1, rest_force_B(i == 2 ? 1 : 2) * Vector3d::Unit(i));
+  }
   if (from_gyro) {
     const int gyro = index.of(Group::gyro_bias);
     const double variance = imu.gyro_bias_sigma_rad_s * imu.gyro_bias_sigma_rad_s;
