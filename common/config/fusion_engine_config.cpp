@@ -148,8 +148,9 @@ void describe(Schema<SensorConfig>& s) {
   s.field("min_fix", &C::min_fix,
           "gps: lowest quality used: 3 2D, 4 3D, 5 differential, 6 RTK float, 7 RTK fixed")
       .range(0, 7);
-  s.field("gate_probability", &C::gate_probability, "share of good measurements that pass the gate")
-      .range(0.5, 1.0 - 1e-9);
+  s.field("gate_probability", &C::gate_probability,
+          "share of good measurements that pass the gate; 1: no gate")
+      .range(0.5, 1.0);
   s.field("gate_mode", &C::gate_mode, "judge a measurement as a whole or each component")
       .words({{"whole", GateMode::whole}, {"per_component", GateMode::per_component}});
   s.field("robust", &C::robust, "weigh doubtful measurements down instead of refusing them")

@@ -97,7 +97,7 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "velocity_sigma_m_s", sensor.velocity_sigma_m_s, 1e-6, 1e3);
   check.in(at + "proportional_sigma", sensor.proportional_sigma, 0, 10);
   check.in(at + "min_fix", sensor.min_fix, 0, 7);
-  check.in(at + "gate_probability", sensor.gate_probability, 0.5, 1 - 1e-9);
+  check.in(at + "gate_probability", sensor.gate_probability, 0.5, 1.0);
   check.in(at + "robust_parameter", sensor.robust_parameter, 0.1, 1e3);
   check.in(at + "robust_reject_ratio", sensor.robust_reject_ratio, 1, 1e12);
   check.in(at + "reacquire_s", sensor.reacquire_s, 0, 1e6);

@@ -9,6 +9,8 @@ namespace fathom::estimation {
 namespace {
 
 constexpr std::size_t kStride = Observation::kMaxRows;
+/// Of the squared distance, where everything is to pass.
+constexpr double kNoLimit = 1e30;
 
 /// Normal quantile by P. J. Acklam's rational approximation (relative error 1.2e-9), upper half only.
 double normal_quantile(double p) {
@@ -73,7 +75,8 @@ double chi_square_quantile(double probability, int degrees) {
 GateLimits gate_limits(const SensorConfig& sensor) {
   GateLimits limits;
   for (int rows = 1; rows <= Observation::kMaxRows; ++rows)
-    limits.chi_square[static_cast<std::size_t>(rows)] = chi_square_quantile(sensor.gate_probability, rows);
+    limits.chi_square[static_cast<std::size_t>(rows)] =
+        sensor.gate_probability < 1.0 ? chi_square_quantile(sensor.gate_probability, rows) : kNoLimit;
   return limits;
 }
 
