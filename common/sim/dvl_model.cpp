@@ -18,13 +18,15 @@ DvlModel::DvlModel(const DvlConfig& config, std::uint64_t seed) : config_(config
   const double pitch = random_.normal(sigma);
   const double yaw = random_.normal(sigma);
   q_BD_ = q_of_rpy(m[0], m[1], m[2]) * q_of_rpy(roll, pitch, yaw);
+  Random bias(seed, "dvl.bias");
+  for (int i = 0; i < 3; ++i) bias_D_m_s_[i] = bias.normal(config.bias_sigma_m_s);
 }
 
 DvlSample DvlModel::sample(const TruthPoint& point) {
   const Vector3d lever_B = geo::vec(config_.lever_B_m);
   const TruthPoint at = at_lever(point, lever_B);
   const Eigen::Quaterniond q_DN = (at.q_NB * q_BD_).conjugate();
-  const Vector3d v_D = q_DN * at.v_N_m_s;
+  const Vector3d ground_D = q_DN * at.v_N_m_s;
   const Vector3d down_D = q_DN * Vector3d::UnitZ();
   const double height_m = at.water_depth_m - at.depth_m;
   const double s = std::sin(config_.beam_angle_rad);
@@ -32,11 +34,13 @@ DvlSample DvlModel::sample(const TruthPoint& point) {
   const std::array<Vector3d, 4> beam_D{Vector3d(0, -s, c), Vector3d(0, s, c), Vector3d(s, 0, c),
                                        Vector3d(-s, 0, c)};
   const bool deaf = inside(config_.dropouts, at.t_s) || at.depth_m < 0.0;
-  const double sigma = std::hypot(config_.beam_sigma_m_s, config_.beam_sigma_per_speed * v_D.norm());
+  const double sigma = std::hypot(config_.beam_sigma_m_s, config_.beam_sigma_per_speed * ground_D.norm());
   const bool outlier = random_.chance(config_.outlier_probability);
+  const bool water = config_.water_track && height_m > c * config_.maximum_range_m;
+  const Vector3d v_D = water ? Vector3d(q_BD_.conjugate() * at.V_B_m_s) : ground_D;
 
   DvlSample out;
-  out.mode = DvlMode::bottom;
+  out.mode = water ? DvlMode::water : DvlMode::bottom;
   out.recorded_frame =
       config_.frame == DvlConfig::Frame::beam
           ? DvlFrame::beam
@@ -52,19 +56,19 @@ DvlSample DvlModel::sample(const TruthPoint& point) {
     const bool lost = random_.chance(config_.beam_dropout_probability);
     const double steepness = beam_D[i].dot(down_D);  // cosine of the beam against the vertical
     const double slant_m = steepness > 0.1 ? height_m / steepness : config_.maximum_range_m * 10.0;
-    const bool heard =
-        !deaf && !lost && height_m > config_.minimum_range_m && slant_m < config_.maximum_range_m;
-    if (!heard) continue;
-    double velocity = (1.0 + scale_) * beam_D[i].dot(v_D) + noise;
+    const bool reached = height_m > config_.minimum_range_m && slant_m < config_.maximum_range_m;
+    const bool dead = (config_.working_beams < 4 && i == 3) || (config_.working_beams < 3 && i == 1);
+    if (deaf || lost || dead || !(reached || water)) continue;
+    double velocity = beam_D[i].dot((1.0 + scale_) * v_D + bias_D_m_s_) + noise;
     if (outlier) velocity += config_.outlier_m_s * (i % 2 == 0 ? 1.0 : -0.5);
     out.beam_velocity_m_s[i] = velocity;
-    out.beam_range_m[i] = slant_m * c;
+    if (!water) out.beam_range_m[i] = slant_m * c;
     normal += beam_D[i] * beam_D[i].transpose();
     right += beam_D[i] * velocity;
     range_sum_m += slant_m * c;
     ++good;
   }
-  if (good > 0) out.altitude_m = range_sum_m / good;
+  if (good > 0 && !water) out.altitude_m = range_sum_m / good;
   if (good >= 3) out.velocity_D_m_s = geo::arr(Vector3d(normal.inverse() * right));
   if (good == 4) {
     const auto& b = out.beam_velocity_m_s;

@@ -79,11 +79,14 @@ struct DvlConfig : SensorCommon {
   double beam_sigma_per_speed = 0.002;              ///< share of the speed, added in quadrature
   double scale_sigma = 0.0;                         ///< one factor, drawn once a run
   double scale = 0.0;                               ///< known part of it
+  double bias_sigma_m_s = 0.0;                      ///< offset of each axis, drawn once a run
   std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< rotation of the DVL's axes against the body
   double misalignment_sigma_rad = 0.0;              ///< unknown part of it, each axis
   double minimum_range_m = 0.5;
   double maximum_range_m = 200.0;
   double beam_dropout_probability = 0.0;  ///< each beam of each ping
+  int working_beams = 4;                  ///< 3: the one astern is dead, 2: the one to starboard as well
+  bool water_track = false;               ///< pings that do not reach the bottom measure against the water
   double outlier_m_s = 1.0;
   double sound_speed_m_s = 1500.0;
   enum class Frame { instrument, ship, beam };

@@ -89,6 +89,7 @@ class DvlModel {
   Random random_;
   Eigen::Quaterniond q_BD_ = Eigen::Quaterniond::Identity();
   double scale_ = 0.0;
+  Eigen::Vector3d bias_D_m_s_ = Eigen::Vector3d::Zero();
 };
 
 class DepthModel {
