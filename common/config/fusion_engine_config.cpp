@@ -169,6 +169,19 @@ void describe(Schema<SensorConfig>& s) {
        "frozen_change", &C::frozen_change,
        "the same reading while the prediction moves by this much is frozen, in the sensor's SI unit; 0: off")
       .range(0, 1e6);
+  s.field("transceiver_known", &C::transceiver_known,
+          "usbl: the fixes come from a transceiver at the place that follows");
+  s.field("transceiver_latitude_deg", &C::transceiver_latitude_rad, "usbl: for transceiver_known")
+      .unit("deg")
+      .range(-90, 90)
+      .scaled(kRadPerDeg);
+  s.field("transceiver_longitude_deg", &C::transceiver_longitude_rad, "usbl: for transceiver_known")
+      .unit("deg")
+      .range(-360, 360)
+      .scaled(kRadPerDeg);
+  s.field("transceiver_depth_m", &C::transceiver_depth_m, "usbl: for transceiver_known, below the surface")
+      .unit("m")
+      .range(-1000, 12'000);
   s.field(
        "sideslip_sigma_deg", &C::sideslip_sigma_rad,
        "airspeed: the aircraft flies straight into the air but for its sideslip state and this; 0: not used")

@@ -198,7 +198,7 @@ void Core::rebase(TimeNs now_ns, double unobserved_s) {
     move(*stamp);
   for (Sensor& sensor : sensors_) {
     move(sensor.used_ns);
-    move(sensor.rejected_since_ns);
+    for (Sensor::Rejections& one : sensor.rejections) move(one.since_ns);
     sensor.stamp_ns = 0;
   }
   now_ns_ = now_ns;

@@ -39,6 +39,9 @@ struct ImuStep {
   double gap_s = 0.0;  ///< part of the interval during which nothing was measured
 };
 
+/// The row looks at one of the three states from `first_state` on.
+[[nodiscard]] bool measures(const Observation& observation, int row, int first_state);
+
 /// Why a start is not possible yet, or that it is.
 struct StartConditions {
   bool window_full = false;
@@ -63,9 +66,13 @@ class Core {
     Eigen::Vector3d first_prediction = Eigen::Vector3d::Zero();
     bool repeats = false;
     // Rejections that agree with each other.
-    TimeNs rejected_since_ns = 0;
-    int rejections = 0;
-    std::array<double, 6> rejected_innovation{};
+    struct Rejections {
+      TimeNs since_ns = 0;
+      int count = 0;
+      std::array<double, Observation::kMaxRows> innovation{};
+    };
+    /// Of each row where rows are judged alone, else all of them in the first.
+    std::array<Rejections, Observation::kMaxRows> rejections{};
   };
 
   explicit Core(const Setup& setup);
@@ -122,8 +129,15 @@ class Core {
   Judgement judge(const Measurement& measurement);
   bool frozen(const Measurement& measurement, const SensorConfig& config, Sensor& sensor,
               const Observation& observation) const;
-  bool believe_rejections(Sensor& sensor, const SensorConfig& config, const Observation& observation);
-  void make_room(SourceKind source, const Observation& observation);
+
+  // core_reacquire.cpp
+  /// Rows, as a set of bits, whose refusal is not to be believed any longer.
+  unsigned believed_rows(Sensor& sensor, const SensorConfig& config, const Observation& observation,
+                         unsigned refused);
+  bool believe(Sensor::Rejections& past, const SensorConfig& config, const Observation& observation,
+               int first, int end) const;
+  void make_room(SourceKind source, const Sensor& sensor, const Observation& observation, unsigned rows,
+                 double factor);
   void mark_used(const Measurement& measurement, bool with_position);
 
   // core_constraints.cpp

@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr std::size_t kStride = Observation::kMaxRows;
-constexpr int kRejectionsToBelieve = 3;
+constexpr double kMostRoom = 1e6;
 
 VerdictKind verdict_of(Usable usable) {
   switch (usable) {
@@ -55,16 +55,6 @@ bool same(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 
 bool measures_position(SourceKind source) {
   return source == SourceKind::gps || source == SourceKind::usbl;
-}
-
-/// Largest weight with which a row looks at one of three states.
-double weight(const Observation& observation, int row, int first_state) {
-  double largest = 0.0;
-  for (int i = 0; i < 3; ++i)
-    largest = std::max(
-        largest,
-        std::abs(observation.h[static_cast<std::size_t>(row)][static_cast<std::size_t>(first_state + i)]));
-  return largest;
 }
 
 }  // namespace
@@ -113,7 +103,7 @@ Judgement Core::judge(const Measurement& measurement) {
     out.kind = first_refusal == Usable::yes ? VerdictKind::source_disabled : verdict_of(first_refusal);
     return out;
   }
-  with_position = with_position && weight(observation, 0, 0) > 0.0;
+  with_position = with_position && measures(observation, 0, 0);
   observation.list_columns(setup_->index.size());
 
   const Observation whole = observation;
@@ -122,22 +112,16 @@ Judgement Core::judge(const Measurement& measurement) {
   GateResult result = gate(filter_, config, setup_->limits[slot], observation, statistics);
   if (frozen(measurement, config, sensor, whole)) {
     out.kind = VerdictKind::frozen;
-  } else if (result.pass) {
-    out.kind = VerdictKind::used;
-    sensor.rejections = 0;
   } else {
-    out.kind = VerdictKind::rejected;
-    if (believe_rejections(sensor, config, whole)) {
+    const unsigned believed = believed_rows(sensor, config, whole, result.refused);
+    for (double room = 1.0; (believed & result.refused) != 0 && room < kMostRoom; room *= 4.0) {
       // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
-      make_room(measurement.source, whole);
+      make_room(measurement.source, sensor, whole, believed, room);
       observation = whole;
       result = gate(filter_, config, setup_->limits[slot], observation, statistics);
-      if (result.pass) {
-        out.kind = VerdictKind::used;
-        sensor.rejections = 0;
-        stepped = with_position;
-      }
     }
+    out.kind = result.pass ? VerdictKind::used : VerdictKind::rejected;
+    stepped = result.pass && believed != 0 && with_position;
   }
   out.dimensions = static_cast<std::uint32_t>(whole.rows);
   InnovationStatistics plain;
@@ -160,7 +144,6 @@ Judgement Core::judge(const Measurement& measurement) {
     ++reset_counter_;
     last_reset_N_m_ = -Vector3d(x[0], x[1], x[2]);
   }
-  sensor.rejected_since_ns = 0;
   sensor.used_ns = now_ns_;
   mark_used(measurement, with_position);
   return out;
@@ -184,50 +167,6 @@ bool Core::frozen(const Measurement& measurement, const SensorConfig& config, Se
     return false;
   }
   return (prediction - sensor.first_prediction).norm() > config.frozen_change;
-}
-
-bool Core::believe_rejections(Sensor& sensor, const SensorConfig& config, const Observation& observation) {
-  // (GATE-3): rejections that agree with each other for long enough.
-  double size = 0.0;
-  double change = 0.0;
-  double noise = 0.0;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(observation.rows); ++i) {
-    const double z = observation.innovation[i];
-    size += z * z;
-    change += (z - sensor.rejected_innovation[i]) * (z - sensor.rejected_innovation[i]);
-    noise += observation.sigma[i] * observation.sigma[i];
-  }
-  const bool agrees =
-      sensor.rejections > 0 && std::sqrt(change) < 0.5 * std::sqrt(size) + 4.0 * std::sqrt(noise);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(observation.rows); ++i)
-    sensor.rejected_innovation[i] = observation.innovation[i];
-  if (!agrees) {
-    sensor.rejections = 1;
-    sensor.rejected_since_ns = now_ns_;
-    return false;
-  }
-  ++sensor.rejections;
-  return config.reacquire_s > 0.0 && sensor.rejections >= kRejectionsToBelieve &&
-         to_seconds(now_ns_ - sensor.rejected_since_ns) >= config.reacquire_s;
-}
-
-void Core::make_room(SourceKind source, const Observation& observation) {
-  for (int row = 0; row < observation.rows; ++row) {
-    const auto r = static_cast<std::size_t>(row);
-    const double squared = observation.innovation[r] * observation.innovation[r];
-    int first = 6;
-    if (weight(observation, row, 0) > 0.0) {
-      first = 0;
-    } else if (weight(observation, row, 3) > 0.0) {
-      first = 3;
-    }
-    for (int i = 0; i < 3; ++i) {
-      const double h = observation.h[r][static_cast<std::size_t>(first + i)];
-      // A heading says nothing about tilt, however its row looks when the vehicle is pitched.
-      if (source == SourceKind::heading && i < 2) continue;
-      filter_.widen(first + i, squared * h * h);
-    }
-  }
 }
 
 void Core::mark_used(const Measurement& measurement, bool with_position) {

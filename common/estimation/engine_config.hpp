@@ -133,10 +133,14 @@ struct SensorConfig {
   double robust_reject_ratio = 25.0;  ///< robust weighting ends where the plain test ratio exceeds this
   double reacquire_s = 10.0;          ///< consistent rejections for this long are believed
   double frozen_change = 0.0;  ///< the same reading while the prediction moves by this much is frozen; 0: off
-  double sideslip_sigma_rad = 0.0;  ///< airspeed: sideslip beyond its state; 0: nothing is known of it
-  double attack_sigma_rad = 0.0;    ///< airspeed: likewise the angle of attack
-  double baro_sigma_m = 0.0;        ///< airspeed: of the barometric height in its samples; 0: not used
-  bool use_beams = false;           ///< DVL: the beams each on their own, where the sample carries them
+  bool transceiver_known = false;  ///< USBL: the fixes come from a transceiver at the place that follows
+  double transceiver_latitude_rad = 0.0;
+  double transceiver_longitude_rad = 0.0;
+  double transceiver_depth_m = 0.0;  ///< below the water surface, down
+  double sideslip_sigma_rad = 0.0;   ///< airspeed: sideslip beyond its state; 0: nothing is known of it
+  double attack_sigma_rad = 0.0;     ///< airspeed: likewise the angle of attack
+  double baro_sigma_m = 0.0;         ///< airspeed: of the barometric height in its samples; 0: not used
+  bool use_beams = false;            ///< DVL: the beams each on their own, where the sample carries them
   double beam_angle_rad = 0.5235987755982988;  ///< DVL: of the beams from the down axis, where the sample
                                                ///< does not say; 30 deg
   /// DVL: where each beam points, from forward towards right. Default: 1 left, 2 right, 3 ahead, 4 astern.

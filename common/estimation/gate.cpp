@@ -103,9 +103,11 @@ GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const Gat
         worst_kept = std::max(worst_kept, ratio);
         ++row;
       } else if (observation.rows == 1) {
+        result.refused |= 1U << i;
         result.test_ratio = std::min(best_dropped, ratio);
         return result;
       } else {
+        result.refused |= 1U << i;
         best_dropped = std::min(best_dropped, ratio);
         drop_row(observation, row);
       }
@@ -121,6 +123,7 @@ GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const Gat
   if (scale > 1.0 && std::isfinite(scale)) filter.statistics(observation, scale, statistics);
   result.test_ratio = statistics.squared_distance / result.limit;
   result.pass = result.test_ratio <= 1.0;
+  if (!result.pass) result.refused = (1U << observation.rows) - 1U;
   return result;
 }
 

@@ -21,6 +21,7 @@ struct GateResult {
   bool pass = false;
   double test_ratio = kUnknown;  ///< squared distance over its limit
   double limit = kUnknown;
+  unsigned refused = 0;  ///< the rows that were not accepted, a bit each
 };
 
 /// Tests an innovation (GATE-1). With robust weighting the noise is first widened as far as the innovation

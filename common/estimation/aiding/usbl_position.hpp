@@ -6,7 +6,8 @@
 namespace fathom::estimation {
 
 /// Absolute acoustic fix of the vehicle's transponder: NED metres relative to the estimated position of the
-/// IMU (AID-USBL-1..2). A fix relative to a transceiver whose own position is not known cannot be placed.
+/// IMU (AID-USBL-1..2). Where the transceiver's place is configured, its axes may be misaligned: the fix is
+/// turned about that place. A fix relative to a transceiver whose own position is not known cannot be placed.
 class UsblPosition {
  public:
   static constexpr const char* kName = "usbl_position";
@@ -17,7 +18,15 @@ class UsblPosition {
         sensor_(sensor),
         sample_(sample),
         surface_m_(s.value(Group::surface_altitude, 0, surface_altitude_m)),
-        lever_N_(s.C_NB * geo::vec(sensor.lever_B_m)) {}
+        lever_N_(s.C_NB * geo::vec(sensor.lever_B_m)) {
+    if (!sensor.transceiver_known) return;
+    const geo::Geodetic& here = s.state.nav.position;
+    from_transceiver_N_ =
+        lever_N_ - geo::difference_N(here, {sensor.transceiver_latitude_rad, sensor.transceiver_longitude_rad,
+                                            here.altitude_m});
+    from_transceiver_N_.z() = surface_m_ - here.altitude_m + lever_N_.z() - sensor.transceiver_depth_m;
+    turn_ -= geo::skew(s.value3(Group::usbl_misalignment));
+  }
 
   [[nodiscard]] static Usable usable(const UsblSample& sample) {
     if (sample.frame != UsblFrame::geodetic) return Usable::unknown_frame;
@@ -34,16 +43,19 @@ class UsblPosition {
     return m;
   }
   [[nodiscard]] Vector3 predicted() const {
-    return {lever_N_.x() + s_.value(Group::usbl_bias, 0), lever_N_.y() + s_.value(Group::usbl_bias, 1),
-            surface_m_ - s_.state.nav.position.altitude_m + lever_N_.z()};
+    const Vector3 straight{lever_N_.x() + s_.value(Group::usbl_bias, 0),
+                           lever_N_.y() + s_.value(Group::usbl_bias, 1),
+                           surface_m_ - s_.state.nav.position.altitude_m + lever_N_.z()};
+    return straight + (turn_ - Matrix3::Identity()) * from_transceiver_N_;
   }
   void jacobian(Jacobian& h) const {
     // (AID-USBL-2)
-    h.block(Group::position, Matrix3::Identity());
-    h.block(Group::attitude, geo::skew(lever_N_));
+    h.block(Group::position, turn_);
+    h.block(Group::attitude, turn_ * geo::skew(lever_N_));
+    h.block(Group::usbl_misalignment, -geo::skew(from_transceiver_N_));
     h.set(0, Group::usbl_bias, 0, -1.0);
     h.set(1, Group::usbl_bias, 1, -1.0);
-    h.set(2, Group::surface_altitude, 0, -1.0);
+    h.block(Group::surface_altitude, -turn_.col(2));
   }
   [[nodiscard]] Vector3 noise() const {
     const double horizontal = sigma_of(sensor_.sigma[0], sample_.sigma_m, sensor_.use_sample_sigma);
@@ -56,6 +68,8 @@ class UsblPosition {
   const UsblSample& sample_;
   double surface_m_;
   Vector3 lever_N_;
+  Vector3 from_transceiver_N_ = Vector3::Zero();  ///< of the transponder; zero where that place is unknown
+  Matrix3 turn_ = Matrix3::Identity();
 };
 
 }  // namespace fathom::estimation

@@ -160,6 +160,11 @@ TEST_P(Jacobians, EqualCentralDifferencesOnTheManifold) {
     sensor.mounting_rpy_rad =
         entry.source == SourceKind::dvl ? geo::arr(normal.vector(0.5)) : std::array<double, 3>{0.0, 0.0, 0.3};
     FilterState state = random_state(normal, index);
+    const geo::Geodetic transceiver = geo::moved_by(state.nav.position, normal.vector(200.0));
+    sensor.transceiver_known = true;
+    sensor.transceiver_latitude_rad = transceiver.latitude_rad;
+    sensor.transceiver_longitude_rad = transceiver.longitude_rad;
+    sensor.transceiver_depth_m = 18.0 - transceiver.altitude_m;
     // An aircraft flies.
     if (!under_water) state.nav.v_N_m_s += state.nav.v_N_m_s.normalized() * 20.0;
     const Vector3d rate = normal.vector(0.2);
