@@ -95,6 +95,14 @@ void describe(Schema<sim::AirDropConfig>& s) {
       .scaled(kDegree)
       .range(0.5, 45);
   s.field("limited_range_m", &C::limited_range_m, "what near means").unit("m").range(0.5, 100);
+  s.field("pitch_slew_deg_s", &C::pitch_slew_rad_s, "of the pitch ordered after water entry")
+      .unit("deg/s")
+      .range(0.5, 200)
+      .scaled(kDegree);
+  s.field("flare_slew_deg_s", &C::flare_slew_rad_s, "of the pitch ordered from the flare on")
+      .unit("deg/s")
+      .range(0.5, 200)
+      .scaled(kDegree);
   s.field("flare_s", &C::flare_s, "the flare starts at this depth error per sink rate")
       .unit("s")
       .range(0, 20);

@@ -93,6 +93,8 @@ struct AirDropConfig {
   double dive_pitch_rad = -0.5236;    ///< -30 degrees
   double limited_pitch_rad = 0.0820;  ///< 4.7 degrees, within limited_range_m of the set depth
   double limited_range_m = 12.0;
+  double pitch_slew_rad_s = 0.3;   ///< of the pitch ordered, from water entry on ...
+  double flare_slew_rad_s = 0.7;   ///< ... and from the flare on
   double flare_s = 1.05;           ///< the flare starts at this depth error per sink rate
   double propulsor_delay_s = 0.3;  ///< after water entry
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geo/wgs84.hpp"
 #include "sim/vehicle.hpp"
@@ -168,7 +169,9 @@ struct TruthGenerator::Impl {
     const double t0 = point.t_s;
     const double dt = t_s - t0;
     update_order(t0);
-    vehicle->control(body(t0, x), order, dt);
+    BodyState seen = body(t0, x);
+    seen.q_steered_NB = steered ? *steered : seen.q_NB;
+    vehicle->control(seen, order, dt);
     x.segment<6>(kAngle).setZero();
     const int steps = std::max(1, static_cast<int>(std::ceil(dt / kLongestStep_s - 1e-9)));
     const double h = dt / steps;
@@ -191,6 +194,7 @@ struct TruthGenerator::Impl {
   Order order;
   std::size_t next_step = 0;
   TruthPoint point;
+  std::optional<Quaterniond> steered;
 };
 
 TruthGenerator::TruthGenerator(const Scenario& scenario, std::uint64_t seed)
@@ -205,6 +209,10 @@ const TruthPoint& TruthGenerator::point() const {
 
 ImuTruth TruthGenerator::advance_to(double t_s) {
   return impl_->advance_to(t_s);
+}
+
+void TruthGenerator::steer_by(const Quaterniond& q_NB) {
+  impl_->steered = q_NB;
 }
 
 TruthPoint interpolate(const TruthPoint& a, const TruthPoint& b, double t_s) {

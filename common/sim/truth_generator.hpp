@@ -54,6 +54,8 @@ class TruthGenerator {
   [[nodiscard]] const TruthPoint& point() const;
   /// Advances to `t_s` seconds since the start, in one sample interval. Precondition: t_s > point().t_s.
   ImuTruth advance_to(double t_s);
+  /// From now on the autopilot takes this for the attitude; see BodyState::q_steered_NB.
+  void steer_by(const Eigen::Quaterniond& q_NB);
 
  private:
   struct Impl;

@@ -18,6 +18,8 @@ struct BodyState {
   Eigen::Vector3d omega_NB_B_rad_s = Eigen::Vector3d::Zero();
   Eigen::Quaterniond q_NB = Eigen::Quaterniond::Identity();
   Eigen::Vector3d actuator = Eigen::Vector3d::Zero();  ///< propulsor rpm, rudder rad, stern planes rad
+  /// What the autopilot takes for the attitude: the truth, unless a study closes the loop over a navigator.
+  Eigen::Quaterniond q_steered_NB = Eigen::Quaterniond::Identity();
 };
 
 struct BodyRates {
@@ -36,7 +38,9 @@ struct Order {
 };
 
 /// Rigid body and autopilot. The autopilot sees the true state: navigation errors do not feed back into the
-/// motion, so that a run's truth does not depend on the estimator under test.
+/// motion, so that a run's truth does not depend on the estimator under test. The air drop alone may be
+/// steered by a navigated attitude (q_steered_NB), because there the feedback is what the alignment has to
+/// live with.
 class Vehicle {
  public:
   virtual ~Vehicle() = default;

@@ -24,8 +24,9 @@ class AirDrop final : public Vehicle {
 
   void control(const BodyState& state, const Order& order, double dt_s) override {
     turbulence_ = {0.0, lateral_.advance(dt_s, random_), vertical_.advance(dt_s, random_)};
-    const Vector3d rpy = rpy_of(state.q_NB);
+    const Vector3d rpy = rpy_of(state.q_steered_NB);
     const double u = std::max(state.V_B_m_s.x(), 5.0);
+    roll_error_rad_ = geo::wrap_pi(rpy.x() - rpy_of(state.q_NB).x());
     if (state.depth_m > 0.5 * config_.length_m && entered_at_s_ < 0.0) entered_at_s_ = state.t_s;
     const bool powered = entered_at_s_ >= 0.0 && state.t_s >= entered_at_s_ + config_.propulsor_delay_s;
     thrust_speed_m_s_ = powered ? order.speed_m_s : 0.0;
@@ -33,7 +34,7 @@ class AirDrop final : public Vehicle {
     stern_command_rad_ = 0.0;
     if (entered_at_s_ < 0.0) return;
 
-    const double sink_m_s = (state.q_NB * state.V_B_m_s).z();
+    const double sink_m_s = (state.q_NB * state.V_B_m_s).z();  // by the depth sensor, whatever the attitude
     const double error_m = order.depth_m - state.depth_m;
     flared_ = flared_ || error_m < config_.flare_s * sink_m_s;
     double pitch_rad = config_.dive_pitch_rad;
@@ -44,13 +45,18 @@ class AirDrop final : public Vehicle {
       }
       pitch_rad = std::clamp(pitch_rad, config_.dive_pitch_rad, -config_.dive_pitch_rad);
     }
+    const double slew_rad = (flared_ ? config_.flare_slew_rad_s : config_.pitch_slew_rad_s) * dt_s;
+    if (!steering_) pitch_command_rad_ = rpy.y();
+    steering_ = true;
+    pitch_command_rad_ += std::clamp(pitch_rad - pitch_command_rad_, -slew_rad, slew_rad);
     // Fin forces grow with the square of the speed: gains shrink with it.
     const double authority = (17.0 / u) * (17.0 / u);
     const double limit = 0.35;
-    stern_command_rad_ = std::clamp(
-        -authority * (0.15 * (pitch_rad - rpy.y()) - 0.02 * state.omega_NB_B_rad_s.y()), -limit, limit);
+    stern_command_rad_ =
+        std::clamp(-authority * (0.6 * (pitch_command_rad_ - rpy.y()) - 0.05 * state.omega_NB_B_rad_s.y()),
+                   -limit, limit);
     rudder_command_rad_ = std::clamp(
-        -authority * (0.15 * geo::wrap_pi(order.heading_rad - rpy.z()) - 0.02 * state.omega_NB_B_rad_s.z()),
+        -authority * (0.6 * geo::wrap_pi(order.heading_rad - rpy.z()) - 0.05 * state.omega_NB_B_rad_s.z()),
         -limit, limit);
   }
 
@@ -120,10 +126,10 @@ class AirDrop final : public Vehicle {
     const Vector3d rpy = rpy_of(state.q_NB);
     // Roll is regulated by differential fins, idealised as a second-order response.
     const double roll_rate = 2.0 * std::min(std::abs(u) / 17.0, 1.5);
-    rates.omega_dot_B_rad_s2 = {
-        -roll_rate * roll_rate * rpy.x() - 1.6 * roll_rate * p + 0.8 * v / config_.inertia_roll_kg_m2,
-        (-x * Z_tail + config_.munk_kg * u * w) / config_.inertia_pitch_kg_m2,
-        (x * Y_tail - config_.munk_kg * u * v) / config_.inertia_pitch_kg_m2};
+    rates.omega_dot_B_rad_s2 = {-roll_rate * roll_rate * geo::wrap_pi(rpy.x() + roll_error_rad_) -
+                                    1.6 * roll_rate * p + 0.8 * v / config_.inertia_roll_kg_m2,
+                                (-x * Z_tail + config_.munk_kg * u * w) / config_.inertia_pitch_kg_m2,
+                                (x * Y_tail - config_.munk_kg * u * v) / config_.inertia_pitch_kg_m2};
     return rates;
   }
 
@@ -136,6 +142,9 @@ class AirDrop final : public Vehicle {
   double thrust_speed_m_s_ = 0.0;
   double rudder_command_rad_ = 0.0;
   double stern_command_rad_ = 0.0;
+  double roll_error_rad_ = 0.0;  ///< of the roll that the autopilot regulates
+  double pitch_command_rad_ = 0.0;
+  bool steering_ = false;
   bool flared_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "study/registry.hpp"
 
+#include "study/alignment.hpp"
 #include "study/rotating_arm.hpp"
 #include "study/survey.hpp"
 
@@ -8,6 +9,7 @@ namespace fathom::study {
 const std::vector<std::unique_ptr<const Study>>& study_registry() {
   static const auto all = [] {
     std::vector<std::unique_ptr<const Study>> studies;
+    studies.push_back(std::make_unique<const AlignmentStudy>());
     studies.push_back(make_rotating_arm_study());
     studies.push_back(make_survey_study());
     return studies;

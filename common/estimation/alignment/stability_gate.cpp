@@ -8,6 +8,8 @@ namespace {
 
 // Sums of sample intervals meet a hold time to rounding.
 constexpr double kRounding_s = 1e-6;
+constexpr double kWider = 1.2;
+constexpr double kJitter_s = 0.5;  // memory of the noise that vibration makes
 
 constexpr std::size_t at(StabilityCondition condition) {
   return static_cast<std::size_t>(condition);
@@ -112,21 +114,31 @@ void StabilityGate::watch(StabilityCondition condition, double value, double dt_
   one.held_s = std::abs(value) <= one.limit ? one.held_s + dt_s : 0.0;
 }
 
+void StabilityGate::smooth(const StabilityInput& in) {
+  if (!in.rate_B_rad_s.allFinite() || !in.force_B_m_s2.allFinite()) {
+    primed_ = has_before_ = false;
+    return;
+  }
+  const bool chained = primed_ && in.dt_s > 0.0 && in.dt_s <= config_.max_gap_s + kRounding_s;
+  const auto keep = [&](double time_s) {
+    return chained && time_s > 0.0 ? std::exp(-in.dt_s / time_s) : 0.0;
+  };
+  if (chained) {
+    const double change = (in.force_B_m_s2 - raw_force_).squaredNorm() / 6.0;
+    jitter_ += (1.0 - keep(kJitter_s)) * (change - jitter_);
+  }
+  raw_rate_ = in.rate_B_rad_s;
+  raw_force_ = in.force_B_m_s2;
+  rate_ += (1.0 - keep(config_.low_pass_s)) * (raw_rate_ - rate_);
+  force_ += (1.0 - keep(config_.low_pass_s)) * (raw_force_ - force_);
+  light_force_ += (1.0 - keep(config_.spread_low_pass_s)) * (raw_force_ - light_force_);
+  primed_ = has_before_ = true;
+}
+
 StabilityGate::Phase StabilityGate::add(const StabilityInput& in) {
   // (ALN-11)
   const StabilityReset reason = fault(in);
-  if (in.rate_B_rad_s.allFinite() && in.force_B_m_s2.allFinite()) {
-    raw_rate_ = in.rate_B_rad_s;
-    raw_force_ = in.force_B_m_s2;
-    has_before_ = true;
-    const bool chained = primed_ && in.dt_s > 0.0 && in.dt_s <= config_.max_gap_s + kRounding_s;
-    const double keep = chained && config_.low_pass_s > 0.0 ? std::exp(-in.dt_s / config_.low_pass_s) : 0.0;
-    rate_ = keep * rate_ + (1.0 - keep) * raw_rate_;
-    force_ = keep * force_ + (1.0 - keep) * raw_force_;
-    primed_ = true;
-  } else {
-    primed_ = has_before_ = false;
-  }
+  smooth(in);
   if (phase_ == Phase::full) reset(last_reset_);
   if (reason != StabilityReset::none) {
     reset(reason);
@@ -140,9 +152,11 @@ StabilityGate::Phase StabilityGate::add(const StabilityInput& in) {
   watch(StabilityCondition::rate_z, rate_.z(), in.dt_s);
   watch(StabilityCondition::gravity, force_.norm() - in.g_m_s2, in.dt_s);
   watch(StabilityCondition::speed_slope, in.speed_slope_m_s2, in.dt_s);
-  const bool steady = std::all_of(watched_.begin(), watched_.end(), [](const Watched& w) { return w.met(); });
   if (phase_ == Phase::averaging) {
-    if (!steady) {
+    // A little wider than to begin, so that noise about a limit does not cost the window.
+    const bool kept = std::all_of(watched_.begin(), watched_.end(),
+                                  [](const Watched& w) { return std::abs(w.value) <= kWider * w.limit; });
+    if (!kept) {
       // The conditions that still hold keep their time; only the window is lost.
       phase_ = Phase::waiting;
       averaged_s_ = 0.0;
@@ -150,7 +164,7 @@ StabilityGate::Phase StabilityGate::add(const StabilityInput& in) {
       return phase_;
     }
     average(in);
-  } else if (steady) {
+  } else if (std::all_of(watched_.begin(), watched_.end(), [](const Watched& w) { return w.met(); })) {
     phase_ = Phase::averaging;
     averaged_s_ = 0.0;
     samples_ = 0;
@@ -161,7 +175,7 @@ StabilityGate::Phase StabilityGate::add(const StabilityInput& in) {
 void StabilityGate::average(const StabilityInput& in) {
   if (samples_ == 0) {
     sum_ = StabilityWindow();
-    first_force_ = force_;
+    first_force_ = light_force_;
     excess_.setZero();
     excess_square_.setZero();
   }
@@ -173,7 +187,7 @@ void StabilityGate::average(const StabilityInput& in) {
   sum_.force_B_m_s2 += in.force_B_m_s2;
   sum_.speed_m_s += in.speed_m_s;
   sum_.speed_slope_m_s2 += in.speed_slope_m_s2;
-  const Eigen::Vector3d excess = force_ - first_force_;
+  const Eigen::Vector3d excess = light_force_ - first_force_;
   excess_ += excess;
   excess_square_ += excess.cwiseAbs2();
   if (averaged_s_ < config_.window_s - kRounding_s) return;
@@ -185,7 +199,7 @@ void StabilityGate::average(const StabilityInput& in) {
   window_.speed_m_s = sum_.speed_m_s / n;
   window_.speed_slope_m_s2 = sum_.speed_slope_m_s2 / n;
   window_.force_spread_m_s2 = (excess_square_ / n - (excess_ / n).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-  if (window_.force_spread_m_s2.maxCoeff() > config_.force_spread_m_s2) {
+  if (window_.force_spread_m_s2.head<2>().maxCoeff() > config_.force_spread_m_s2) {
     reset(StabilityReset::spread);
     return;
   }

@@ -29,8 +29,9 @@ struct StabilityConfig {
   double gravity_hold_s = 1.0;
   double speed_slope_m_s2 = 0.25;  ///< of the speed log's rate of change
   double speed_slope_hold_s = 1.0;
-  double force_spread_m_s2 = 0.12;  ///< standard deviation of each low-passed force within the window
-  double low_pass_s = 0.1;          ///< time constant before the gates; 0: none
+  double force_spread_m_s2 = 0.09;  ///< standard deviation of f_x and f_y within the window, vibration aside
+  double spread_low_pass_s = 0.1;   ///< time constant before the spread
+  double low_pass_s = 0.3;          ///< time constant before the gates; 0: none
   double window_s = 1.0;            ///< of averaging
   double max_gap_s = 0.02;          ///< between inertial samples
 };
@@ -84,7 +85,7 @@ struct StabilityWindow {
   double pitch_rad = 0.0;
   Eigen::Vector3d rate_B_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();
-  Eigen::Vector3d force_spread_m_s2 = Eigen::Vector3d::Zero();  ///< standard deviation, low-passed
+  Eigen::Vector3d force_spread_m_s2 = Eigen::Vector3d::Zero();  ///< standard deviation, vibration aside
   double speed_m_s = 0.0;
   double speed_slope_m_s2 = 0.0;
 };
@@ -120,12 +121,14 @@ class StabilityGate {
   /// Until a window could be full if all conditions held from now on.
   [[nodiscard]] double time_to_full_s() const;
   [[nodiscard]] const StabilityWindow& window() const { return window_; }
-  /// Low-passed specific force.
-  [[nodiscard]] const Eigen::Vector3d& smooth_force_B_m_s2() const { return force_; }
+  /// Variance of one sample of the specific force that comes from noise and vibration: half the mean square
+  /// of its changes from sample to sample, mean of the axes.
+  [[nodiscard]] double jitter_m2_s4() const { return jitter_; }
 
  private:
   [[nodiscard]] StabilityReset fault(const StabilityInput& input) const;
   void watch(StabilityCondition condition, double value, double dt_s);
+  void smooth(const StabilityInput& input);
   void average(const StabilityInput& input);
 
   StabilityConfig config_;
@@ -138,6 +141,8 @@ class StabilityGate {
   Eigen::Vector3d raw_force_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d light_force_ = Eigen::Vector3d::Zero();  ///< low-passed for the spread
+  double jitter_ = 0.0;
   double averaged_s_ = 0.0;
   int samples_ = 0;
   StabilityWindow sum_;

@@ -109,4 +109,15 @@ TiltFilter::Result TiltFilter::update(const Row* rows, int count, double limit_s
   return out;
 }
 
+void TiltFilter::turn_heading(double angle_rad) {
+  const geo::Quaternion turn = geo::exp({0.0, 0.0, angle_rad});
+  const Matrix3d c = geo::to_matrix(turn);
+  q_NB_ = geo::normalized(turn * q_NB_);
+  v_N_ = c * v_N_;
+  for (const int at : {static_cast<int>(kPhi), static_cast<int>(kVelocity)}) {
+    p_.middleRows<3>(at) = (c * p_.middleRows<3>(at)).eval();
+    p_.middleCols<3>(at) = (p_.middleCols<3>(at) * c.transpose()).eval();
+  }
+}
+
 }  // namespace fathom::estimation

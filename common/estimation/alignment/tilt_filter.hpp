@@ -58,6 +58,9 @@ class TiltFilter {
   /// Takes rows of one instant, all linearised there. A row beyond `limit_sigma` is refused.
   Result update(const Row* rows, int count, double limit_sigma);
 
+  /// Turns everything that is along N about the vertical. The errors of this filter do not care.
+  void turn_heading(double angle_rad);
+
   [[nodiscard]] const geo::Quaternion& q_NB() const { return q_NB_; }
   [[nodiscard]] const Eigen::Vector3d& v_N_m_s() const { return v_N_; }
   [[nodiscard]] double depth_m() const { return depth_m_; }

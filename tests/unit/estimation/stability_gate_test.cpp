@@ -137,7 +137,7 @@ TEST(StabilityGate, AConditionLostWhileAveragingLosesTheWindow) {
   StabilityGate gate;
   EXPECT_EQ(samples_to_full(gate, 2000,
                             [](int i, StabilityInput& in) {
-                              if (i == 390) in.pitch_rad = 0.1;
+                              if (i == 390) in.pitch_rad = 0.12;
                             }),
             391 + 200);  // one second of pitch, one of averaging; the roll has held all the time
   EXPECT_EQ(gate.last_reset(), StabilityReset::condition);
