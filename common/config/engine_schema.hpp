@@ -13,6 +13,8 @@ void describe(Schema<estimation::StateGroups>& s);
 void describe(Schema<estimation::StateModelConfig>& s);
 void describe(Schema<estimation::SensorConfig>& s);
 void describe(Schema<estimation::AlignmentConfig>& s);
+void describe(Schema<estimation::StabilityConfig>& s);
+void describe(Schema<estimation::DropConfig>& s);
 void describe(Schema<estimation::NonHolonomicConfig>& s);
 void describe(Schema<estimation::ConstantDepthConfig>& s);
 void describe(Schema<estimation::ConstraintsConfig>& s);

@@ -57,13 +57,18 @@ void describe(Schema<StartSigma>& s) {
       .scaled(kRadPerDeg);
 }
 
+bool starts_from_state(StartMode mode) {
+  return mode == StartMode::given || mode == StartMode::air_drop;
+}
+
 void describe(Schema<StartConfig>& s) {
   s.field("mode", &StartConfig::mode, "how navigation begins")
       .words({{"at_rest", StartMode::at_rest},
               {"in_motion", StartMode::in_motion},
               {"given", StartMode::given},
-              {"automatic", StartMode::automatic}});
-  s.field("state", &StartConfig::state, "the state that mode \"given\" starts from");
+              {"automatic", StartMode::automatic},
+              {"air_drop", StartMode::air_drop}});
+  s.field("state", &StartConfig::state, "the state that modes \"given\" and \"air_drop\" start from");
   s.field("sigma", &StartConfig::sigma, "how well a given state or a reference is known");
 }
 
@@ -80,8 +85,8 @@ void describe(Schema<FusionConfig>& s) {
     if (config.imu_sensor.size() > Name::kCapacity) {
       return {"imu_sensor", "at most " + std::to_string(Name::kCapacity) + " characters"};
     }
-    if (config.start.mode == StartMode::given && !config.start.state) {
-      return {"start.state", "the state to start from, because start.mode is \"given\""};
+    if (starts_from_state(config.start.mode) && !config.start.state) {
+      return {"start.state", "the state to start from, because start.mode is \"given\" or \"air_drop\""};
     }
     return {};
   });

@@ -31,10 +31,13 @@ struct StartSigma {
   std::array<double, 3> attitude_rad{0.01, 0.01, 0.02};  ///< about north, east, down
 };
 
+/// The modes that begin with the configured state.
+[[nodiscard]] bool starts_from_state(estimation::StartMode mode);
+
 /// Section "start".
 struct StartConfig {
   estimation::StartMode mode = estimation::StartMode::automatic;
-  std::optional<GivenState> state;  ///< required by mode "given"
+  std::optional<GivenState> state;  ///< required by modes "given" and "air_drop"
   StartSigma sigma;
 };
 

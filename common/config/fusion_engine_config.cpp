@@ -347,6 +347,7 @@ void describe(Schema<EngineConfig>& s) {
   s.field("states", &C::states, "initial uncertainty and drift of the states beyond the core");
   s.field("sensors", &C::sensors, "aiding instruments; one that is not listed is never used").required();
   s.field("alignment", &C::alignment, "finding the attitude");
+  s.field("air_drop", &C::air_drop, "finding roll and pitch under way after a drop");
   s.field("constraints", &C::constraints, "what is known about the motion without an instrument");
   s.field("horizon_s", &C::horizon_s, "measurements up to this late count as punctual ones")
       .unit("s")

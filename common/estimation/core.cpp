@@ -172,6 +172,10 @@ void Core::finish(const ImuStep& step) {
     align(step);
     return;
   }
+  if (dropping_) {
+    advance_drop(step);
+    return;
+  }
   apply_constraints(step);
   watch_alignment();
 }
@@ -210,6 +214,7 @@ void Core::rebase(TimeNs now_ns, double unobserved_s) {
 void Core::lose_attitude() {
   navigating_ = false;
   levelled_ = false;
+  dropping_ = false;
   window_.reset();
   smooth_time_s_ = 0.0;
   fast_fixes_ = 0;
@@ -235,6 +240,7 @@ NavMode Core::mode() const {
 
 Vector3d Core::rpy_sigma_rad() const {
   if (!navigating_) return Vector3d::Constant(kUnknown);
+  if (dropping_) return drop_.rpy_sigma_rad();
   // (OUT-1): how roll, pitch and yaw turn with the attitude error about N.
   const Eigen::Matrix3d c = geo::to_matrix(state_.nav.q_NB);
   const double level = std::max(std::sqrt(c(0, 0) * c(0, 0) + c(1, 0) * c(1, 0)), 1e-3);  // cos(pitch)

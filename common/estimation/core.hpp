@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "estimation/aiding/registry.hpp"
+#include "estimation/alignment/drop_alignment.hpp"
 #include "estimation/alignment/rest_window.hpp"
 #include "estimation/alignment/under_way.hpp"
 #include "estimation/error_filter.hpp"
@@ -93,6 +94,9 @@ class Core {
   void rebase(TimeNs now_ns, double unobserved_s);
 
   [[nodiscard]] bool navigating() const { return navigating_; }
+  /// Roll and pitch are still those of the in-motion alignment after a drop.
+  [[nodiscard]] bool dropping() const { return dropping_; }
+  [[nodiscard]] const DropAlignment& drop() const { return drop_; }
   [[nodiscard]] bool levelled() const { return levelled_; }
   [[nodiscard]] TimeNs now_ns() const { return now_ns_; }
   [[nodiscard]] const FilterState& state() const { return state_; }
@@ -158,6 +162,17 @@ class Core {
   [[nodiscard]] bool usbl_places() const;
   void start_under_way();
 
+  // core_drop.cpp
+  void start_drop(const InitialState* initial);
+  void advance_drop(const ImuStep& step);
+  [[nodiscard]] std::optional<Judgement> feed_drop(const Measurement& measurement);
+  /// The attitude was turned: what was integrated with it turns along.
+  void turn_drop(const Eigen::Vector3d& rotation_N_rad);
+  void carry_drop_covariance();
+  /// The position was set from outside along the first `axes` of N.
+  void place_drop(int axes, double sigma_m);
+  void hand_over_drop();
+
   // core_align.cpp
   void begin(const FilterState& state, const std::array<double, kMaxStates>& sigma);
   [[nodiscard]] std::optional<geo::Geodetic> start_position() const;
@@ -197,6 +212,15 @@ class Core {
   double gps_speed_m_s_ = kUnknown;
   int fast_fixes_ = 0;
   UnderWay under_way_;
+  bool dropping_ = false;
+  DropAlignment drop_;
+  // Since the release: integrals of C f, once and twice; covariance of position and velocity as if the
+  // attitude were known, at the instant given.
+  Eigen::Vector3d fall_dv_N_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d fall_dp_N_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix<double, 6, 6> fall_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
+  double fall_s_ = 0.0;
+  double carried_s_ = 0.0;
   bool position_set_ = false;  ///< by an order
   geo::Geodetic set_position_;
   double set_sigma_m_ = 0.0;

@@ -85,7 +85,8 @@ void Core::align(const ImuStep& step) {
     enter(AlignmentPhase::waiting);
     waiting_since_ns_ = now_ns_;
   }
-  if (config.mode == StartMode::given || in.dt_s <= 0.0) return;
+  const bool from_outside = config.mode == StartMode::given || config.mode == StartMode::air_drop;
+  if (from_outside || in.dt_s <= 0.0) return;
 
   const Vector3d force = in.dv_m_s / in.dt_s;
   const double keep = std::exp(-in.dt_s / config.in_motion_averaging_s);
@@ -327,7 +328,11 @@ void Core::start(const InitialState& initial, TimeNs now_ns) {
   filter_.reset(sigma);
   navigating_ = levelled_ = true;
   hold_since_ns_ = 0;
-  enter(AlignmentPhase::fine);
+  if (setup_->config.alignment.mode == StartMode::air_drop) {
+    start_drop(&initial);
+  } else {
+    enter(AlignmentPhase::fine);
+  }
 }
 
 void Core::watch_alignment() {

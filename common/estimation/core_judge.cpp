@@ -83,6 +83,7 @@ Judgement Core::judge(const Measurement& measurement) {
   sensor.stamp_ns = measurement.stamp_ns;
   notice(measurement);
   if (!navigating_) return out;
+  if (dropping_) return feed_drop(measurement).value_or(out);
 
   const AidingState state = aiding_state();
   const AidingInput input{state, config, setup_->config.states.surface_altitude_m};
@@ -205,6 +206,11 @@ void Core::order(const Command& command) {
       next_zero_velocity_ns_ = now_ns_;
       break;
     case CommandKind::realign:
+      if (setup_->config.alignment.mode == StartMode::air_drop && navigating_) {
+        // Under way there is nothing to stand still for: tilt is found again, the rest carried on.
+        start_drop(nullptr);
+        break;
+      }
       lose_attitude();
       enter(AlignmentPhase::waiting);
       break;
@@ -227,7 +233,9 @@ void Core::order(const Command& command) {
       last_reset_N_m_ = geo::difference_N(state_.nav.position, wanted);
       ++reset_counter_;
       state_.nav.position = wanted;
-      for (int i = 0; i < (known(command.depth_m) ? 3 : 2); ++i) filter_.forget(i, command.sigma_m);
+      const int axes = known(command.depth_m) ? 3 : 2;
+      for (int i = 0; i < axes; ++i) filter_.forget(i, command.sigma_m);
+      if (dropping_) place_drop(axes, command.sigma_m);
       break;
     }
     case CommandKind::acknowledge_alarm:

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "estimation/alignment/drop_config.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::estimation {
@@ -157,6 +158,7 @@ enum class StartMode : std::uint8_t {
   in_motion = 1,  ///< from GPS velocity
   given = 2,      ///< start_from() or the configured state
   automatic = 3,  ///< at rest or in motion, whichever the instruments show first
+  air_drop = 4,   ///< start_from() at the release with roll and pitch unknown; alignment under way in water
 };
 enum class HeadingSource : std::uint8_t {
   automatic = 0,  ///< compass, else gyrocompass where the gyro allows
@@ -231,6 +233,7 @@ struct EngineConfig {
   StateModelConfig states;
   std::vector<SensorConfig> sensors;
   AlignmentConfig alignment;
+  DropConfig air_drop;  ///< for StartMode::air_drop; what start_from() and the sensors say goes before it
   ConstraintsConfig constraints;
   double horizon_s = 5.0;            ///< measurements up to this late give the same bits as punctual ones
   double snapshot_interval_s = 0.2;  ///< a roll-back repeats at most this much more than it must

@@ -59,7 +59,8 @@ const char* advice(const StartConditions& c, const Core& core, const AlignmentCo
     default:
       break;
   }
-  if (config.mode == StartMode::given) return "Waiting for the state that it is to start from.";
+  if (config.mode == StartMode::given || config.mode == StartMode::air_drop)
+    return "Waiting for the state that it is to start from.";
   if (config.mode == StartMode::in_motion) return "Move straight with a GPS fix until the course is steady.";
   if (!c.slow) return "Stop the vehicle, or let it run straight with GPS.";
   if (!c.quiet) return "Keep the vehicle quiet: it moves too much to be levelled.";
@@ -67,6 +68,52 @@ const char* advice(const StartConditions& c, const Core& core, const AlignmentCo
   if (!c.position) return "A position is missing: wait for a GPS fix or set one.";
   if (!c.heading) return "A heading is missing: check the compass or give one.";
   return "The gyro is not good enough to find north: give a heading.";
+}
+
+const char* drop_advice(const DropAlignment& drop) {
+  using C = StabilityCondition;
+  switch (drop.phase()) {
+    case AlignmentPhase::aligned:
+      return "";
+    case AlignmentPhase::coarse:
+    case AlignmentPhase::fine:
+      return drop.consistent() ? "Hold on: roll and pitch are being refined."
+                               : "Log, depth and inertial unit contradict each other: run straight.";
+    case AlignmentPhase::averaging:
+      return "Hold course, depth and speed.";
+    default:
+      break;
+  }
+  if (!drop.wet()) return "Waiting for the water: the depth sensor reports none yet.";
+  const StabilityGate& gate = drop.gate();
+  const auto met = [&gate](C condition) { return gate.watched(condition).met(); };
+  switch (drop.missing()) {
+    case StabilityReset::no_depth:
+      return "The depth is missing: everything begins anew when it is back.";
+    case StabilityReset::no_speed:
+      return "The propulsor speed is missing: everything begins anew when it is back.";
+    default:
+      break;
+  }
+  if (!met(C::depth)) return "Go to the set depth and hold it within the limit.";
+  if (!met(C::roll)) return "Hold roll near zero.";
+  if (!met(C::pitch) || !met(C::force_x)) return "Level off: hold pitch near zero.";
+  if (!met(C::rate_z)) return "Run straight: it turns too fast.";
+  if (!met(C::rate_y) || !met(C::gravity)) return "Hold the pitch steady.";
+  if (!met(C::speed_slope)) return "Hold the speed steady.";
+  switch (gate.last_reset()) {
+    case StabilityReset::spread:
+      return "Hold on: the last window was too restless.";
+    case StabilityReset::disagreement:
+      return "Hold on: the last window contradicted the fine solution.";
+    case StabilityReset::gap:
+    case StabilityReset::repeated:
+    case StabilityReset::stale:
+    case StabilityReset::not_finite:
+      return "Hold on: inertial samples were missing or bad, and the window began anew.";
+    default:
+      return "Hold on.";
+  }
 }
 
 void add_condition(AlignmentStatus& out, const char* name, double value, double limit, bool met,
@@ -79,6 +126,23 @@ void add_condition(AlignmentStatus& out, const char* name, double value, double 
   one.met = met;
   one.held_s = held_s;
   one.needed_s = needed_s;
+}
+
+/// Each condition of the run, then how far the averages and the fine solution are.
+void fill_drop(const DropAlignment& drop, AlignmentStatus& out) {
+  for (std::size_t i = 0; i < kStabilityConditions; ++i) {
+    const auto condition = static_cast<StabilityCondition>(i);
+    const StabilityGate::Watched& one = drop.gate().watched(condition);
+    add_condition(out, to_string(condition).data(), one.value, one.limit, one.met(), one.held_s,
+                  one.needed_s);
+  }
+  const Vector3d sigma = drop.rpy_sigma_rad();
+  const double limit = drop.config().aligned_tilt_sigma_rad;
+  const double hold = drop.config().aligned_hold_s;
+  add_condition(out, "roll_sigma_rad", sigma.x(), limit, sigma.x() <= limit, drop.held_s(), hold);
+  add_condition(out, "pitch_sigma_rad", sigma.y(), limit, sigma.y() <= limit, drop.held_s(), hold);
+  out.time_to_aligned_s = drop.time_to_aligned_s();
+  set_text(out.advice, drop_advice(drop));
 }
 
 }  // namespace
@@ -162,6 +226,10 @@ void fill(const Setup& setup, const Core& core, AlignmentStatus& out) {
   const Vector3d sigma = core.rpy_sigma_rad();
   out.rpy_sigma_rad = geo::arr(sigma);
   out.time_to_aligned_s = kUnknown;
+  if (core.dropping()) {
+    fill_drop(core.drop(), out);
+    return;
+  }
   const StartConditions c = core.conditions();
   if (core.navigating()) {
     const double held =
@@ -177,7 +245,7 @@ void fill(const Setup& setup, const Core& core, AlignmentStatus& out) {
     } else if (core.aligned_hold_since_ns() != 0) {
       out.time_to_aligned_s = std::max(0.0, config.aligned_hold_s - held);
     }
-  } else if (config.mode != StartMode::given) {
+  } else if (config.mode != StartMode::given && config.mode != StartMode::air_drop) {
     const RestWindow& window = core.window();
     const double held = window.duration_s();
     const auto rest_condition = [&](const char* name, double value, double limit, bool met) {

@@ -29,8 +29,7 @@ bool Passage::removes(const GpsSample& fix) const {
 
 std::optional<estimation::InitialState> start_of(const Passage& passage) {
   if (passage.start) return passage.start;
-  if (passage.config->start.mode == estimation::StartMode::given)
-    return config::initial_state(*passage.config);
+  if (config::starts_from_state(passage.config->start.mode)) return config::initial_state(*passage.config);
   return std::nullopt;
 }
 

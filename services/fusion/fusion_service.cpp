@@ -59,7 +59,7 @@ bus::WriterOptions nav_state_options(const host::ServiceHost& host, const config
 // Started before the first reader can hand it a sample.
 estimation::FusionEngine started_engine(const config::FusionConfig& config) {
   estimation::FusionEngine engine(config::engine_config(config));
-  if (config.start.mode == estimation::StartMode::given) engine.start_from(config::initial_state(config));
+  if (config::starts_from_state(config.start.mode)) engine.start_from(config::initial_state(config));
   return engine;
 }
 

@@ -332,7 +332,7 @@ void DropAlignment::watch() {
   const Vector3d sigma = rpy_sigma_rad();
   const bool aligned = phase_ == AlignmentPhase::aligned;
   const double limit = config_.aligned_tilt_sigma_rad * (aligned ? 2.0 : 1.0);
-  const bool good = sigma.x() <= limit && sigma.y() <= limit && consistency_ <= kConsistent;
+  const bool good = sigma.x() <= limit && sigma.y() <= limit && consistent();
   if (!good) {
     hold_since_s_ = -1.0;
     if (aligned) enter(AlignmentPhase::fine);
@@ -350,6 +350,16 @@ void DropAlignment::watch() {
   // The hold is that of the phase, so that fine is seen before aligned.
   if (held_s() >= config_.aligned_hold_s && in_phase_s() >= config_.aligned_hold_s)
     enter(AlignmentPhase::aligned);
+}
+
+bool DropAlignment::consistent() const {
+  return consistency_ <= kConsistent;
+}
+
+StabilityReset DropAlignment::missing() const {
+  if (!fresh(depth_at_s_)) return StabilityReset::no_depth;
+  if (!fresh(speed_at_s_)) return StabilityReset::no_speed;
+  return StabilityReset::none;
 }
 
 Matrix3d DropAlignment::attitude_covariance() const {

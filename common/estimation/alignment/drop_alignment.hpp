@@ -9,44 +9,6 @@
 
 namespace fathom::estimation {
 
-/// Alignment of a vehicle that was dropped with its roll and pitch unknown and runs under water.
-struct DropConfig {
-  enum class Form : std::uint8_t { robust = 0, printed = 1 };
-  StabilityConfig stability;
-  Form form = Form::robust;
-  bool fine = true;                             ///< refine the coarse solution with the tilt filter
-  bool early = true;                            ///< run the tilt filter before a coarse solution exists
-  double fine_delay_s = 2.5;                    ///< of the early filter after water entry
-  double alone_s = 15.0;                        ///< the early filter may align without a coarse window after
-  double set_depth_m = 80.0;                    ///< of the straight run
-  double wet_depth_m = 1.0;                     ///< deeper is in the water
-  double timeout_s = 25.0;                      ///< after water entry
-  double tilt_sigma_rad = 0.26179938779914941;  ///< of the roll and pitch handed over: 15 degrees
-  double heading_sigma_rad = 0.017453292519943295;        ///< of the heading handed over
-  double aligned_tilt_sigma_rad = 4.3633231299858239e-3;  ///< 0.25 degrees
-  double aligned_hold_s = 1.0;
-  // Instruments.
-  double accel_sigma_m_s2 = 0.011;  ///< what is left of bias, scale and misalignment
-  double accel_noise_m_s_sqrt_s = 1e-3;
-  double gyro_noise_rad_sqrt_s = 2e-5;
-  double gyro_misalignment_rad = 5e-4;  ///< of scale and axes: attitude error per angle turned
-  double speed_per_rpm = 0.0068;
-  double speed_sigma_m_s = 0.1;  ///< white
-  double speed_scale_sigma = 0.015;
-  double speed_bias_sigma_m_s = 0.02;
-  double speed_bias_tau_s = 5.0;
-  double speed_lag_s = 0.1;  ///< by which the propulsor follows the speed
-  double depth_sigma_m = 0.05;
-  double sensor_timeout_s = 0.35;  ///< older propulsor speed or depth is missing
-  // Vehicle: how it slips through the water (TILT-5).
-  double slip_per_turn_m = 1.58;  ///< side velocity per turn rate
-  double trim_m2_s2 = 2.26;       ///< heave velocity times speed that carries the weight in water
-  double flow_lag_m = 3.1;        ///< distance travelled in one time constant of the slip
-  double flow_sigma_m_s = 0.08;   ///< of what the model does not know, turbulence included
-  double flow_tau_s = 10.0;
-  double surge_tau_s = 1.5;  ///< in which the speed follows the thrust
-};
-
 /// Speed and its slope from a speed log, for a vehicle whose slope dies away by itself when the thrust is
 /// constant (ALN-13). A Kalman filter of two states.
 class SpeedTrack {
@@ -107,6 +69,9 @@ class DropAlignment {
   [[nodiscard]] double held_s() const { return hold_since_s_ < 0.0 ? 0.0 : time_s_ - hold_since_s_; }
   /// Mean of the normalised innovations squared: 1 when all fits together.
   [[nodiscard]] double consistency() const { return consistency_; }
+  [[nodiscard]] bool consistent() const;
+  /// no_depth or no_speed while such samples are missing, else none.
+  [[nodiscard]] StabilityReset missing() const;
   [[nodiscard]] const DropConfig& config() const { return config_; }
 
  private:

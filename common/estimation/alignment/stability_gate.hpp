@@ -7,34 +7,9 @@
 #include <Eigen/Core>
 
 #include "base/unknown.hpp"
+#include "estimation/alignment/drop_config.hpp"
 
 namespace fathom::estimation {
-
-/// What "straight and steady" means (ALN-11): each magnitude below its limit for its hold time.
-struct StabilityConfig {
-  double roll_rad = 0.26179938779914941;  ///< 15 degrees, navigated
-  double roll_hold_s = 3.0;
-  double pitch_rad = 0.087266462599716474;  ///< 5 degrees, navigated
-  double pitch_hold_s = 1.0;
-  double depth_error_m = 10.0;  ///< from the set depth
-  double depth_hold_s = 1.0;
-  double rate_y_rad_s = 0.052359877559829883;  ///< 3 degrees/s
-  double rate_y_hold_s = 1.0;
-  double force_x_m_s2 = 1.0;
-  double force_x_hold_s = 1.0;
-  // Beyond the published ones, against false alignment in a turn or with a large roll error.
-  double rate_z_rad_s = 0.034906585039886591;  ///< 2 degrees/s
-  double rate_z_hold_s = 1.0;
-  double gravity_defect_m_s2 = 0.35;  ///< of | |f| - g |
-  double gravity_hold_s = 1.0;
-  double speed_slope_m_s2 = 0.25;  ///< of the speed log's rate of change
-  double speed_slope_hold_s = 1.0;
-  double force_spread_m_s2 = 0.09;  ///< standard deviation of f_x and f_y within the window, vibration aside
-  double spread_low_pass_s = 0.1;   ///< time constant before the spread
-  double low_pass_s = 0.3;          ///< time constant before the gates; 0: none
-  double window_s = 1.0;            ///< of averaging
-  double max_gap_s = 0.02;          ///< between inertial samples
-};
 
 /// Navigated and measured quantities at one inertial sample.
 struct StabilityInput {

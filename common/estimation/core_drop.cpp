@@ -1,0 +1,172 @@
+// In-motion alignment after a drop: while it lasts, the attitude is that of DropAlignment, and position and
+// velocity are what the specific force has made of the release since; then the filter takes over.
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/core.hpp"
+#include "geo/wgs84.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A step longer than the nominal one by half is one with a sample missing.
+constexpr double kMissedSample = 1.5;
+
+}  // namespace
+
+void Core::start_drop(const InitialState* initial) {
+  DropConfig config = setup_->config.air_drop;
+  for (const SensorConfig& one : setup_->config.sensors)
+    if (one.kind == SourceKind::propulsion && one.scale_m_s_per_rpm > 0.0)
+      config.speed_per_rpm = one.scale_m_s_per_rpm;
+  config.stability.max_gap_s =
+      std::min(config.stability.max_gap_s, kMissedSample / setup_->config.imu.nominal_rate_hz);
+  if (initial != nullptr) {
+    fall_covariance_.setZero();
+    config.tilt_sigma_rad = std::max(initial->attitude_sigma_rad[0], initial->attitude_sigma_rad[1]);
+    config.heading_sigma_rad = initial->attitude_sigma_rad[2];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      fall_covariance_(at, at) = std::pow(initial->position_sigma_N_m[i], 2);
+      fall_covariance_(at + 3, at + 3) = std::pow(initial->velocity_sigma_N_m_s[i], 2);
+    }
+  } else {
+    config.heading_sigma_rad = rpy_sigma_rad().z();
+    if (dropping_) {
+      carry_drop_covariance();
+    } else {
+      for (int i = 0; i < 6; ++i)
+        for (int k = 0; k < 6; ++k) fall_covariance_(i, k) = filter_(i, k);
+    }
+  }
+  drop_ = DropAlignment(config);
+  drop_.start(state_.nav.q_NB);
+  dropping_ = true;
+  fall_dv_N_.setZero();
+  fall_dp_N_.setZero();
+  fall_s_ = carried_s_ = 0.0;
+  hold_since_ns_ = 0;
+  enter(drop_.phase());
+}
+
+void Core::carry_drop_covariance() {
+  // A constant velocity error moves the position; an accelerometer bias moves both.
+  const double t = fall_s_ - carried_s_;
+  carried_s_ = fall_s_;
+  Eigen::Matrix<double, 6, 6> phi = Eigen::Matrix<double, 6, 6>::Identity();
+  phi.topRightCorner<3, 3>() = t * Matrix3d::Identity();
+  fall_covariance_ = (phi * fall_covariance_ * phi.transpose()).eval();
+  const double bias = setup_->config.air_drop.accel_sigma_m_s2;
+  Eigen::Matrix<double, 6, 3> g;
+  g << 0.5 * t * t * bias * Matrix3d::Identity(), t * bias * Matrix3d::Identity();
+  fall_covariance_ += g * g.transpose();
+}
+
+void Core::place_drop(int axes, double sigma_m) {
+  carry_drop_covariance();
+  for (int i = 0; i < axes; ++i) {
+    fall_covariance_.row(i).setZero();
+    fall_covariance_.col(i).setZero();
+    fall_covariance_(i, i) = sigma_m * sigma_m;
+    fall_dp_N_(i) = 0.0;  // the new position does not hang on the attitude of the fall
+  }
+}
+
+void Core::turn_drop(const Vector3d& rotation_N_rad) {
+  // (ALN-16)
+  const Matrix3d turn = geo::to_matrix(geo::exp(rotation_N_rad)) - Matrix3d::Identity();
+  const Vector3d dv = turn * fall_dv_N_;
+  const Vector3d dp = turn * fall_dp_N_;
+  state_.nav.v_N_m_s += dv;
+  state_.nav.position = geo::moved_by(state_.nav.position, dp);
+  fall_dv_N_ += dv;
+  fall_dp_N_ += dp;
+  state_.nav.q_NB = drop_.q_NB();
+}
+
+void Core::advance_drop(const ImuStep& step) {
+  const double dt_s = to_seconds(step.to_ns - step.from_ns);
+  if (step.gap_s > 0.0) drop_.interrupt(StabilityReset::gap);
+  if (!(dt_s > 0.0)) return;
+  const NavSolution& nav = state_.nav;
+  // The attitude is that of the end of the step.
+  const Matrix3d c = geo::to_matrix(nav.q_NB * geo::exp(-0.5 * dt_s * rate_B_));
+  const Vector3d force_N = c * force_B_;
+  fall_dp_N_ += dt_s * fall_dv_N_ + 0.5 * dt_s * dt_s * force_N;
+  fall_dv_N_ += dt_s * force_N;
+  fall_s_ += dt_s;
+
+  DropStep in;
+  in.dt_s = dt_s;
+  in.rate_IB_B_rad_s = rate_B_;
+  in.force_B_m_s2 = force_B_;
+  in.earth_rate_N_rad_s = geo::earth_rate_N(nav.position.latitude_rad);
+  in.rate_IN_N_rad_s = in.earth_rate_N_rad_s + geo::transport_rate_N(nav.position, nav.v_N_m_s);
+  in.g_m_s2 = geo::gravity(nav.position.latitude_rad, nav.position.altitude_m);
+  turn_drop(drop_.add(in));
+  enter(drop_.phase());
+  if (drop_.phase() == AlignmentPhase::aligned) hand_over_drop();
+}
+
+std::optional<Judgement> Core::feed_drop(const Measurement& measurement) {
+  Judgement out;
+  const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(measurement.sensor)];
+  if (const auto* depth = std::get_if<DepthSample>(&measurement.sample)) {
+    if (!std::isfinite(depth->depth_m)) {
+      out.kind = VerdictKind::out_of_range;
+      return out;
+    }
+    const double lever_m = (geo::to_matrix(drop_.q_NB()) * geo::vec(config.lever_B_m)).z();
+    turn_drop(drop_.add_depth(depth->depth_m - lever_m));
+  } else if (const auto* propulsion = std::get_if<PropulsionSample>(&measurement.sample)) {
+    if (!std::isfinite(propulsion->rpm)) {
+      out.kind = VerdictKind::out_of_range;
+      return out;
+    }
+    turn_drop(drop_.add_rpm(propulsion->rpm));
+  } else {
+    return std::nullopt;
+  }
+  out.kind = VerdictKind::used;
+  out.model = "in_motion_alignment";
+  sensors_[static_cast<std::size_t>(measurement.sensor)].used_ns = now_ns_;
+  return out;
+}
+
+void Core::hand_over_drop() {
+  // (ALN-17)
+  dropping_ = false;
+  carry_drop_covariance();
+  filter_.reset(setup_->initial_sigma);
+  const Matrix3d attitude = drop_.attitude_covariance();
+  Eigen::Matrix<double, 6, 3> arm;
+  arm << geo::skew(fall_dp_N_), geo::skew(fall_dv_N_);
+  const Eigen::Matrix<double, 6, 3> cross = arm * attitude;
+  const Eigen::Matrix<double, 6, 6> motion = fall_covariance_ + cross * arm.transpose();
+  const TiltFilter& fine = drop_.filter();
+  const int accel = setup_->index.of(Group::accel_bias);
+  const auto fine_accel = fine.covariance().block<3, 3>(TiltFilter::kAccel, TiltFilter::kAccel);
+  const auto fine_tilt = fine.covariance().block<3, 3>(TiltFilter::kPhi, TiltFilter::kAccel);
+  const Eigen::Matrix<double, 6, 3> motion_accel = arm * fine_tilt;
+  for (int i = 0; i < 6; ++i) {
+    for (int k = 0; k <= i; ++k) filter_.set(i, k, motion(i, k));
+    for (int k = 0; k < 3; ++k) {
+      filter_.set(i, 6 + k, cross(i, k));
+      filter_.set(i, accel + k, motion_accel(i, k));
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k <= i; ++k) {
+      filter_.set(6 + i, 6 + k, attitude(i, k));
+      filter_.set(accel + i, accel + k, fine_accel(i, k));
+    }
+    for (int k = 0; k < 3; ++k) filter_.set(6 + i, accel + k, fine_tilt(i, k));
+    state_.x[static_cast<std::size_t>(accel + i)] += fine.bias()(TiltFilter::kAccel + i);
+  }
+  hold_since_ns_ = now_ns_;
+}
+
+}  // namespace fathom::estimation
