@@ -175,7 +175,10 @@ void Core::start_at_rest() {
 
   FilterState start;
   const geo::Quaternion q_start = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), heading));
-  start.nav.q_NB = geo::normalized(q_start * rest.q_start_now);
+  // (ALN-18): the gyro turned the axes back against the stars, and N has turned with the Earth since the
+  // middle.
+  const Vector3d turned_N = 0.5 * rest.duration_s * geo::earth_rate_N(position.latitude_rad);
+  start.nav.q_NB = geo::normalized(geo::exp(-turned_N) * q_start * rest.q_start_now);
   start.nav.position = position;
   std::array<double, kMaxStates> sigma = setup_->initial_sigma;
   const double oblique = index.has(Group::accel_misalignment) ? 0.0 : imu.accel_misalignment_sigma_rad;

@@ -20,6 +20,7 @@ constexpr double kConsistent = 2.0;  // limit of the mean normalised innovation 
 constexpr double kLimitSigma = 7.0;  // a single measurement further off is not taken
 constexpr double kAgree_sigma = 4.0;
 constexpr double kLeastSpeed_m_s = 3.0;
+constexpr double kCoarseShown_s = 0.1;  // so that every reader sees each phase
 constexpr double kSlopeStart_m_s2 = 5.0;
 constexpr double kSlopeNoise_m_s2 = 0.02;   // a second, of the thrust
 constexpr double kSlopePerTurn_m_s2 = 2.0;  // weight and drag along x change with the pitch
@@ -336,12 +337,12 @@ void DropAlignment::watch() {
   if (!good) {
     hold_since_s_ = -1.0;
     if (aligned) enter(AlignmentPhase::fine);
-    if (phase_ == AlignmentPhase::coarse) enter(AlignmentPhase::fine);
+    if (phase_ == AlignmentPhase::coarse && in_phase_s() >= kCoarseShown_s) enter(AlignmentPhase::fine);
     return;
   }
   if (hold_since_s_ < 0.0) hold_since_s_ = time_s_;
   if (phase_ == AlignmentPhase::coarse) {
-    enter(AlignmentPhase::fine);
+    if (in_phase_s() >= kCoarseShown_s) enter(AlignmentPhase::fine);
     return;
   }
   const bool alone = time_s_ - filtering_since_s_ >= config_.alone_s;

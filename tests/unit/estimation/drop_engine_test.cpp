@@ -118,9 +118,9 @@ TEST(DropEngine, GoesThroughThePhasesAndNavigatesOn) {
       EXPECT_GT(status.rpy_sigma_rad[0], 5.0 * kDegree);
     }
   }
-  const std::vector<AlignmentPhase> wanted{AlignmentPhase::none,      AlignmentPhase::waiting,
-                                           AlignmentPhase::averaging, AlignmentPhase::coarse,
-                                           AlignmentPhase::fine,      AlignmentPhase::aligned};
+  const std::vector<AlignmentPhase> wanted{AlignmentPhase::waiting, AlignmentPhase::averaging,
+                                           AlignmentPhase::coarse, AlignmentPhase::fine,
+                                           AlignmentPhase::aligned};
   EXPECT_EQ(phases, wanted);
   EXPECT_GT(aligned_s, 19.0);
   EXPECT_LT(aligned_s, 26.0);
