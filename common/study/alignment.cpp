@@ -143,6 +143,7 @@ DropConfig config_of(std::string_view method, sim::Random& random) {
   config.speed_per_rpm = kSpeedPerRpm;
   config.form = method == "printed" ? DropConfig::Form::printed : DropConfig::Form::robust;
   config.fine = config.early = method == "fine";
+  config.aligned_hold_s = 0.5;
   config.slip_per_turn_m *= 1.0 + random.normal(0.1);
   config.trim_m2_s2 *= 1.0 + random.normal(0.1);
   config.speed_lag_s *= 1.0 + random.normal(0.2);

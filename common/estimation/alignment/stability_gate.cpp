@@ -200,7 +200,10 @@ void StabilityGate::average(const StabilityInput& in) {
   window_.speed_slope_m_s2 = sum_.speed_slope_m_s2 / n;
   window_.force_spread_m_s2 = (excess_square_ / n - (excess_ / n).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
   if (window_.force_spread_m_s2.head<2>().maxCoeff() > config_.force_spread_m_s2) {
-    reset(StabilityReset::spread);
+    // The vehicle still runs straight: the next window may begin at once.
+    phase_ = Phase::waiting;
+    averaged_s_ = 0.0;
+    last_reset_ = StabilityReset::spread;
     return;
   }
   phase_ = Phase::full;
