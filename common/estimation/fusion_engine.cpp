@@ -200,19 +200,7 @@ class FusionEngine::Impl final : public VerdictSink {
       --verdict_count_;
       ++dropped_;
     }
-    Verdict& verdict = verdicts_[(first_verdict_ + verdict_count_) % verdicts_.size()];
-    verdict = Verdict{};
-    verdict.header = header;
-    verdict.source = source;
-    verdict.model = judgement.model;
-    verdict.kind = judgement.kind;
-    verdict.dimensions = judgement.dimensions;
-    for (std::size_t i = 0; i < judgement.dimensions; ++i) {
-      verdict.innovation[i] = judgement.innovation[i];
-      verdict.innovation_sigma[i] = judgement.innovation_sigma[i];
-    }
-    verdict.test_ratio = judgement.test_ratio;
-    verdict.limit = judgement.limit;
+    verdicts_[(first_verdict_ + verdict_count_) % verdicts_.size()] = verdict_of(header, source, judgement);
     ++verdict_count_;
   }
 

@@ -264,4 +264,20 @@ void fill(const Setup& setup, const Core& core, AlignmentStatus& out) {
   set_text(out.advice, advice(c, core, config, sigma));
 }
 
+Verdict verdict_of(const SampleHeader& header, SourceKind source, const Judgement& judgement) {
+  Verdict verdict;
+  verdict.header = header;
+  verdict.source = source;
+  verdict.model = judgement.model;
+  verdict.kind = judgement.kind;
+  verdict.dimensions = judgement.dimensions;
+  for (std::size_t i = 0; i < judgement.dimensions; ++i) {
+    verdict.innovation[i] = judgement.innovation[i];
+    verdict.innovation_sigma[i] = judgement.innovation_sigma[i];
+  }
+  verdict.test_ratio = judgement.test_ratio;
+  verdict.limit = judgement.limit;
+  return verdict;
+}
+
 }  // namespace fathom::estimation

@@ -3,6 +3,7 @@
 #include "estimation/core.hpp"
 #include "samples/alignment_status.hpp"
 #include "samples/nav_detail.hpp"
+#include "samples/verdict.hpp"
 
 namespace fathom::estimation {
 
@@ -10,5 +11,8 @@ namespace fathom::estimation {
 void fill(const Setup& setup, const Core& core, NavState& out);
 void fill(const Setup& setup, const Core& core, NavDetail& out);
 void fill(const Setup& setup, const Core& core, AlignmentStatus& out);
+
+/// What is published of a judgement, under the header of the sample judged.
+[[nodiscard]] Verdict verdict_of(const SampleHeader& header, SourceKind source, const Judgement& judgement);
 
 }  // namespace fathom::estimation

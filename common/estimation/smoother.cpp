@@ -19,22 +19,6 @@ EngineConfig checked(const EngineConfig& config) {
   return config;
 }
 
-Verdict verdict_of(const SampleHeader& header, SourceKind source, const Judgement& judgement) {
-  Verdict verdict;
-  verdict.header = header;
-  verdict.source = source;
-  verdict.model = judgement.model;
-  verdict.kind = judgement.kind;
-  verdict.dimensions = judgement.dimensions;
-  for (std::size_t i = 0; i < judgement.dimensions; ++i) {
-    verdict.innovation[i] = judgement.innovation[i];
-    verdict.innovation_sigma[i] = judgement.innovation_sigma[i];
-  }
-  verdict.test_ratio = judgement.test_ratio;
-  verdict.limit = judgement.limit;
-  return verdict;
-}
-
 }  // namespace
 
 /// What the filter did in some ticks, and the navigator after each of them.
