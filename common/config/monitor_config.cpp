@@ -12,6 +12,7 @@ namespace {
 using health::AlignmentWatchConfig;
 using health::ExpectedSensor;
 using health::ExpectedService;
+using health::ForecastWatchConfig;
 using health::GpsOutageConfig;
 using health::HealthConfig;
 using health::NavWatchConfig;
@@ -46,8 +47,31 @@ void describe(Schema<OutageLimits>& s) {
       .range(0, 60);
 }
 
+void describe(Schema<ForecastWatchConfig>& s) {
+  s.field("limit", &ForecastWatchConfig::limit,
+          "which of fusion's forecast limits grades an outage; empty: its length alone");
+  s.field("warning_s", &ForecastWatchConfig::warning_s,
+          "an outage is a warning when the limit will be passed sooner than this")
+      .unit("s")
+      .range(0, 1e5);
+  s.field("critical_s", &ForecastWatchConfig::critical_s, "and critical when sooner than this")
+      .unit("s")
+      .range(0, 1e5);
+  s.field("hold_s", &ForecastWatchConfig::hold_s, "every forecast of this time has to say so")
+      .unit("s")
+      .range(0, 60);
+  s.check([](const ForecastWatchConfig& forecast) -> Fault {
+    if (forecast.critical_s > forecast.warning_s) return {"critical_s", "at most warning_s"};
+    return {};
+  });
+}
+
 void describe(Schema<GpsOutageConfig>& s) {
   s.include(&GpsOutageConfig::outage);
+  s.field("warning_s", &GpsOutageConfig::warning_s,
+          "an outage this long is a warning, a shorter one a notice")
+      .unit("s")
+      .range(0, 1e7);
   s.field("critical_s", &GpsOutageConfig::critical_s, "an outage this long is critical")
       .unit("s")
       .range(1, 1e7);
@@ -58,6 +82,11 @@ void describe(Schema<GpsOutageConfig>& s) {
       .range(1, 1e5);
   s.field("per_receiver_alarms", &GpsOutageConfig::per_receiver_alarms,
           "with several receivers, an alarm for each besides the common one");
+  s.field("forecast", &GpsOutageConfig::forecast, "outages graded by what navigation forecasts");
+  s.check([](const GpsOutageConfig& gps) -> Fault {
+    if (gps.warning_s > gps.critical_s) return {"warning_s", "at most critical_s"};
+    return {};
+  });
 }
 
 void describe(Schema<NavWatchConfig>& s) {

@@ -1,5 +1,6 @@
 #include "health/gps_outage.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,7 +29,7 @@ void GpsOutage::add(const GpsSample& sample, const Instant& now) {
   auto found = receivers_.find(name);
   if (found == receivers_.end()) {
     if (receivers_.size() >= kMaxReceivers) return;
-    found = receivers_.emplace(name, Receiver{OutageClock(config_.outage), 0, false}).first;
+    found = receivers_.emplace(name, Receiver{OutageClock(config_.outage)}).first;
   }
   Receiver& receiver = found->second;
   const bool repeated = receiver.heard && sample.header.stamp_ns == receiver.last_stamp_ns;
@@ -58,7 +59,61 @@ void GpsOutage::unusable(const Name& name, Receiver& receiver) {
 
 void GpsOutage::evaluate(const Instant& now) {
   overall_.evaluate(now.monotonic_ns);
-  for (auto& [name, receiver] : receivers_) receiver.clock.evaluate(now.monotonic_ns);
+  grade(overall_, overall_severity_, now);
+  for (auto& [name, receiver] : receivers_) {
+    receiver.clock.evaluate(now.monotonic_ns);
+    grade(receiver.clock, receiver.severity, now);
+  }
+}
+
+void GpsOutage::doubt(const Name& name, TimeNs since_monotonic_ns) {
+  const auto found = receivers_.find(name);
+  if (found == receivers_.end()) return;
+  found->second.clock.doubt(since_monotonic_ns);
+  if (name != overall_source_) return;
+  // What the other receivers gave in the meantime remains.
+  TimeNs believed_ns = since_monotonic_ns;
+  for (const auto& [other, receiver] : receivers_) {
+    if (other != name && receiver.clock.ever_usable() && !receiver.clock.active()) {
+      believed_ns = std::max(believed_ns, receiver.clock.last_usable_ns());
+    }
+  }
+  overall_.doubt(believed_ns);
+}
+
+void GpsOutage::grade(const OutageClock& clock, Severity& severity, const Instant& now) const {
+  if (!clock.active()) {
+    severity = Severity::notice;
+    return;
+  }
+  const double outage_s = clock.now_s();
+  const Severity by_length = outage_s >= config_.critical_s  ? Severity::critical
+                             : outage_s >= config_.warning_s ? Severity::warning
+                                                             : Severity::notice;
+  severity = std::max({severity, by_length, forecast_.severity(now)});
+}
+
+ReceiverOutage GpsOutage::describe(const Name& name, const OutageClock& clock, Severity severity,
+                                   const Instant& now) {
+  ReceiverOutage out;
+  out.name = name;
+  out.active = clock.active();
+  out.severity = severity;
+  if (out.active) out.since_ns = now.utc_ns - (now.monotonic_ns - clock.last_usable_ns());
+  out.outage_s = clock.now_s();
+  out.longest_s = clock.longest_s();
+  out.total_s = clock.total_s();
+  out.count = clock.count();
+  return out;
+}
+
+std::vector<ReceiverOutage> GpsOutage::receivers(const Instant& now) const {
+  std::vector<ReceiverOutage> out;
+  out.reserve(receivers_.size());
+  for (const auto& [name, receiver] : receivers_) {
+    out.push_back(describe(name, receiver.clock, receiver.severity, now));
+  }
+  return out;
 }
 
 const OutageClock* GpsOutage::receiver(const Name& name) const {
@@ -67,10 +122,11 @@ const OutageClock* GpsOutage::receiver(const Name& name) const {
 }
 
 void GpsOutage::report(AlarmBook& book, const Instant& now) const {
-  report_outage(book, now, "gps_outage", overall_, "from any receiver");
+  report_outage(book, now, "gps_outage", overall_, overall_severity_, "from any receiver");
   if (config_.per_receiver_alarms && receivers_.size() > 1) {
     for (const auto& [name, receiver] : receivers_) {
-      report_outage(book, now, alarm_key("gps_outage", name.view()), receiver.clock, "from " + name.str());
+      report_outage(book, now, alarm_key("gps_outage", name.view()), receiver.clock, receiver.severity,
+                    "from " + name.str());
     }
   }
   const Name no_fix = "gps_no_fix";
@@ -91,16 +147,22 @@ void GpsOutage::report(AlarmBook& book, const Instant& now) const {
 }
 
 void GpsOutage::report_outage(AlarmBook& book, const Instant& now, const Name& key, const OutageClock& clock,
-                              const std::string& who) const {
+                              Severity severity, const std::string& who) const {
   if (!clock.active()) {
     book.release(key, now);
     return;
   }
   const double outage_s = clock.now_s();
+  const double to_limit_s = forecast_.time_to_limit_s(now);
+  const std::string forecast =
+      std::isfinite(to_limit_s)
+          ? sentence("; %s is forecast in %s", forecast_.limit().c_str(), duration_text(to_limit_s).c_str())
+          : std::string();
   book.hold({.key = key,
-             .severity = outage_s >= config_.critical_s ? Severity::critical : Severity::warning,
-             .text = sentence("No usable GPS fix %s for %s (limit %s).", who.c_str(),
-                              duration_text(outage_s).c_str(), duration_text(config_.outage.limit_s).c_str()),
+             .severity = severity,
+             .text = sentence("No usable GPS fix %s for %s (limit %s)%s.", who.c_str(),
+                              duration_text(outage_s).c_str(), duration_text(config_.outage.limit_s).c_str(),
+                              forecast.c_str()),
              .value = outage_s,
              .limit = config_.outage.limit_s,
              .began_ago_s = outage_s,

@@ -29,6 +29,11 @@ void OutageClock::unusable() {
   run_ = 0;
 }
 
+void OutageClock::doubt(TimeNs since_monotonic_ns) {
+  run_ = 0;
+  if (!active_) last_usable_ns_ = std::min(last_usable_ns_, since_monotonic_ns);
+}
+
 void OutageClock::evaluate(TimeNs monotonic_ns) {
   evaluated_ns_ = std::max(evaluated_ns_, monotonic_ns);
   if (!ever_usable_) return;

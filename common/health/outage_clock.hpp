@@ -26,11 +26,16 @@ class OutageClock {
   void usable(TimeNs monotonic_ns);
   /// A fix that must not be trusted, or a message without a fix.
   void unusable();
+  /// What was usable since then was not: fixes are counted from there. Within an outage it only breaks the
+  /// run.
+  void doubt(TimeNs since_monotonic_ns);
   /// To be called often: outages begin and end here and in usable().
   void evaluate(TimeNs monotonic_ns);
 
   [[nodiscard]] bool ever_usable() const { return ever_usable_; }
   [[nodiscard]] bool active() const { return active_; }
+  /// The last usable fix; during an outage the one before it.
+  [[nodiscard]] TimeNs last_usable_ns() const { return last_usable_ns_; }
   /// Length of the present outage, 0 when there is none, NaN before the first usable fix. As of evaluate().
   [[nodiscard]] double now_s() const;
   [[nodiscard]] double longest_s() const;

@@ -48,6 +48,10 @@ void VehicleHealth::add(const Verdict& verdict, const Instant& now) {
   refusal_.add(verdict, now);
 }
 
+void VehicleHealth::add(const Forecast& forecast, const Instant& now) {
+  if (ours(forecast.header)) gps_.add(forecast, now);
+}
+
 int VehicleHealth::apply(const Command& command, const Instant& now) {
   if (!ours(command.header) || command.kind != CommandKind::acknowledge_alarm) return 0;
   return book_.acknowledge(command.target.view(), now);
@@ -93,12 +97,15 @@ MonitorStatus VehicleHealth::status(const Instant& now) const {
   status.alignment =
       nav_.mode() == NavMode::none && !nav_.fresh() ? AlignmentPhase::none : alignment_.phase();
   status.nav_state_age_s = nav_.age_s(now);
-  const OutageClock& outage = gps_.overall();
-  status.gps_outage_active = outage.active();
-  status.gps_outage_s = outage.now_s();
-  status.gps_outage_longest_s = outage.longest_s();
-  status.gps_outage_total_s = outage.total_s();
-  status.gps_outage_count = outage.count();
+  const ReceiverOutage outage = gps_.vehicle(now);
+  status.gps_outage_active = outage.active;
+  status.gps_outage_severity = outage.severity;
+  status.gps_outage_since_ns = outage.since_ns;
+  status.gps_outage_s = outage.outage_s;
+  status.gps_outage_longest_s = outage.longest_s;
+  status.gps_outage_total_s = outage.total_s;
+  status.gps_outage_count = outage.count;
+  status.receivers = gps_.receivers(now);
   status.alarms_active = book_.active_count();
   status.alarms_unacknowledged = book_.unacknowledged_count();
   status.sensors = sensors_.items(now);

@@ -42,6 +42,7 @@ class VehicleHealth {
   void add(const AlignmentStatus& status, const Instant& now);
   void add(const ServiceStatus& status, const Instant& now);
   void add(const Verdict& verdict, const Instant& now);
+  void add(const Forecast& forecast, const Instant& now);
   /// Acknowledgements; other commands are not for the monitor. Returns how many alarms were acknowledged.
   int apply(const Command& command, const Instant& now);
 

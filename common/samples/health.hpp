@@ -40,6 +40,18 @@ struct WatchedItem {
   double rate_hz = kUnknown;  ///< over the last seconds
 };
 
+/// What one satellite receiver gave, by the monitor's own clock.
+struct ReceiverOutage {
+  Name name;
+  bool active = false;
+  Severity severity = Severity::notice;  ///< of the present outage
+  TimeNs since_ns = 0;         ///< UTC of the last usable fix before the present outage, 0 when there is none
+  double outage_s = kUnknown;  ///< length of the present outage, 0 when none, NaN before the first fix
+  double longest_s = 0.0;
+  double total_s = 0.0;
+  std::uint32_t count = 0;
+};
+
 struct MonitorStatus {
   SampleHeader header;
   bool healthy = false;
@@ -47,14 +59,17 @@ struct MonitorStatus {
   AlignmentPhase alignment = AlignmentPhase::none;
   double nav_state_age_s = kUnknown;
   bool gps_outage_active = false;
+  Severity gps_outage_severity = Severity::notice;  ///< of the present outage
+  TimeNs gps_outage_since_ns = 0;  ///< UTC of the last usable fix before the present outage, 0: none
   double gps_outage_s = kUnknown;  ///< length of the present outage, 0 when none, NaN before the first fix
   double gps_outage_longest_s = 0.0;
   double gps_outage_total_s = 0.0;
   std::uint32_t gps_outage_count = 0;
   std::uint32_t alarms_active = 0;
   std::uint32_t alarms_unacknowledged = 0;
-  std::vector<WatchedItem> sensors;   ///< at most 32
-  std::vector<WatchedItem> services;  ///< at most 32
+  std::vector<WatchedItem> sensors;       ///< at most 32
+  std::vector<WatchedItem> services;      ///< at most 32
+  std::vector<ReceiverOutage> receivers;  ///< at most 16
 };
 
 enum class ServiceState : std::uint8_t { starting = 0, healthy = 1, degraded = 2, stopping = 3 };

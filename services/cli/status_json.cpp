@@ -69,11 +69,25 @@ json alignment(const StatusView& view) {
 json gps(const StatusView& view) {
   if (!view.monitor) return nullptr;
   const MonitorStatus& monitor = view.monitor->sample;
+  json receivers = json::array();
+  for (const ReceiverOutage& receiver : monitor.receivers) {
+    receivers.push_back({{"name", receiver.name.view()},
+                         {"outage", receiver.active},
+                         {"severity", to_string(receiver.severity)},
+                         {"since_utc", instant(receiver.since_ns)},
+                         {"outage_s", number(receiver.outage_s)},
+                         {"longest_s", number(receiver.longest_s)},
+                         {"total_s", number(receiver.total_s)},
+                         {"count", receiver.count}});
+  }
   return {{"outage", monitor.gps_outage_active},
+          {"severity", to_string(monitor.gps_outage_severity)},
+          {"since_utc", instant(monitor.gps_outage_since_ns)},
           {"outage_s", number(monitor.gps_outage_s)},
           {"longest_s", number(monitor.gps_outage_longest_s)},
           {"total_s", number(monitor.gps_outage_total_s)},
-          {"count", monitor.gps_outage_count}};
+          {"count", monitor.gps_outage_count},
+          {"receivers", receivers}};
 }
 
 json forecast(const StatusView& view) {

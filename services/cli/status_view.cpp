@@ -194,16 +194,32 @@ class Table {
   void gps() {
     if (!view_.monitor) return;
     const MonitorStatus& monitor = view_.monitor->sample;
-    Line line = row("gps");
-    if (!known(monitor.gps_outage_s)) {
+    put(outage(row("gps"), {{},
+                            monitor.gps_outage_active,
+                            monitor.gps_outage_severity,
+                            monitor.gps_outage_since_ns,
+                            monitor.gps_outage_s,
+                            monitor.gps_outage_longest_s,
+                            monitor.gps_outage_total_s,
+                            monitor.gps_outage_count}));
+    if (monitor.receivers.size() < 2) return;  // one receiver's outages are the vehicle's
+    for (const ReceiverOutage& receiver : monitor.receivers) {
+      put(outage(row("  " + receiver.name.str()), receiver));
+    }
+  }
+
+  static Line outage(Line line, const ReceiverOutage& what) {
+    if (!known(what.outage_s)) {
       line.add("no fix yet", Style::warn);
-    } else if (monitor.gps_outage_active) {
-      line.add("no fix for " + number("%.1f", monitor.gps_outage_s) + " s", Style::bad);
+    } else if (what.active) {
+      line.add("no fix for " + number("%.1f", what.outage_s) + " s since " +
+                   to_iso8601(what.since_ns, 0).substr(11) + ", " + std::string(to_string(what.severity)),
+               what.severity == Severity::notice ? Style::warn : Style::bad);
     } else {
       line.add("fix", Style::good);
     }
-    put(line.add(text("  outages %u, longest %.1f s, in all %.1f s", monitor.gps_outage_count,
-                      monitor.gps_outage_longest_s, monitor.gps_outage_total_s)));
+    line.add(text("  outages %u, longest %.1f s, in all %.1f s", what.count, what.longest_s, what.total_s));
+    return line;
   }
 
   void forecast() {

@@ -32,7 +32,7 @@ health::HealthConfig health_of(const config::MonitorConfig& config) {
 /// The part of a status that is worth telling at once when it changes.
 auto headline(const MonitorStatus& status) {
   return std::tuple(status.healthy, status.mode, status.alignment, status.gps_outage_active,
-                    status.alarms_active, status.alarms_unacknowledged);
+                    status.gps_outage_severity, status.alarms_active, status.alarms_unacknowledged);
 }
 
 }  // namespace
@@ -49,6 +49,7 @@ struct MonitorService::Impl {
     listen<AlignmentStatus>();
     listen<ServiceStatus>();
     listen<Verdict>();
+    listen<Forecast>();
     readers.push_back(std::make_shared<bus::Reader<Command>>(
         host.participant(), [this](const Command& command, const bus::SampleInfo&) { apply(command); }));
     host.on_tick(from_seconds(1.0 / config.evaluation_hz), [this] { tick(); });

@@ -18,6 +18,9 @@ struct Mapping<MonitorStatus> {
     copy_enum<AlignmentPhase::lost, v1::ALIGNMENT_PHASE_LOST>(copy, plain.alignment, wire.alignment());
     copy(plain.nav_state_age_s, wire.nav_state_age_s());
     copy(plain.gps_outage_active, wire.gps_outage_active());
+    copy_enum<Severity::critical, v1::SEVERITY_CRITICAL>(copy, plain.gps_outage_severity,
+                                                         wire.gps_outage_severity());
+    copy(plain.gps_outage_since_ns, wire.gps_outage_since_ns());
     copy(plain.gps_outage_s, wire.gps_outage_s());
     copy(plain.gps_outage_longest_s, wire.gps_outage_longest_s());
     copy(plain.gps_outage_total_s, wire.gps_outage_total_s());
@@ -32,6 +35,17 @@ struct Mapping<MonitorStatus> {
     };
     copy.sequence(plain.sensors, wire.sensors(), 32, item);
     copy.sequence(plain.services, wire.services(), 32, item);
+    const auto receiver = [](auto& each, auto& outage, auto& w) {
+      each(outage.name, w.name());
+      each(outage.active, w.active());
+      copy_enum<Severity::critical, v1::SEVERITY_CRITICAL>(each, outage.severity, w.severity());
+      each(outage.since_ns, w.since_ns());
+      each(outage.outage_s, w.outage_s());
+      each(outage.longest_s, w.longest_s());
+      each(outage.total_s, w.total_s());
+      each(outage.count, w.count());
+    };
+    copy.sequence(plain.receivers, wire.receivers(), 16, receiver);
   }
 
   static std::string key_text(const MonitorStatus& sample) { return sample.header.vehicle.str(); }

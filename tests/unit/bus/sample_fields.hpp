@@ -118,8 +118,12 @@ void fields(Is<WatchedItem> auto& s, auto visit) {
   visit(a, b, c, d);
 }
 void fields(Is<MonitorStatus> auto& s, auto visit) {
-  auto& [header, a, b, c, d, e, f, g, h, i, j, k, sensors, services] = s;
-  visit(header, a, b, c, d, e, f, g, h, i, j, k, sensors, services);
+  auto& [header, a, b, c, d, e, f, g, h, i, j, k, l, m, sensors, services, receivers] = s;
+  visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m, sensors, services, receivers);
+}
+void fields(Is<ReceiverOutage> auto& s, auto visit) {
+  auto& [a, b, c, d, e, f, g, h] = s;
+  visit(a, b, c, d, e, f, g, h);
 }
 void fields(Is<ServiceRate> auto& s, auto visit) {
   auto& [a, b] = s;
@@ -200,7 +204,7 @@ enum class Lists { empty, one, full };
 /// The bounds that the contract sets for lists held in vectors.
 template <class T>
 constexpr std::size_t bound_of() {
-  return std::is_same_v<T, ServiceRate> ? 16 : 32;
+  return std::is_same_v<T, ServiceRate> || std::is_same_v<T, ReceiverOutage> ? 16 : 32;
 }
 
 /// Gives every field a value that no other field of the sample has.

@@ -187,19 +187,112 @@ TEST_F(GpsOutageTest, AlarmIsFlaggedWithinATickOfTheLimitAndSaysHowLong) {
   EXPECT_NEAR(flagged, 24.5, 0.06);
   const Alarm* alarm = book.find("gps_outage");
   ASSERT_NE(alarm, nullptr);
-  EXPECT_EQ(alarm->severity, Severity::warning);
+  EXPECT_EQ(alarm->severity, Severity::warning) << "longer than 30 s";
   EXPECT_NEAR(to_seconds(alarm->since_ns - kEpoch), 19.5, 0.01);
   EXPECT_NEAR(alarm->value, 40.5, 0.1);
   EXPECT_EQ(alarm->limit, 5.0);
   EXPECT_NE(alarm->text.find("40."), std::string::npos) << alarm->text;
 }
 
-TEST_F(GpsOutageTest, ALongOutageBecomesCritical) {
+TEST_F(GpsOutageTest, ItsSeverityGrowsWithItsLength) {
   outage.add(gps(0.0), at(0.0));
-  step(100.0);
+  for (double t = 0.0; t < 29.9; t += 0.5) step(t);
+  EXPECT_EQ(book.find("gps_outage")->severity, Severity::notice);
+  step(30.5);
   EXPECT_EQ(book.find("gps_outage")->severity, Severity::warning);
   step(3600.5);
   EXPECT_EQ(book.find("gps_outage")->severity, Severity::critical);
+}
+
+Forecast forecast(double time_to_limit_s) {
+  Forecast out;
+  out.limit_count = 2;
+  out.limits[0] = {"horizontal_10m", 10.0, 1.0, 0.1};  // passed soon, and not what outages are graded by
+  out.limits[1] = {"horizontal_100m", 100.0, 1.0, time_to_limit_s};
+  return out;
+}
+
+TEST_F(GpsOutageTest, AForecastMakesItSevereSoonerAndOnlyWhenItPersists) {
+  outage.add(gps(0.0), at(0.0));
+  for (double t = 0.0; t < 10.0; t += 0.5) {
+    outage.add(forecast(t == 7.0 ? 10.0 : 90.0), at(t));  // one forecast that stands alone
+    step(t);
+  }
+  EXPECT_EQ(book.find("gps_outage")->severity, Severity::notice);
+  for (double t = 10.0; t < 12.5; t += 0.5) outage.add(forecast(50.0), at(t)), step(t);
+  EXPECT_EQ(book.find("gps_outage")->severity, Severity::warning);
+  for (double t = 12.5; t < 15.0; t += 0.5) outage.add(forecast(14.0), at(t)), step(t);
+  EXPECT_EQ(book.find("gps_outage")->severity, Severity::critical);
+  EXPECT_NE(book.find("gps_outage")->text.find("horizontal_100m is forecast in 14.0 s"), std::string::npos)
+      << book.find("gps_outage")->text;
+  for (double t = 15.0; t < 20.0; t += 0.5) outage.add(forecast(90.0), at(t)), step(t);
+  EXPECT_EQ(book.find("gps_outage")->severity, Severity::critical) << "a grade does not fall while it lasts";
+  EXPECT_EQ(outage.vehicle(at(20.0)).severity, Severity::critical);
+}
+
+TEST_F(GpsOutageTest, AForecastOfADeadFusionCountsNoLonger) {
+  outage.add(gps(0.0), at(0.0));
+  outage.add(forecast(14.0), at(0.0));  // and no more
+  for (double t = 0.0; t < 29.0; t += 0.5) step(t);
+  EXPECT_EQ(book.find("gps_outage")->severity, Severity::notice);
+}
+
+TEST_F(GpsOutageTest, ForecastsWithoutAnOutageRaiseNothing) {
+  for (double t = 0.0; t < 60.0; t += 0.5) {
+    outage.add(gps(t), at(t));
+    outage.add(forecast(3.0), at(t));
+    step(t);
+  }
+  EXPECT_EQ(book.find("gps_outage"), nullptr);
+}
+
+TEST_F(GpsOutageTest, BooksAreKeptPerReceiver) {
+  for (double t = 0.0; t < 10.0; t += 0.5) {
+    outage.add(gps(t, true, "bow"), at(t));
+    outage.add(gps(t, true, "stern"), at(t));
+    step(t);
+  }
+  for (double t = 10.0; t < 50.0; t += 0.5) {
+    outage.add(gps(t, t >= 20.0, "bow"), at(t));
+    outage.add(gps(t, false, "stern"), at(t));
+    step(t);
+  }
+  const auto receivers = outage.receivers(at(49.5));
+  ASSERT_EQ(receivers.size(), 2u);
+  EXPECT_EQ(receivers[0].name, Name("bow"));
+  EXPECT_FALSE(receivers[0].active);
+  EXPECT_EQ(receivers[0].since_ns, 0);
+  EXPECT_EQ(receivers[0].outage_s, 0.0);
+  EXPECT_NEAR(receivers[0].longest_s, 10.5, 0.01);
+  EXPECT_NEAR(receivers[0].total_s, 10.5, 0.01);
+  EXPECT_EQ(receivers[0].count, 1u);
+  EXPECT_TRUE(receivers[1].active);
+  EXPECT_NEAR(to_seconds(receivers[1].since_ns - kEpoch), 9.5, 0.01);
+  EXPECT_NEAR(receivers[1].outage_s, 40.0, 0.01);
+  EXPECT_EQ(receivers[1].severity, Severity::warning);
+  EXPECT_NEAR(outage.vehicle(at(49.5)).longest_s, 10.5, 0.01)
+      << "the vehicle had no fix only while neither had";
+}
+
+TEST_F(GpsOutageTest, FixesDoubtedAfterTheFactNeverWere) {
+  for (double t = 0.0; t < 20.0; t += 0.5) outage.add(gps(t), at(t)), step(t);
+  EXPECT_FALSE(alarmed("gps_outage"));
+  outage.doubt("gps", at(10.0).monotonic_ns);
+  step(20.0);
+  EXPECT_TRUE(alarmed("gps_outage"));
+  EXPECT_NEAR(outage.overall().now_s(), 10.0, 0.01);
+}
+
+TEST_F(GpsOutageTest, DoubtInOneReceiverLeavesTheOthersFixes) {
+  for (double t = 0.0; t < 20.0; t += 0.5) {
+    outage.add(gps(t, true, "bow"), at(t));
+    outage.add(gps(t, true, "stern"), at(t));
+    step(t);
+  }
+  outage.doubt("stern", at(5.0).monotonic_ns);
+  step(20.0);
+  EXPECT_FALSE(alarmed("gps_outage"));
+  EXPECT_TRUE(alarmed("gps_outage:stern"));
 }
 
 TEST_F(GpsOutageTest, NoFirstFixIsItsOwnAlarm) {

@@ -46,7 +46,12 @@ class Vehicle {
       if (tick_ % 5 == 0) {
         health.evaluate(now);
         for (const Alarm& alarm : health.take_changes()) {
-          if (alarm.active) raised.insert(alarm.alarm.str());
+          // Once per occurrence: what becomes more severe is not raised anew.
+          if (!alarm.active) {
+            active_.erase(alarm.alarm.str());
+          } else if (active_.insert(alarm.alarm.str()).second) {
+            raised.insert(alarm.alarm.str());
+          }
         }
       }
     }
@@ -55,6 +60,7 @@ class Vehicle {
   [[nodiscard]] MonitorStatus status() const { return health.status(at(now_s_, utc_step_s)); }
 
  private:
+  std::set<std::string> active_;
   std::int64_t tick_ = 0;
   double now_s_ = 0.0;
 };
