@@ -12,6 +12,7 @@ namespace {
 using health::AlignmentWatchConfig;
 using health::ExpectedSensor;
 using health::ExpectedService;
+using health::FixWatchConfig;
 using health::ForecastWatchConfig;
 using health::GpsOutageConfig;
 using health::HealthConfig;
@@ -19,6 +20,7 @@ using health::NavWatchConfig;
 using health::OutageLimits;
 using health::RefusalWatchConfig;
 using health::ServiceWatchConfig;
+using health::StampWatchConfig;
 using Fault = std::pair<std::string, std::string>;
 
 std::vector<std::pair<std::string, Severity>> severities() {
@@ -130,6 +132,28 @@ void describe(Schema<RefusalWatchConfig>& s) {
       .range(1, 10000);
 }
 
+void describe(Schema<FixWatchConfig>& s) {
+  s.field("frozen_path_m", &FixWatchConfig::frozen_path_m,
+          "a fix repeated bit by bit while the vehicle travelled this far is frozen")
+      .unit("m")
+      .range(0.1, 1e5);
+  s.field("disagreement_m", &FixWatchConfig::disagreement_m,
+          "fixes that moved this much otherwise than a velocity says are an alarm")
+      .unit("m")
+      .range(0.1, 1e5);
+  s.field("window_s", &FixWatchConfig::window_s, "over at most this long").unit("s").range(1, 60);
+}
+
+void describe(Schema<StampWatchConfig>& s) {
+  s.field("duplicates", &StampWatchConfig::duplicates, "so many repeated stamps of a sensor are an alarm")
+      .range(1, 10000);
+  s.field("window_s", &StampWatchConfig::window_s, "within this time").unit("s").range(1, 3600);
+  s.field("clock_jump_s", &StampWatchConfig::clock_jump_s,
+          "a lasting change of stamp against arrival by more than this is an alarm")
+      .unit("s")
+      .range(0.05, 3600);
+}
+
 void describe(Schema<ExpectedSensor>& s) {
   s.field("name", &ExpectedSensor::name, "of the sensor, as its bridge calls it").required();
   s.field("kind", &ExpectedSensor::kind, "what it measures").words(sensor_kinds()).required();
@@ -164,6 +188,8 @@ void describe(Schema<HealthConfig>& s) {
   s.field("alignment", &HealthConfig::alignment, "alignment");
   s.field("service_life_signs", &HealthConfig::service, "how services are judged");
   s.field("refusals", &HealthConfig::refusal, "sensors that talk but that fusion does not believe");
+  s.field("fixes", &HealthConfig::fixes, "fixes that look healthy and are not");
+  s.field("stamps", &HealthConfig::stamps, "times that sensors give their samples");
   s.field("sensors", &HealthConfig::sensors, "sensors that have to be there, at most 32");
   s.field("services", &HealthConfig::services, "services that have to be there, at most 32");
   s.check([](const HealthConfig& health) -> Fault {

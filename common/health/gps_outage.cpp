@@ -24,7 +24,7 @@ bool is_usable(const GpsSample& sample) {
          std::isfinite(sample.longitude_rad) && std::abs(sample.latitude_rad) <= std::numbers::pi / 2;
 }
 
-void GpsOutage::add(const GpsSample& sample, const Instant& now) {
+void GpsOutage::add(const GpsSample& sample, const Instant& now, bool believed) {
   const Name& name = sample.header.sensor;
   auto found = receivers_.find(name);
   if (found == receivers_.end()) {
@@ -36,7 +36,7 @@ void GpsOutage::add(const GpsSample& sample, const Instant& now) {
   receiver.heard = true;
   receiver.last_stamp_ns = sample.header.stamp_ns;
   if (repeated) return;
-  if (!is_usable(sample)) {
+  if (!believed || !is_usable(sample)) {
     unusable(name, receiver);
     return;
   }

@@ -38,7 +38,8 @@ class GpsOutage {
   GpsOutage(const GpsOutageConfig& config, const Instant& start)
       : config_(config), start_(start), overall_(config.outage), forecast_(config.forecast) {}
 
-  void add(const GpsSample& sample, const Instant& now);
+  /// `believed` false: the fix is known to be wrong whatever it claims.
+  void add(const GpsSample& sample, const Instant& now, bool believed = true);
   /// Verdicts of other sources are ignored.
   void add(const Verdict& verdict);
   void add(const Forecast& forecast, const Instant& now) { forecast_.add(forecast, now); }

@@ -25,6 +25,8 @@ void RefusalWatch::add(const Verdict& verdict, const Instant& now) {
   Source& source = found->second;
   if (verdict.kind == VerdictKind::used) {
     source.refused = 0;
+  } else if (verdict.source == SourceKind::gps && verdict.kind == VerdictKind::frozen) {
+    source.refused = 0;  // FixWatch raises the alarm of a frozen fix
   } else if (is_disagreement(verdict.kind)) {
     if (source.refused == 0) source.since_ns = now.monotonic_ns;
     if (source.refused < std::numeric_limits<int>::max()) ++source.refused;

@@ -2,35 +2,65 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "health/text.hpp"
 
 namespace fathom::health {
 
-VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start)
+namespace {
+
+std::vector<std::pair<SourceKind, Name>> names_of(const std::vector<ExpectedSensor>& sensors) {
+  std::vector<std::pair<SourceKind, Name>> names;
+  names.reserve(sensors.size());
+  for (const ExpectedSensor& sensor : sensors) names.emplace_back(sensor.kind, sensor.name);
+  return names;
+}
+
+}  // namespace
+
+VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start, DescribeWriter describe)
     : config_(config),
       utc_offset_ns_(start.utc_ns - start.monotonic_ns),
+      describe_(std::move(describe)),
       book_(config.vehicle),
       gps_(config.gps, start),
+      fixes_(config.fixes),
+      stamps_(config.stamps),
+      writers_(names_of(config.sensors)),
       nav_(config.nav, config.startup_s, start),
       alignment_(config.alignment),
       refusal_(config.refusal),
       sensors_(config.sensors, config.startup_s, start),
       services_(config.services, config.service, config.startup_s, start) {}
 
-void VehicleHealth::heard(SourceKind kind, const SampleHeader& header, const Instant& now) {
-  if (ours(header)) sensors_.heard(kind, header.sensor, now);
+void VehicleHealth::heard(SourceKind kind, const SampleHeader& header, const Instant& now,
+                          const WriterId& writer) {
+  if (!ours(header)) return;
+  sensors_.heard(kind, header.sensor, now);
+  stamps_.heard(kind, header, now);
+  writers_.heard(kind, header.sensor, writer, now);
 }
 
-void VehicleHealth::add(const GpsSample& sample, const Instant& now) {
+void VehicleHealth::add(const GpsSample& sample, const Instant& now, const WriterId& writer) {
   if (!ours(sample.header)) return;
-  sensors_.heard(SourceKind::gps, sample.header.sensor, now);
-  gps_.add(sample, now);
+  heard(SourceKind::gps, sample.header, now, writer);
+  const bool believed = fixes_.add(sample, now);
+  gps_.add(sample, now, believed);
+  // It was frozen before that could be known.
+  if (!believed) gps_.doubt(sample.header.sensor, fixes_.same_since_ns(sample.header.sensor));
+}
+
+void VehicleHealth::add(const DvlSample& sample, const Instant& now, const WriterId& writer) {
+  if (!ours(sample.header)) return;
+  heard(SourceKind::dvl, sample.header, now, writer);
+  fixes_.add(sample, now);
 }
 
 void VehicleHealth::add(const NavState& state, const Instant& now) {
   if (!ours(state.header)) return;
   nav_.add(state, now);
+  fixes_.add(state, now);
   alignment_.add(state, now);
 }
 
@@ -39,12 +69,15 @@ void VehicleHealth::add(const AlignmentStatus& status, const Instant& now) {
 }
 
 void VehicleHealth::add(const ServiceStatus& status, const Instant& now) {
-  if (ours(status.header)) services_.add(status, now);
+  if (!ours(status.header)) return;
+  services_.add(status, now);
+  stamps_.add(status, now);
 }
 
 void VehicleHealth::add(const Verdict& verdict, const Instant& now) {
   if (!ours(verdict.header)) return;
   gps_.add(verdict);
+  fixes_.add(verdict);
   refusal_.add(verdict, now);
 }
 
@@ -64,6 +97,9 @@ void VehicleHealth::evaluate(const Instant& now) {
   sensors_.evaluate(now);
   services_.evaluate(now);
   gps_.report(book_, now);
+  fixes_.report(book_, now);
+  stamps_.report(book_, now);
+  writers_.report(book_, now, describe_);
   nav_.report(book_, now);
   alignment_.report(book_, now);
   refusal_.report(book_, now);
@@ -79,6 +115,7 @@ void VehicleHealth::follow_utc(const Instant& now) {
   utc_offset_ns_ = offset_ns;
   if (std::abs(step_ns) < kStep) return;
   book_.shift_utc(step_ns);
+  stamps_.restart(now);
   book_.event({.key = "clock_step",
                .severity = Severity::notice,
                .text = sentence("The clock of this host was set %s by %s.", step_ns > 0 ? "forward" : "back",

@@ -4,12 +4,15 @@
 
 #include "health/alarm_book.hpp"
 #include "health/alignment_watch.hpp"
+#include "health/fix_watch.hpp"
 #include "health/gps_outage.hpp"
 #include "health/instant.hpp"
 #include "health/nav_watch.hpp"
 #include "health/refusal_watch.hpp"
 #include "health/sensor_watch.hpp"
 #include "health/service_watch.hpp"
+#include "health/stamp_watch.hpp"
+#include "health/writer_watch.hpp"
 #include "samples/command.hpp"
 
 namespace fathom::health {
@@ -23,6 +26,8 @@ struct HealthConfig {
   AlignmentWatchConfig alignment;
   ServiceWatchConfig service;
   RefusalWatchConfig refusal;
+  FixWatchConfig fixes;
+  StampWatchConfig stamps;
   std::vector<ExpectedSensor> sensors;
   std::vector<ExpectedService> services;
 };
@@ -32,12 +37,14 @@ struct HealthConfig {
 /// ignored.
 class VehicleHealth {
  public:
-  VehicleHealth(const HealthConfig& config, const Instant& start);
+  /// `describe` is asked for the names of writers that raise an alarm.
+  VehicleHealth(const HealthConfig& config, const Instant& start, DescribeWriter describe = {});
 
-  /// Any sensor sample: that it came.
-  void heard(SourceKind kind, const SampleHeader& header, const Instant& now);
-  /// A GPS sample: heard() is included.
-  void add(const GpsSample& sample, const Instant& now);
+  /// Any sensor sample: that it came, and who wrote it.
+  void heard(SourceKind kind, const SampleHeader& header, const Instant& now, const WriterId& writer = {});
+  /// heard() is included.
+  void add(const GpsSample& sample, const Instant& now, const WriterId& writer = {});
+  void add(const DvlSample& sample, const Instant& now, const WriterId& writer = {});
   void add(const NavState& state, const Instant& now);
   void add(const AlignmentStatus& status, const Instant& now);
   void add(const ServiceStatus& status, const Instant& now);
@@ -45,6 +52,8 @@ class VehicleHealth {
   void add(const Forecast& forecast, const Instant& now);
   /// Acknowledgements; other commands are not for the monitor. Returns how many alarms were acknowledged.
   int apply(const Command& command, const Instant& now);
+  /// What the monitor cannot do itself, e.g. keep its journal: an alarm while `active`.
+  void set(bool active, const Condition& condition, const Instant& now) { book_.set(active, condition, now); }
 
   /// States of all watchers into the alarm book.
   void evaluate(const Instant& now);
@@ -60,8 +69,12 @@ class VehicleHealth {
 
   HealthConfig config_;
   DurationNs utc_offset_ns_;  ///< UTC minus monotonic, as last seen
+  DescribeWriter describe_;
   AlarmBook book_;
   GpsOutage gps_;
+  FixWatch fixes_;
+  StampWatch stamps_;
+  WriterWatch writers_;
   NavWatch nav_;
   AlignmentWatch alignment_;
   RefusalWatch refusal_;

@@ -41,7 +41,8 @@ struct MonitorService::Impl {
   Impl(host::ServiceHost& service_host, const config::MonitorConfig& monitor_config)
       : host(service_host),
         config(monitor_config),
-        health(health_of(monitor_config), now()),
+        health(health_of(monitor_config), now(),
+               [this](const health::WriterId& writer) { return describe(writer); }),
         status_writer(host.participant()),
         alarm_writer(host.participant()) {
     listen_to_sensors();
@@ -56,6 +57,13 @@ struct MonitorService::Impl {
     host.on_status([this](ServiceStatus& status) { fill(status); });
   }
 
+  [[nodiscard]] std::string describe(const health::WriterId& writer) const {
+    const auto peer = host.participant().peer(writer);
+    const std::string name = host.participant().writer_name(writer);
+    if (!peer || peer->host.empty()) return name + " (host and process not told)";
+    return name + " (process " + std::to_string(peer->pid) + " on host " + peer->host + ")";
+  }
+
   [[nodiscard]] health::Instant now() const { return {host.clock().monotonic_ns(), host.clock().utc_ns()}; }
 
   template <class T>
@@ -67,19 +75,29 @@ struct MonitorService::Impl {
         }));
   }
 
+  /// A sensor whose samples say more than that they came.
   template <class T>
-  void listen_to(SourceKind kind) {
+  void listen_closely() {
     readers.push_back(std::make_shared<bus::Reader<T>>(host.participant(),
-                                                       [this, kind](const T& sample, const bus::SampleInfo&) {
+                                                       [this](const T& sample, const bus::SampleInfo& info) {
                                                          const std::lock_guard lock(mutex);
-                                                         health.heard(kind, sample.header, now());
+                                                         health.add(sample, now(), info.writer_guid);
                                                        }));
   }
 
+  template <class T>
+  void listen_to(SourceKind kind) {
+    readers.push_back(std::make_shared<bus::Reader<T>>(
+        host.participant(), [this, kind](const T& sample, const bus::SampleInfo& info) {
+          const std::lock_guard lock(mutex);
+          health.heard(kind, sample.header, now(), info.writer_guid);
+        }));
+  }
+
   void listen_to_sensors() {
-    listen<GpsSample>();
+    listen_closely<GpsSample>();
+    listen_closely<DvlSample>();
     listen_to<ImuSample>(SourceKind::imu);
-    listen_to<DvlSample>(SourceKind::dvl);
     listen_to<DepthSample>(SourceKind::depth);
     listen_to<HeadingSample>(SourceKind::heading);
     listen_to<UsblSample>(SourceKind::usbl);

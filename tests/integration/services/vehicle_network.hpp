@@ -21,7 +21,8 @@ namespace fathom::test {
 /// The rest of a vehicle as the service under test sees it: what is written here arrives there.
 class VehicleNetwork {
  public:
-  VehicleNetwork(std::uint32_t domain, const Clock& clock) : clock_(clock), participant_(options(domain)) {}
+  VehicleNetwork(std::uint32_t domain, const Clock& clock)
+      : clock_(clock), began_ns_(clock.utc_ns()), participant_(options(domain)) {}
 
   SampleHeader header(const Name& sensor) {
     SampleHeader out;
@@ -37,7 +38,8 @@ class VehicleNetwork {
     sample.header = header("gps");
     sample.fix = fix ? GpsFix::fix_3d : GpsFix::none;
     if (fix) {
-      sample.latitude_rad = 0.6;
+      // North at 1 m/s, as nav() says.
+      sample.latitude_rad = 0.6 + to_seconds(sample.header.stamp_ns - began_ns_) / 6.36e6;
       sample.longitude_rad = 2.2;
       sample.altitude_m = 20.0;
     }
@@ -114,6 +116,7 @@ class VehicleNetwork {
   }
 
   const Clock& clock_;
+  TimeNs began_ns_;
   std::uint64_t sequence_ = 0;
   bus::Participant participant_;
   bus::Writer<GpsSample> gps_{participant_};

@@ -34,7 +34,7 @@ inline GpsSample gps(double seconds, bool fix = true, const Name& sensor = "gps"
   sample.header = header(sensor, seconds);
   sample.fix = fix ? GpsFix::fix_3d : GpsFix::none;
   if (fix) {
-    sample.latitude_rad = 0.6;
+    sample.latitude_rad = 0.6 + seconds * 1.0 / 6.36e6;  // nav() goes north at 1 m/s
     sample.longitude_rad = 2.2;
     sample.altitude_m = 20.0;
   }

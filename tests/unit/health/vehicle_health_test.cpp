@@ -34,10 +34,10 @@ class Vehicle {
     for (; tick_ < std::llround(end_s * 100.0); ++tick_) {
       const double t = 0.01 * static_cast<double>(tick_);
       const Instant now = at(t, utc_step_s);
-      health.heard(SourceKind::imu, header("imu", t), now);
+      health.heard(SourceKind::imu, header("imu", t + utc_step_s), now);
       if (fusion_alive)
         health.add(nav(t + utc_step_s, gps_fix ? NavMode::gps_aided : NavMode::dead_reckoning), now);
-      if (tick_ % 20 == 0) health.heard(SourceKind::dvl, header("dvl", t), now);
+      if (tick_ % 20 == 0) health.heard(SourceKind::dvl, header("dvl", t + utc_step_s), now);
       if (tick_ % 50 == 0 && gps_bridge_alive) health.add(gps(t + utc_step_s, gps_fix), now);
       if (tick_ % 100 == 0) {
         if (fusion_alive) health.add(life_sign("fusion", t, ServiceState::healthy, fusion_pid), now);

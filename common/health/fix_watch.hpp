@@ -1,0 +1,102 @@
+#pragma once
+
+#include <array>
+#include <deque>
+#include <map>
+#include <optional>
+
+#include "health/alarm_book.hpp"
+#include "health/instant.hpp"
+#include "samples/dvl.hpp"
+#include "samples/gps.hpp"
+#include "samples/nav_state.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::health {
+
+struct FixWatchConfig {
+  double frozen_path_m = 5.0;    ///< the same fix again while the vehicle travelled this far is frozen
+  double disagreement_m = 20.0;  ///< fixes that moved this much otherwise than a velocity says, within ...
+  double window_s = 10.0;        ///< ... this time, disagree with it
+};
+
+/// Fixes that look healthy and are not.
+///
+/// Frozen: the reading repeats bit by bit while stamps go on, and something says that the vehicle moves: the
+/// receiver's own velocity, the navigation state, or the DVL, whichever travelled farthest; or fusion judged
+/// three in a row frozen.
+/// Disagreement: the displacement between fixes against the integral of the receiver's own velocity, and
+/// against that of the navigation state; three fixes in a row decide. The window begins anew after a pause,
+/// for whether the first fixes after an outage are right is fusion's to judge.
+class FixWatch {
+ public:
+  explicit FixWatch(const FixWatchConfig& config) : config_(config) {}
+
+  /// True when the fix may be counted on, as far as can be seen here.
+  bool add(const GpsSample& sample, const Instant& now);
+  void add(const NavState& state, const Instant& now);
+  void add(const DvlSample& sample, const Instant& now);
+  void add(const Verdict& verdict);
+
+  [[nodiscard]] bool frozen(const Name& receiver) const;
+  /// Monotonic instant of the first of the fixes that have been the same since.
+  [[nodiscard]] TimeNs same_since_ns(const Name& receiver) const;
+  /// "gps_frozen:<receiver>", "gps_disagrees:<receiver>".
+  void report(AlarmBook& book, const Instant& now) const;
+
+ private:
+  using Pair = std::array<double, 2>;  ///< north, east [m]
+  /// Path and displacement since the start, as one source of velocity has it.
+  struct Travel {
+    double path_m = 0.0;
+    Pair moved_m{};
+    Pair velocity_m_s{};
+    TimeNs stamp_ns = 0;
+  };
+  struct Fix {
+    TimeNs stamp_ns = 0;
+    double latitude_rad = 0.0;
+    double longitude_rad = 0.0;
+    double sigma_m = 0.0;
+    std::optional<Pair> own_m;  ///< unknown where the receiver gives no velocity
+    std::optional<Pair> nav_m;  ///< unknown while the navigation state cannot be relied on
+  };
+  enum class Against { own, nav };
+  struct Receiver {
+    std::array<double, 3> reading{kUnknown, kUnknown, kUnknown};
+    TimeNs same_since_ns = 0;
+    int same = 0;
+    Travel own_at_reading, own;
+    double nav_path_at_reading_m = 0.0;
+    double dvl_path_at_reading_m = 0.0;
+    int judged_frozen = 0;  ///< by fusion, in a row
+    bool frozen = false;
+    double travelled_m = 0.0;  ///< while frozen
+    bool own_known = false;
+    std::deque<Fix> window;
+    int disagreeing = 0;
+    Against against = Against::own;
+    double apart_m = 0.0;
+    double limit_m = 0.0;
+    double span_s = 0.0;
+    TimeNs disagreed_ns = 0;
+  };
+
+  static void advance(Travel& travel, TimeNs stamp_ns, const Pair& velocity_m_s, double speed_m_s);
+  void judge_frozen(Receiver& receiver, const GpsSample& sample, const Instant& now) const;
+  void judge_displacement(Receiver& receiver, const GpsSample& sample, const Instant& now) const;
+  /// True when the displacement between two fixes differs from what a velocity says; the receiver notes by
+  /// how much.
+  bool compare(Receiver& receiver, const Fix& from, const Fix& to) const;
+  [[nodiscard]] std::optional<Pair> nav_moved_at(TimeNs stamp_ns) const;
+
+  FixWatchConfig config_;
+  std::map<Name, Receiver> receivers_;
+  Travel nav_;
+  double nav_velocity_sigma_m_s_ = kUnknown;
+  std::deque<Travel> nav_history_;  ///< thinned, for fixes that arrive after newer states
+  double dvl_path_m_ = 0.0;
+  TimeNs dvl_stamp_ns_ = 0;
+};
+
+}  // namespace fathom::health

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "health/alarm_book.hpp"
+#include "health/instant.hpp"
+#include "samples/health.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::health {
+
+struct StampWatchConfig {
+  int duplicates = 5;         ///< so many stamps repeated ...
+  double window_s = 10.0;     ///< ... within this time are an alarm, until none is for as long
+  double clock_jump_s = 1.0;  ///< a lasting change of stamp against arrival by more than this
+};
+
+/// The times that sensors give their samples, against the monitor's own clock.
+///
+/// Age (arrival here minus stamp) wanders and jitters; its range so far is kept. A clock jumped when every
+/// sample of two seconds, three at least, lies beyond that range by more than the limit, and within half the
+/// limit of each other: late bursts after a stall scatter, and one damaged stamp stands alone.
+class StampWatch {
+ public:
+  explicit StampWatch(const StampWatchConfig& config) : config_(config) {}
+
+  void heard(SourceKind kind, const SampleHeader& header, const Instant& now);
+  /// A bridge counts what it saw of its device's clock before it mended the stamps.
+  void add(const ServiceStatus& status, const Instant& now);
+  /// This host's clock was stepped: every age begins anew, after what is under way has arrived.
+  void restart(const Instant& now);
+  /// "duplicate_stamps:<sensor>", "clock_jump:<sensor>" (momentary), "clock_ahead:<sensor>",
+  /// "device_clock:<bridge>".
+  void report(AlarmBook& book, const Instant& now);
+
+ private:
+  struct Sensor {
+    bool heard = false;
+    TimeNs last_stamp_ns = 0;
+    int repeats = 0;  ///< within the window
+    TimeNs repeats_since_ns = 0;
+    TimeNs repeated_ns = 0;
+
+    bool aged = false;  ///< the range is known
+    double low_s = 0.0;
+    double high_s = 0.0;
+    int beyond = 0;  ///< samples in a row outside the range
+    TimeNs beyond_since_ns = 0;
+    double beyond_low_s = 0.0;
+    double beyond_high_s = 0.0;
+    double jumped_s = 0.0;  ///< since the last report; 0: it did not
+    double age_s = 0.0;     ///< of the last sample
+    int ahead = 0;          ///< samples in a row from the future
+  };
+  struct Bridge {
+    bool known = false;
+    std::uint64_t steps = 0;
+    std::uint64_t implausible = 0;
+    TimeNs stepped_ns = 0;
+    TimeNs implausible_ns = 0;
+    bool stepped = false;      ///< since the last report
+    bool disbelieved = false;  ///< at the last life sign
+    TimeNs disbelieved_since_ns = 0;
+  };
+
+  void count_repeat(Sensor& sensor, const Instant& now) const;
+  void follow_age(Sensor& sensor, double age_s, const Instant& now) const;
+
+  StampWatchConfig config_;
+  TimeNs quiet_until_ns_ = 0;
+  std::map<std::pair<SourceKind, Name>, Sensor> sensors_;
+  std::map<Name, Bridge> bridges_;
+};
+
+}  // namespace fathom::health
