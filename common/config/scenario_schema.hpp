@@ -27,6 +27,7 @@ void describe(Schema<sim::AuvConfig>& s);
 void describe(Schema<sim::AirDropConfig>& s);
 void describe(Schema<sim::AircraftConfig>& s);
 void describe(Schema<sim::RotatingArmConfig>& s);
+void describe(Schema<sim::RemusConfig>& s);
 void describe(Schema<sim::VehicleConfig>& s);
 
 void describe(Schema<sim::EnvironmentConfig>& s);

@@ -141,6 +141,26 @@ void describe(Schema<sim::RotatingArmConfig>& s) {
       .range(0.001, 50);
 }
 
+void describe(Schema<sim::RemusConfig>& s) {
+  using C = sim::RemusConfig;
+  s.field("fin_limit_deg", &C::fin_limit_rad, "largest fin angle").unit("deg").scaled(kDegree).range(1, 60);
+  s.field("fin_tau_s", &C::fin_tau_s, "time constant of the fins").unit("s").range(0.02, 5);
+  s.field("propulsor_tau_s", &C::propulsor_tau_s, "time constant of the shaft speed")
+      .unit("s")
+      .range(0.02, 30);
+  s.field("maximum_pitch_deg", &C::maximum_pitch_rad, "ordered at most")
+      .unit("deg")
+      .scaled(kDegree)
+      .range(1, 60);
+  s.field("maximum_turn_rate_deg_s", &C::maximum_turn_rate_rad_s, "ordered at most")
+      .unit("deg/s")
+      .scaled(kDegree)
+      .range(0.1, 60);
+  s.field("hull_diameter_m", &C::hull_diameter_m, "over which the vehicle floats up")
+      .unit("m")
+      .range(0.05, 5);
+}
+
 void describe(Schema<sim::VehicleConfig>& s) {
   using C = sim::VehicleConfig;
   using Kind = C::Kind;
@@ -148,12 +168,14 @@ void describe(Schema<sim::VehicleConfig>& s) {
       .words({{"auv", Kind::auv},
               {"air_drop", Kind::air_drop},
               {"aircraft", Kind::aircraft},
-              {"rotating_arm", Kind::rotating_arm}})
+              {"rotating_arm", Kind::rotating_arm},
+              {"remus", Kind::remus}})
       .required();
   s.field("auv", &C::auv, "torpedo-shaped vehicle with propulsor and fins");
   s.field("air_drop", &C::air_drop, "vehicle dropped from an aircraft");
   s.field("aircraft", &C::aircraft, "light aircraft");
   s.field("rotating_arm", &C::rotating_arm, "carriage on a rotating arm");
+  s.field("remus", &C::remus, "REMUS 100 in six degrees of freedom");
 }
 
 }  // namespace fathom::config

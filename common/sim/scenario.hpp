@@ -71,6 +71,17 @@ struct AuvConfig {
   double maximum_turn_rate_rad_s = 0.12;
 };
 
+/// REMUS 100 (Prestero 2001) in six degrees of freedom. The hull's coefficients belong to the vehicle; its
+/// actuators and what the autopilot may ask for are free.
+struct RemusConfig {
+  double fin_limit_rad = 0.2374;  ///< 13.6 degrees
+  double fin_tau_s = 0.1;
+  double propulsor_tau_s = 0.5;
+  double maximum_pitch_rad = 0.3;
+  double maximum_turn_rate_rad_s = 0.1;
+  double hull_diameter_m = 0.19;
+};
+
 /// Vehicle released from an aircraft: parachute, water entry, dive, run at set depth.
 struct AirDropConfig {
   double parachute_at_s = 0.8;
@@ -118,12 +129,13 @@ struct RotatingArmConfig {
 };
 
 struct VehicleConfig {
-  enum class Kind { auv, air_drop, aircraft, rotating_arm };
+  enum class Kind { auv, air_drop, aircraft, rotating_arm, remus };
   Kind kind = Kind::auv;
   AuvConfig auv;
   AirDropConfig air_drop;
   AircraftConfig aircraft;
   RotatingArmConfig rotating_arm;
+  RemusConfig remus;
 };
 
 /// What a run of the scenario has to reach. Unknown: not asked for.

@@ -15,6 +15,8 @@ std::unique_ptr<Vehicle> make_vehicle(const Scenario& scenario, std::uint64_t se
       return make_air_drop(vehicle.air_drop, scenario.environment, seed);
     case VehicleConfig::Kind::aircraft:
       return make_aircraft(vehicle.aircraft, scenario.environment, seed);
+    case VehicleConfig::Kind::remus:
+      return make_remus(vehicle.remus, scenario.environment, seed);
     case VehicleConfig::Kind::rotating_arm:
       break;
   }

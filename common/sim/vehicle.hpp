@@ -59,6 +59,8 @@ inline constexpr double kModelGravity_m_s2 = 9.80665;
 [[nodiscard]] std::unique_ptr<Vehicle> make_air_drop(const AirDropConfig& config,
                                                      const EnvironmentConfig& environment,
                                                      std::uint64_t seed);
+[[nodiscard]] std::unique_ptr<Vehicle> make_remus(const RemusConfig& config,
+                                                  const EnvironmentConfig& environment, std::uint64_t seed);
 [[nodiscard]] std::unique_ptr<Vehicle> make_aircraft(const AircraftConfig& config,
                                                      const EnvironmentConfig& environment,
                                                      std::uint64_t seed);
