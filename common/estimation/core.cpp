@@ -81,6 +81,12 @@ Setup::Setup(const EngineConfig& engine_config)
   fill(walk, index, Group::baro_bias, model.baro_bias_walk_m_sqrt_s * model.baro_bias_walk_m_sqrt_s);
   sigma(Group::mount_angles, model.mount_angle_sigma_rad);
   sigma(Group::mount_lever, model.mount_lever_sigma_m);
+  sigma(Group::model_scale, model.model_scale_sigma);
+  sigma(Group::model_bias, model.model_bias_sigma_m_s);
+  markov(*this, Group::model_bias, model.model_bias_sigma_m_s, model.model_bias_time_constant_s);
+  model_gate.reacquire_s = 0.0;
+  model_limits = gate_limits(model_gate);
+  if (config.vehicle_model.enabled) velocity_model.emplace(config.vehicle_model.coefficients);
   drift = StateDrift(walk, decay_per_s, index.size());
 }
 
@@ -176,6 +182,7 @@ void Core::finish(const ImuStep& step) {
     advance_drop(step);
     return;
   }
+  if (setup_->velocity_model) foretell_velocity(step);
   apply_constraints(step);
   watch_alignment();
 }

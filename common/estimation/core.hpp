@@ -8,6 +8,7 @@
 #include "estimation/alignment/under_way.hpp"
 #include "estimation/error_filter.hpp"
 #include "estimation/gate.hpp"
+#include "estimation/hydro/water_velocity.hpp"
 #include "estimation/measurement.hpp"
 #include "estimation/strapdown.hpp"
 #include "samples/nav_state.hpp"
@@ -28,8 +29,11 @@ struct Setup {
   std::array<double, kMaxStates> initial_sigma{};  ///< of the states from index 9 on
   std::array<double, kMaxStates> walk{};
   std::array<double, kMaxStates> decay_per_s{};
-  StateDrift drift;         ///< of walk and decay_per_s
-  geo::Quaternion q_B_imu;  ///< from the unit's own axes into B
+  StateDrift drift;                                    ///< of walk and decay_per_s
+  geo::Quaternion q_B_imu;                             ///< from the unit's own axes into B
+  std::optional<hydro::VelocityModel> velocity_model;  ///< where it is switched on
+  SensorConfig model_gate;  ///< for it: nothing is widened or believed in the end because it insists
+  GateLimits model_limits;
 };
 
 /// One inertial interval as the mechanisation takes it. Increments are along B, not yet corrected for bias.
@@ -119,6 +123,7 @@ class Core {
   [[nodiscard]] Eigen::Vector3d rpy_sigma_rad() const;
   [[nodiscard]] const Sensor& sensor(int index) const { return sensors_[static_cast<std::size_t>(index)]; }
   [[nodiscard]] ProcessNoise process_noise() const;
+  [[nodiscard]] const hydro::WaterVelocity& water_velocity() const { return water_; }
 
  private:
   [[nodiscard]] double since(TimeNs stamp_ns) const {
@@ -148,6 +153,14 @@ class Core {
   void apply_constraints(const ImuStep& step);
   void constrain(Observation& observation);
   void apply_zero_velocity();
+
+  // core_model.cpp: the vehicle's own dynamics as a virtual velocity log.
+  /// True when the sample drives the model.
+  bool drive_model(const Measurement& measurement);
+  void foretell_velocity(const ImuStep& step);
+  /// Notes how the model did; false when it is not to be believed now.
+  bool believe_model(const AidingState& state, const Observation& observation,
+                     const InnovationStatistics& statistics);
 
   // core_align.cpp
   void align(const ImuStep& step);
@@ -196,6 +209,7 @@ class Core {
   Eigen::Vector3d last_reset_N_m_ = Eigen::Vector3d::Zero();
   TimeNs rest_until_ns_ = 0;
   TimeNs next_zero_velocity_ns_ = 0;
+  hydro::WaterVelocity water_;
 
   // Alignment.
   AlignmentPhase phase_ = AlignmentPhase::none;

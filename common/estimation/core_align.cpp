@@ -257,6 +257,7 @@ void Core::start_in_motion() {
 void Core::begin(const FilterState& state, const std::array<double, kMaxStates>& given_sigma) {
   std::array<double, kMaxStates> sigma = given_sigma;
   state_ = state;
+  water_.stop();
   // The position is that of the antenna or of the point set; the IMU lies a lever away from it.
   const bool from_gps = since(gps_seen_ns_) <= kFreshFix_s;
   Vector3d lever = Vector3d::Zero();

@@ -82,11 +82,14 @@ Judgement Core::judge(const Measurement& measurement) {
   }
   sensor.stamp_ns = measurement.stamp_ns;
   notice(measurement);
+  const bool drives = drive_model(measurement);
   if (!navigating_) return out;
   if (dropping_) return feed_drop(measurement).value_or(out);
 
   const AidingState state = aiding_state();
-  const AidingInput input{state, config, setup_->config.states.surface_altitude_m};
+  const bool modelled = drives && measurement.source == SourceKind::propulsion;
+  const AidingInput input{state, config, setup_->config.states.surface_altitude_m,
+                          &setup_->config.vehicle_model, modelled ? &water_ : nullptr};
   Observation observation;
   bool with_position = false;
   Usable first_refusal = Usable::yes;
@@ -100,6 +103,10 @@ Judgement Core::judge(const Measurement& measurement) {
       first_refusal = usable;
     }
   }
+  if (drives && measurement.source == SourceKind::fins) {
+    out.kind = VerdictKind::used;
+    return out;
+  }
   if (observation.rows == 0) {
     out.kind = first_refusal == Usable::yes ? VerdictKind::source_disabled : verdict_of(first_refusal);
     return out;
@@ -110,16 +117,18 @@ Judgement Core::judge(const Measurement& measurement) {
   const Observation whole = observation;
   bool stepped = false;
   InnovationStatistics statistics;
-  GateResult result = gate(filter_, config, setup_->limits[slot], observation, statistics);
-  if (frozen(measurement, config, sensor, whole)) {
+  const SensorConfig& rules = modelled ? setup_->model_gate : config;
+  const GateLimits& limits = modelled ? setup_->model_limits : setup_->limits[slot];
+  GateResult result = gate(filter_, rules, limits, observation, statistics);
+  if (frozen(measurement, rules, sensor, whole)) {
     out.kind = VerdictKind::frozen;
   } else {
-    const unsigned believed = believed_rows(sensor, config, whole, result.refused);
+    const unsigned believed = believed_rows(sensor, rules, whole, result.refused);
     for (double room = 1.0; (believed & result.refused) != 0 && room < kMostRoom; room *= 4.0) {
       // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
       make_room(measurement.source, sensor, whole, believed, room);
       observation = whole;
-      result = gate(filter_, config, setup_->limits[slot], observation, statistics);
+      result = gate(filter_, rules, limits, observation, statistics);
     }
     out.kind = result.pass ? VerdictKind::used : VerdictKind::rejected;
     stepped = result.pass && believed != 0 && with_position;
@@ -127,6 +136,7 @@ Judgement Core::judge(const Measurement& measurement) {
   out.dimensions = static_cast<std::uint32_t>(whole.rows);
   InnovationStatistics plain;
   filter_.statistics(whole, 1.0, plain);
+  if (modelled && !believe_model(state, whole, plain)) out.kind = VerdictKind::rejected;
   for (std::size_t i = 0; i < static_cast<std::size_t>(whole.rows); ++i) {
     out.innovation[i] = whole.innovation[i];
     out.innovation_sigma[i] = std::sqrt(plain.s[i * kStride + i]);

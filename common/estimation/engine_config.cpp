@@ -86,6 +86,9 @@ void check_states(const StateModelConfig& states, Check& check) {
   check.in("states.baro_bias_walk_m_sqrt_s", states.baro_bias_walk_m_sqrt_s, 0, 100);
   check.in("states.mount_angle_sigma_rad", states.mount_angle_sigma_rad, 1e-6, 1);
   check.in("states.mount_lever_sigma_m", states.mount_lever_sigma_m, 1e-6, 100);
+  check.in("states.model_scale_sigma", states.model_scale_sigma, 1e-6, 1);
+  check.in("states.model_bias_sigma_m_s", states.model_bias_sigma_m_s, 1e-6, 10);
+  check.in("states.model_bias_time_constant_s", states.model_bias_time_constant_s, 1, 1e9);
 }
 
 void check_sensor(const SensorConfig& sensor, Check& check) {
@@ -149,6 +152,22 @@ void check_constraints(const ConstraintsConfig& constraints, Check& check) {
   check.in("constraints.non_holonomic.vertical_sigma_m_s", wheels.vertical_sigma_m_s, 1e-5, 1e3);
   check.in("constraints.constant_depth.rate_hz", constraints.constant_depth.rate_hz, 0.01, 1000);
   check.in("constraints.constant_depth.sigma_m_s", constraints.constant_depth.sigma_m_s, 1e-5, 1e3);
+}
+
+void check_vehicle_model(const VehicleModelConfig& model, const StateGroups& groups, Check& check) {
+  check.in("vehicle_model.origin_B_m", model.origin_B_m, -1000, 1000);
+  for (const double sigma : model.sigma_m_s) check.in("vehicle_model.sigma_m_s", sigma, 1e-4, 10);
+  check.in("vehicle_model.correlation_time_s", model.correlation_time_s, 0.01, 1000);
+  check.in("vehicle_model.fins_timeout_s", model.fins_timeout_s, 0.05, 1e6);
+  check.in("vehicle_model.min_depth_m", model.min_depth_m, -1000, 12000);
+  check.in("vehicle_model.memory_s", model.memory_s, 1, 1e6);
+  check.in("vehicle_model.trial_s", model.trial_s, 0, 1e6);
+  check.in("vehicle_model.doubt_limit", model.doubt_limit, 1, 100);
+  if (!model.enabled) return;
+  const std::string complaint = model.coefficients.validate();
+  check.that(complaint.empty(), "vehicle_model.coefficients." + complaint);
+  check.that(groups.current, "groups.current: false: expected true where vehicle_model is enabled");
+  check.that(groups.model_bias, "groups.model_bias: false: expected true where vehicle_model is enabled");
 }
 
 }  // namespace
@@ -248,6 +267,7 @@ std::string EngineConfig::validate() const {
   check_states(states, check);
   check_alignment(alignment, check);
   check_constraints(constraints, check);
+  check_vehicle_model(vehicle_model, groups, check);
   std::set<std::string> names;
   check.that(sensors.size() <= 24, "sensors: " + std::to_string(sensors.size()) + ": expected at most 24");
   for (const SensorConfig& one : sensors) {

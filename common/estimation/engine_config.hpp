@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "estimation/alignment/drop_config.hpp"
+#include "estimation/hydro/coefficients.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::estimation {
@@ -69,6 +70,8 @@ struct StateGroups {
   bool baro_bias = false;           ///< 1, barometric height less ellipsoidal height
   bool mount_angles = false;        ///< 2, pitch and yaw of the wheels' axes beyond the configured ones
   bool mount_lever = false;         ///< 3, beyond the configured place of the non-holonomic constraint
+  bool model_scale = false;         ///< 2, share by which the vehicle model errs, ahead and across
+  bool model_bias = false;          ///< 2, of the vehicle model's velocity, ahead and across, Gauss-Markov
 };
 
 /// The groups of a named configuration: "gps_ins15", "standard", "hybrid25", "full".
@@ -104,6 +107,9 @@ struct StateModelConfig {
   double baro_bias_walk_m_sqrt_s = 0.05;  ///< weather and the instrument's own drift
   double mount_angle_sigma_rad = 0.035;
   double mount_lever_sigma_m = 1.0;
+  double model_scale_sigma = 0.2;
+  double model_bias_sigma_m_s = 0.01;
+  double model_bias_time_constant_s = 120.0;
 };
 
 enum class GateMode : std::uint8_t { whole = 0, per_component = 1 };
@@ -218,6 +224,21 @@ struct ConstraintsConfig {
   ConstantDepthConfig constant_depth;
 };
 
+/// The vehicle's own dynamics as a virtual velocity log, driven by the propulsor's and the fins' samples.
+struct VehicleModelConfig {
+  bool enabled = false;
+  std::string coefficients_file;  ///< where the configuration took them from
+  hydro::HydroCoefficients coefficients;
+  std::array<double, 3> origin_B_m{0, 0, 0};    ///< of the coefficients, from the IMU, along B
+  std::array<double, 2> sigma_m_s{0.02, 0.02};  ///< ahead, across: what is neither scale nor slow bias
+  double correlation_time_s = 3.0;              ///< of that
+  double fins_timeout_s = 2.0;                  ///< without fin angles the velocity across counts less
+  double min_depth_m = 1.0;                     ///< the model is of the submerged vehicle
+  double memory_s = 60.0;                       ///< over which it is compared with the DVL-aided velocity
+  double trial_s = 30.0;                        ///< of comparison before it is believed without the DVL
+  double doubt_limit = 9.0;  ///< mean normalised squared innovation above which it is not believed alone
+};
+
 /// A limit that the forecast watches.
 struct ForecastLimitConfig {
   std::string name;      ///< e.g. "horizontal_100m"
@@ -235,6 +256,7 @@ struct EngineConfig {
   AlignmentConfig alignment;
   DropConfig air_drop;  ///< for StartMode::air_drop; what start_from() and the sensors say goes before it
   ConstraintsConfig constraints;
+  VehicleModelConfig vehicle_model;
   double horizon_s = 5.0;            ///< measurements up to this late give the same bits as punctual ones
   double snapshot_interval_s = 0.2;  ///< a roll-back repeats at most this much more than it must
   double future_tolerance_s = 0.5;   ///< stamps further ahead of the newest inertial sample are refused

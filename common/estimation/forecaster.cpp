@@ -97,7 +97,10 @@ void Forecaster::fill(const Core& core, Forecast& out) {
     observations_[i].rows = 0;
     if (!aids(core, static_cast<int>(i))) continue;
     observations_[i] = Observation{};
-    const AidingInput input{state, setup_->config.sensors[i], setup_->config.states.surface_altitude_m};
+    // The last sample is about one second old in the forecast's eyes, whatever its rate.
+    const bool modelled = setup_->velocity_model && setup_->config.sensors[i].kind == SourceKind::propulsion;
+    const AidingInput input{state, setup_->config.sensors[i], setup_->config.states.surface_altitude_m,
+                            &setup_->config.vehicle_model, modelled ? &core.water_velocity() : nullptr};
     for (const AidingEntry& entry : aiding_registry())
       if (entry.source == setup_->config.sensors[i].kind)
         (void)entry.observe(input, last_[i], observations_[i]);

@@ -49,6 +49,8 @@ constexpr std::array<GroupRow, kGroups> kRows{{
     {1, {"baro_bias_m"}},
     {2, {"mount_pitch_rad", "mount_yaw_rad"}},
     {3, {"mount_lever_x_m", "mount_lever_y_m", "mount_lever_z_m"}},
+    {2, {"model_scale_x", "model_scale_y"}},
+    {2, {"model_bias_x_m_s", "model_bias_y_m_s"}},
 }};
 
 std::array<bool, kGroups> active(const StateGroups& g) {
@@ -81,7 +83,9 @@ std::array<bool, kGroups> active(const StateGroups& g) {
           g.flow_angles,
           g.baro_bias,
           g.mount_angles,
-          g.mount_lever};
+          g.mount_lever,
+          g.model_scale,
+          g.model_bias};
 }
 
 }  // namespace

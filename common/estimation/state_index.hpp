@@ -45,8 +45,10 @@ enum class Group : std::uint8_t {
   baro_bias,
   mount_angles,
   mount_lever,
+  model_scale,
+  model_bias,
 };
-inline constexpr int kGroups = 30;
+inline constexpr int kGroups = 32;
 inline constexpr int kNavStates = 9;  ///< position, velocity, attitude
 
 [[nodiscard]] int group_size(Group group);

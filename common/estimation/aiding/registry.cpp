@@ -9,6 +9,7 @@
 #include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/gps_velocity.hpp"
 #include "estimation/aiding/heading.hpp"
+#include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/speed_log.hpp"
 #include "estimation/aiding/usbl_position.hpp"
 
@@ -97,12 +98,23 @@ Usable baro_altitude(const AidingInput& in, const AnySample& any, Observation& o
 }
 
 Usable speed_log(const AidingInput& in, const AnySample& any, Observation& out) {
+  // The model knows more of the same shaft speed.
+  if (in.water != nullptr) return Usable::not_estimated;
   const auto& sample = std::get<PropulsionSample>(any);
   const Usable usable = SpeedLog::usable(in.state, in.sensor, sample, in.surface_altitude_m);
   return usable == Usable::yes ? append(SpeedLog(in.state, in.sensor, sample), in, out) : usable;
 }
 
-constexpr std::array<AidingEntry, 11> kRegistry{{
+Usable model_velocity(const AidingInput& in, const AnySample& any, Observation& out) {
+  if (in.water == nullptr || in.vehicle_model == nullptr) return Usable::not_estimated;
+  const auto& sample = std::get<PropulsionSample>(any);
+  const Usable usable =
+      ModelVelocity::usable(in.state, *in.vehicle_model, *in.water, sample, in.surface_altitude_m);
+  return usable == Usable::yes ? append(ModelVelocity(in.state, *in.vehicle_model, *in.water), in, out)
+                               : usable;
+}
+
+constexpr std::array<AidingEntry, 12> kRegistry{{
     {SourceKind::gps, GpsPosition::kName, gps_position},
     {SourceKind::gps, GpsVelocity::kName, gps_velocity},
     {SourceKind::dvl, DvlVelocity::kName, dvl_velocity},
@@ -113,6 +125,7 @@ constexpr std::array<AidingEntry, 11> kRegistry{{
     {SourceKind::airspeed, Airspeed::kName, airspeed},
     {SourceKind::airspeed, FlowAngles::kName, flow_angles},
     {SourceKind::airspeed, BaroAltitude::kName, baro_altitude},
+    {SourceKind::propulsion, ModelVelocity::kName, model_velocity},
     {SourceKind::propulsion, SpeedLog::kName, speed_log},
 }};
 

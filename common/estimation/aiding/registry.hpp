@@ -4,6 +4,7 @@
 #include <span>
 
 #include "estimation/aiding/model.hpp"
+#include "estimation/hydro/water_velocity.hpp"
 #include "estimation/measurement.hpp"
 
 namespace fathom::estimation {
@@ -13,6 +14,8 @@ struct AidingInput {
   const AidingState& state;
   const SensorConfig& sensor;
   double surface_altitude_m;  ///< used where it is not estimated
+  const VehicleModelConfig* vehicle_model = nullptr;
+  const hydro::WaterVelocity* water = nullptr;  ///< what the vehicle model foretells, where it is switched on
 };
 
 /// One model in the list. `observe` appends its rows when the sample is usable.

@@ -23,10 +23,21 @@ class VehicleModel {
   [[nodiscard]] const Matrix6& mass() const { return mass_; }
   [[nodiscard]] const Matrix6& mass_inverse() const { return inverse_; }
 
-  /// Force (N) and moment (N m): what turning axes make of the rigid body's momentum, and the water, gravity,
-  /// fins and propulsor (HYD-2).
+  /// Force (N) that acts along the body axes: what turning axes make of the rigid body's momentum, and the
+  /// water, gravity, fins and propulsor (HYD-2).
+  [[nodiscard]] Eigen::Vector3d force(const Eigen::Vector3d& V_B_m_s, const Eigen::Vector3d& omega_B_rad_s,
+                                      const Eigen::Vector3d& gamma_B, const Controls& controls) const;
+  /// Moment (N m) likewise.
+  [[nodiscard]] Eigen::Vector3d moment(const Eigen::Vector3d& V_B_m_s, const Eigen::Vector3d& omega_B_rad_s,
+                                       const Eigen::Vector3d& gamma_B, const Controls& controls) const;
+  /// Both.
   [[nodiscard]] Vector6 load(const Vector6& nu, const Eigen::Vector3d& gamma_B,
-                             const Controls& controls) const;
+                             const Controls& controls) const {
+    Vector6 out;
+    out << force(nu.head<3>(), nu.tail<3>(), gamma_B, controls),
+        moment(nu.head<3>(), nu.tail<3>(), gamma_B, controls);
+    return out;
+  }
   /// d(nu)/dt.
   [[nodiscard]] Vector6 derivative(const Vector6& nu, const Eigen::Vector3d& gamma_B,
                                    const Controls& controls) const {
@@ -37,6 +48,9 @@ class VehicleModel {
                              double dt_s) const;
 
  private:
+  /// Thrust and torque relative to those at propulsor_rpm.
+  [[nodiscard]] double thrust(const Controls& controls) const;
+
   HydroCoefficients c_;
   Matrix6 mass_;
   Matrix6 inverse_;

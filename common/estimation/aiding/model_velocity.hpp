@@ -1,0 +1,75 @@
+#pragma once
+
+#include "estimation/aiding/model.hpp"
+#include "estimation/hydro/water_velocity.hpp"
+#include "samples/actuator.hpp"
+
+namespace fathom::estimation {
+
+/// Velocity through the water ahead and across as the vehicle's own dynamics foretell it from shaft speed,
+/// fins and turning: a virtual velocity log (AID-MOD-1..2). It errs by a share of itself and by a slow bias,
+/// which are states, and by what changes within seconds, which is noise that lasts: R is multiplied by how
+/// many samples come within its correlation time.
+class ModelVelocity {
+ public:
+  static constexpr const char* kName = "model_velocity";
+
+  ModelVelocity(const AidingState& s, const VehicleModelConfig& config, const hydro::WaterVelocity& water)
+      : s_(s),
+        config_(config),
+        water_(water),
+        lever_B_(geo::vec(config.origin_B_m)),
+        through_N_(s.state.nav.v_N_m_s -
+                   Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0)) {}
+
+  [[nodiscard]] static Usable usable(const AidingState& s, const VehicleModelConfig& config,
+                                     const hydro::WaterVelocity& water, const PropulsionSample& sample,
+                                     double surface_altitude_m) {
+    if (!(std::abs(sample.rpm) < 1e5) || !water.running()) return Usable::out_of_range;
+    const double depth =
+        s.value(Group::surface_altitude, 0, surface_altitude_m) - s.state.nav.position.altitude_m;
+    return config.min_depth_m <= 0.0 || depth >= config.min_depth_m ? Usable::yes : Usable::out_of_range;
+  }
+  [[nodiscard]] int dimension() const { return 2; }
+  [[nodiscard]] Vector3 measured() const {
+    // (AID-MOD-1)
+    const Vector3& V = water_.V_B_m_s();
+    return {(1.0 + s_.value(Group::model_scale, 0)) * V.x() + s_.value(Group::model_bias, 0),
+            (1.0 + s_.value(Group::model_scale, 1)) * V.y() + s_.value(Group::model_bias, 1), 0.0};
+  }
+  [[nodiscard]] Vector3 predicted() const {
+    return s_.C_NB.transpose() * through_N_ + geo::cross(s_.rate_nb_B_rad_s, lever_B_);
+  }
+  void jacobian(Jacobian& h) const {
+    // (AID-MOD-2)
+    const Matrix3 to_B = s_.C_NB.transpose();
+    h.block(Group::velocity, to_B.topRows<2>());
+    h.block(Group::attitude, (-to_B * geo::skew(through_N_)).topRows<2>());
+    h.block(Group::gyro_bias, (-geo::skew(lever_B_)).topRows<2>());
+    h.block(Group::current, to_B.topLeftCorner<2, 2>());
+    for (int i = 0; i < 2; ++i) {
+      h.set(i, Group::model_scale, i, water_.V_B_m_s()(i));
+      h.set(i, Group::model_bias, i, 1.0);
+    }
+  }
+  /// Of one comparison by itself.
+  [[nodiscard]] double sigma(int axis) const {
+    // Without fin angles the side force of the fins is anybody's guess.
+    const bool blind = axis == 1 && water_.fins_age_s() > config_.fins_timeout_s;
+    return config_.sigma_m_s[static_cast<std::size_t>(axis)] * (blind ? 3.0 : 1.0);
+  }
+  [[nodiscard]] Vector3 noise() const {
+    const double span = std::max(water_.unmeasured_s(config_.correlation_time_s), 1e-3);
+    const double lasting = std::sqrt(config_.correlation_time_s / span * water_.doubt());
+    return {lasting * sigma(0), lasting * sigma(1), 0.0};
+  }
+
+ private:
+  const AidingState& s_;
+  const VehicleModelConfig& config_;
+  const hydro::WaterVelocity& water_;
+  Vector3 lever_B_;
+  Vector3 through_N_;
+};
+
+}  // namespace fathom::estimation

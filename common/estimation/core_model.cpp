@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/aiding/model_velocity.hpp"
+#include "estimation/core.hpp"
+
+namespace fathom::estimation {
+
+using Eigen::Vector3d;
+
+bool Core::drive_model(const Measurement& measurement) {
+  if (!setup_->velocity_model) return false;
+  if (const auto* fins = std::get_if<FinsSample>(&measurement.sample)) {
+    if (!std::isfinite(fins->rudder_rad) || !std::isfinite(fins->stern_rad)) return false;
+    water_.set_fins(fins->rudder_rad, fins->stern_rad);
+    return true;
+  }
+  const auto* propulsion = std::get_if<PropulsionSample>(&measurement.sample);
+  if (propulsion == nullptr) return false;
+  if (std::isfinite(propulsion->rpm)) water_.set_rpm(propulsion->rpm);
+  if (navigating_ && !water_.running()) {
+    const AidingState state = aiding_state();
+    const Vector3d current(state.value(Group::current, 0), state.value(Group::current, 1), 0.0);
+    water_.begin(state.C_NB.transpose() * (state_.nav.v_N_m_s - current));
+  }
+  return true;
+}
+
+void Core::foretell_velocity(const ImuStep& step) {
+  const AidingState state = aiding_state();
+  const double dt_s = std::max(to_seconds(step.to_ns - step.from_ns), step.gap_s);
+  water_.advance(*setup_->velocity_model, state.rate_nb_B_rad_s, state.C_NB.row(2).transpose(), dt_s);
+  // What speaks against the model makes its slow error faster.
+  const int bias = setup_->index.of(Group::model_bias);
+  for (int i = bias; i < bias + 2; ++i)
+    filter_.widen(i, (water_.doubt() - 1.0) * setup_->walk[static_cast<std::size_t>(i)] * dt_s);
+}
+
+bool Core::believe_model(const AidingState& state, const Observation& observation,
+                         const InnovationStatistics& statistics) {
+  // (HYD-4)
+  const VehicleModelConfig& config = setup_->config.vehicle_model;
+  const ModelVelocity model(state, config, water_);
+  const bool vouched = since(dvl_used_ns_) <= setup_->config.velocity_timeout_s;
+  double normalised = 0.0;
+  for (int i = 0; i < observation.rows; ++i) {
+    const auto r = static_cast<std::size_t>(i);
+    const double lasting = observation.sigma[r];
+    const double variance =
+        statistics.s[r * Observation::kMaxRows + r] - lasting * lasting + model.sigma(i) * model.sigma(i);
+    normalised += observation.innovation[r] * observation.innovation[r] / variance / observation.rows;
+  }
+  water_.measured();
+  if (vouched) {
+    water_.compare(normalised, config.memory_s);
+    return true;
+  }
+  return water_.compared_s() >= config.trial_s && water_.doubt() <= config.doubt_limit;
+}
+
+}  // namespace fathom::estimation
