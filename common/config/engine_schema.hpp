@@ -18,12 +18,18 @@ void describe(Schema<estimation::DropConfig>& s);
 void describe(Schema<estimation::NonHolonomicConfig>& s);
 void describe(Schema<estimation::ConstantDepthConfig>& s);
 void describe(Schema<estimation::ConstraintsConfig>& s);
+void describe(Schema<estimation::hydro::HydroCoefficients>& s);
+void describe(Schema<estimation::VehicleModelConfig>& s);
 void describe(Schema<estimation::ForecastLimitConfig>& s);
 void describe(Schema<estimation::EngineConfig>& s);
 
 /// What a sensor's entry leaves out is that of its kind: default_sensor().
 void load_value(const nlohmann::json& json, estimation::SensorConfig& out,
                 const Rules<estimation::SensorConfig>& rules, const Place& place);
+
+/// Coefficients from the file that is named, relative to the file that names it.
+void load_value(const nlohmann::json& json, estimation::VehicleModelConfig& out,
+                const Rules<estimation::VehicleModelConfig>& rules, const Place& place);
 
 /// The state groups that are not named are those of the named configuration.
 void load_value(const nlohmann::json& json, estimation::EngineConfig& out,

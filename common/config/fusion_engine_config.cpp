@@ -20,7 +20,8 @@ const std::vector<std::pair<std::string, SourceKind>>& aiding_kinds() {
                                                                      {"heading", SourceKind::heading},
                                                                      {"usbl", SourceKind::usbl},
                                                                      {"airspeed", SourceKind::airspeed},
-                                                                     {"propulsion", SourceKind::propulsion}};
+                                                                     {"propulsion", SourceKind::propulsion},
+                                                                     {"fins", SourceKind::fins}};
   return kinds;
 }
 
@@ -348,6 +349,8 @@ void describe(Schema<EngineConfig>& s) {
   s.field("sensors", &C::sensors, "aiding instruments; one that is not listed is never used").required();
   s.field("alignment", &C::alignment, "finding the attitude");
   s.field("air_drop", &C::air_drop, "finding roll and pitch under way after a drop");
+  s.field("vehicle_model", &C::vehicle_model,
+          "the vehicle's own dynamics as a virtual velocity log, for when the DVL is lost");
   s.field("constraints", &C::constraints, "what is known about the motion without an instrument");
   s.field("horizon_s", &C::horizon_s, "measurements up to this late count as punctual ones")
       .unit("s")

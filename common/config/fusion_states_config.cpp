@@ -40,6 +40,10 @@ void describe(Schema<StateGroups>& s) {
   s.field("baro_bias", &C::baro_bias, "barometric height less ellipsoidal height");
   s.field("mount_angles", &C::mount_angles,
           "pitch and yaw of the axes of the non-holonomic constraint beyond the configured ones, 2 states");
+  s.field("model_scale", &C::model_scale,
+          "share by which the vehicle model errs, ahead and across, 2 states");
+  s.field("model_bias", &C::model_bias,
+          "slow error of the vehicle model's velocity, ahead and across, 2 states");
   s.field("mount_lever", &C::mount_lever,
           "place of the non-holonomic constraint beyond the configured one, 3 states");
 }
@@ -114,6 +118,11 @@ void describe(Schema<StateModelConfig>& s) {
       .unit("deg")
       .range(1e-4, 57)
       .scaled(kRadPerDeg);
+  s.field("model_scale_sigma", &C::model_scale_sigma, "a ratio").range(1e-6, 1);
+  s.field("model_bias_sigma_m_s", &C::model_bias_sigma_m_s, "each component").unit("m/s").range(1e-6, 10);
+  s.field("model_bias_time_constant_s", &C::model_bias_time_constant_s, "of the slow error")
+      .unit("s")
+      .range(1, 1e9);
   s.field("mount_lever_sigma_m", &C::mount_lever_sigma_m, "each component").unit("m").range(1e-6, 100);
 }
 

@@ -5,6 +5,7 @@
 #include "config/bridge_config.hpp"
 #include "config/fusion_config.hpp"
 #include "config/guidance_config.hpp"
+#include "config/hydro_config.hpp"
 #include "config/monitor_config.hpp"
 #include "config/scenario_config.hpp"
 #include "config/simulator_config.hpp"
@@ -14,7 +15,7 @@ namespace fathom::config {
 std::span<const ConfigKind> config_kinds() {
   static const std::array kKinds{imu_bridge_kind(),      dvl_bridge_kind(),     gps_bridge_kind(),
                                  depth_bridge_kind(),    heading_bridge_kind(), usbl_bridge_kind(),
-                                 actuator_bridge_kind(), fusion_kind(),         monitor_kind(),
+                                 actuator_bridge_kind(), fusion_kind(), hydro_kind(),         monitor_kind(),
                                  guidance_kind(),        simulator_kind(),      scenario_kind()};
   return kKinds;
 }
