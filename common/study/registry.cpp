@@ -1,6 +1,7 @@
 #include "study/registry.hpp"
 
 #include "study/alignment.hpp"
+#include "study/hydro/hydro_study.hpp"
 #include "study/rotating_arm.hpp"
 #include "study/survey.hpp"
 
@@ -12,6 +13,7 @@ const std::vector<std::unique_ptr<const Study>>& study_registry() {
     studies.push_back(std::make_unique<const AlignmentStudy>());
     studies.push_back(make_rotating_arm_study());
     studies.push_back(make_survey_study());
+    studies.push_back(std::make_unique<HydroStudy>());
     return studies;
   }();
   return all;

@@ -1,0 +1,138 @@
+#include "study/hydro/experiment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geo/so3.hpp"
+
+namespace fathom::study::hydro {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kSpeed_m_s = 1.54;
+constexpr double kDepth_m = 20.0;
+
+sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
+  sim::Random random(seed, "hydro.case");
+  sim::Scenario s;
+  s.name = "hydro";
+  s.duration_s = duration_s(one);
+  const double direction = random.uniform(0.0, 2.0 * std::numbers::pi);
+  s.environment.current_N_m_s = {one.current_m_s * std::cos(direction),
+                                 one.current_m_s * std::sin(direction)};
+  s.environment.water_depth_m = 60.0;
+  s.environment.turbulence_m_s = 0.01;
+  s.environment.turbulence_tau_s = 2.0;
+  s.start.latitude_rad = 35.0 * kDegree;
+  s.start.longitude_rad = 127.0 * kDegree;
+  s.start.depth_m = kDepth_m;
+  s.start.speed_m_s = kSpeed_m_s;
+  s.start.rpy_rad = {-5.3 * kDegree, 0.0, 40.0 * kDegree};
+  s.vehicle.kind = sim::VehicleConfig::Kind::remus;
+  const auto order = [&](double at_s, double heading_deg, double depth_m) {
+    sim::MissionStep step;
+    step.at_s = at_s;
+    step.speed_m_s = kSpeed_m_s;
+    step.heading_rad = heading_deg * kDegree;
+    step.depth_m = depth_m;
+    s.mission.push_back(step);
+  };
+  order(0.0, 40.0, kDepth_m);
+  if (one.straight) {
+    order(100.0, 40.0, kDepth_m + 5.0);
+  } else if (one.dvl_loss) {
+    // A survey: lanes of a minute to and fro, joined by short legs across.
+    double at_s = 0.0;
+    for (int lane = 0; at_s < duration_s(one); ++lane) {
+      order(at_s, lane % 2 == 0 ? 40.0 : 220.0, kDepth_m + lane % 3);
+      order(at_s + 60.0, 130.0, kDepth_m + lane % 3);
+      at_s += 75.0;
+    }
+  } else {
+    order(50.0, 70.0, kDepth_m);
+    order(100.0, 20.0, kDepth_m + 3.0);
+    order(150.0, 50.0, kDepth_m);
+  }
+
+  auto& imu = s.sensors.imu;
+  imu.enabled = true;
+  imu.rate_hz = 100.0;
+  imu.gyro.bias_sigma = 1.0 * kDegree / 3600.0;
+  imu.gyro.random_walk = 0.05 * kDegree / 60.0;
+  imu.accelerometer.bias_sigma = 0.5e-3 * 9.80665;
+  imu.accelerometer.random_walk = 5e-4;
+  auto& dvl = s.sensors.dvl;
+  dvl.enabled = true;
+  dvl.rate_hz = 10.0;
+  dvl.phase_s = 0.05;
+  dvl.beam_sigma_m_s = 0.00707;  // 0.01 m/s along x and y
+  dvl.beam_sigma_per_speed = 0.0;
+  dvl.scale_sigma = 0.003;
+  dvl.maximum_range_m = 200.0;
+  if (one.dvl_loss) dvl.dropouts = {{kLossFrom_s, kLossFrom_s + kLoss_s + 1.0}};
+  auto& depth = s.sensors.depth;
+  depth.enabled = true;
+  depth.rate_hz = 5.0;
+  depth.phase_s = 0.02;
+  depth.sigma_m = 0.02;
+  auto& propulsion = s.sensors.propulsion;
+  propulsion.enabled = true;
+  propulsion.rate_hz = 5.0;
+  propulsion.phase_s = 0.04;
+  propulsion.sigma_rpm = 3.0;
+  auto& fins = s.sensors.fins;
+  fins.enabled = true;
+  fins.rate_hz = 10.0;
+  fins.phase_s = 0.03;
+  fins.sigma_rad = 0.1 * kDegree;
+  return s;
+}
+
+}  // namespace
+
+double duration_s(const Case& one) {
+  return one.dvl_loss ? kLossFrom_s + kLoss_s : kPublished_s;
+}
+
+Run make_run(const Case& one, std::uint64_t seed) {
+  Run run;
+  const sim::Scenario scenario = scenario_of(one, seed);
+  sim::Simulation simulation(scenario, {kEpochNs, seed, "auv"});
+  const Truth start = simulation.truth();
+  run.truth.push_back(start);
+  const int seconds = static_cast<int>(std::lround(scenario.duration_s));
+  for (int t = 1; t <= seconds; ++t) {
+    for (int i = 0; i < 100; ++i) simulation.advance(run.measurements);
+    run.truth.push_back(simulation.truth());
+  }
+  std::stable_sort(run.measurements.begin(), run.measurements.end(), [](const auto& a, const auto& b) {
+    return sim::header_of(a).received_ns < sim::header_of(b).received_ns;
+  });
+
+  sim::Random random(seed, "hydro.start");
+  auto& given = run.start;
+  given.stamp_ns = kEpochNs;
+  given.latitude_rad = start.latitude_rad;
+  given.longitude_rad = start.longitude_rad;
+  given.altitude_m = start.altitude_m;
+  given.velocity_sigma_N_m_s = {0.05, 0.05, 0.05};
+  for (std::size_t i = 0; i < 3; ++i)
+    given.velocity_N_m_s[i] = start.velocity_N_m_s[i] + random.normal(given.velocity_sigma_N_m_s[i]);
+  given.position_sigma_N_m = {0.1, 0.1, 0.1};
+  given.attitude_sigma_rad = {one.tilt_sigma_deg * kDegree, one.tilt_sigma_deg * kDegree,
+                              kHeadingSigma_deg * kDegree};
+  // The error about north, east and down: C_estimated = (I - [phi x]) C.
+  const geo::Quaternion q = geo::from_rpy(geo::vec(start.rpy_rad));
+  const Eigen::Vector3d phi(random.normal(given.attitude_sigma_rad[0]),
+                            random.normal(given.attitude_sigma_rad[1]),
+                            random.normal(given.attitude_sigma_rad[2]));
+  given.rpy_rad = geo::arr(geo::to_rpy(geo::exp(-phi) * q));
+
+  sim::Random coefficients(seed, "hydro.coefficients");
+  run.coefficients =
+      one.other_vehicle ? air_dropped() : perturbed(remus100(), one.coefficient_share, coefficients);
+  return run;
+}
+
+}  // namespace fathom::study::hydro
