@@ -48,6 +48,7 @@ void describe(Schema<HydroEntry>& s) {
   s.field("value", &HydroEntry::value, "of the coefficient, in its unit").required();
   s.field("unit", &HydroEntry::unit, "of the value; rad is written where an angle is").required();
   s.field("source", &HydroEntry::source, "where the value comes from");
+  s.field("sigma", &HydroEntry::sigma, "of the value, in its unit; 0: not told").range(0, 1e9);
 }
 
 void describe(Schema<HydroFile>& s) {

@@ -14,6 +14,7 @@ struct HydroEntry {
   double value = 0.0;
   std::string unit;
   std::string source;
+  double sigma = 0.0;  ///< of the value, for people; 0: not told
 };
 
 /// deploy/config/hydro/*.json: a vehicle's coefficients. What is not listed is zero.

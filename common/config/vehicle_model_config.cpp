@@ -35,14 +35,18 @@ void describe(Schema<VehicleModelConfig>& s) {
   s.field("min_depth_m", &C::min_depth_m, "not used above: the model is of the submerged vehicle; 0: always")
       .unit("m")
       .range(-1000, 12'000);
+  s.field("settle_s", &C::settle_s,
+          "not used before: it starts without knowing the current, and what was wrong dies out with the "
+          "vehicle's own time constant")
+      .unit("s")
+      .range(0, 1e6);
   s.field("memory_s", &C::memory_s, "over which it is compared with the DVL-aided velocity")
       .unit("s")
       .range(1, 1e6);
   s.field("trial_s", &C::trial_s, "of comparison before it is believed without the DVL")
       .unit("s")
       .range(0, 1e6);
-  s.field("doubt_limit", &C::doubt_limit,
-          "mean normalised squared innovation above which it is not believed without the DVL")
+  s.field("doubt_limit", &C::doubt_limit, "mean normalised squared innovation above which it is not believed")
       .range(1, 100);
 }
 

@@ -51,11 +51,9 @@ bool Core::believe_model(const AidingState& state, const Observation& observatio
     normalised += observation.innovation[r] * observation.innovation[r] / variance / observation.rows;
   }
   water_.measured();
-  if (vouched) {
-    water_.compare(normalised, config.memory_s);
-    return true;
-  }
-  return water_.compared_s() >= config.trial_s && water_.doubt() <= config.doubt_limit;
+  if (vouched) water_.compare(normalised, config.memory_s);
+  const bool tried = vouched || water_.compared_s() >= config.trial_s;
+  return tried && water_.doubt() <= config.doubt_limit;
 }
 
 }  // namespace fathom::estimation

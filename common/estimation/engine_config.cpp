@@ -160,6 +160,7 @@ void check_vehicle_model(const VehicleModelConfig& model, const StateGroups& gro
   check.in("vehicle_model.correlation_time_s", model.correlation_time_s, 0.01, 1000);
   check.in("vehicle_model.fins_timeout_s", model.fins_timeout_s, 0.05, 1e6);
   check.in("vehicle_model.min_depth_m", model.min_depth_m, -1000, 12000);
+  check.in("vehicle_model.settle_s", model.settle_s, 0, 1e6);
   check.in("vehicle_model.memory_s", model.memory_s, 1, 1e6);
   check.in("vehicle_model.trial_s", model.trial_s, 0, 1e6);
   check.in("vehicle_model.doubt_limit", model.doubt_limit, 1, 100);
@@ -268,13 +269,14 @@ std::string EngineConfig::validate() const {
   check_alignment(alignment, check);
   check_constraints(constraints, check);
   check_vehicle_model(vehicle_model, groups, check);
-  std::set<std::string> names;
+  std::set<std::pair<std::string, bool>> names;
   check.that(sensors.size() <= 24, "sensors: " + std::to_string(sensors.size()) + ": expected at most 24");
   for (const SensorConfig& one : sensors) {
     check.that(!one.sensor.empty() && one.sensor.size() <= 31,
                "sensors.sensor: " + one.sensor + ": expected 1 to 31 characters");
-    check.that(names.insert(one.sensor).second,
-               "sensors.sensor: " + one.sensor + ": expected each name once");
+    // One controller may tell shaft speed and fins under one name.
+    check.that(names.emplace(one.sensor, one.kind == SourceKind::fins).second,
+               "sensors.sensor: " + one.sensor + ": expected each name once, but that fins may share one");
     check_sensor(one, check);
   }
   check.in("horizon_s", horizon_s, 0.1, 60);

@@ -234,9 +234,10 @@ struct VehicleModelConfig {
   double correlation_time_s = 3.0;              ///< of that
   double fins_timeout_s = 2.0;                  ///< without fin angles the velocity across counts less
   double min_depth_m = 1.0;                     ///< the model is of the submerged vehicle
+  double settle_s = 30.0;                       ///< not used before: what was wrong at its start dies out
   double memory_s = 60.0;                       ///< over which it is compared with the DVL-aided velocity
   double trial_s = 30.0;                        ///< of comparison before it is believed without the DVL
-  double doubt_limit = 9.0;  ///< mean normalised squared innovation above which it is not believed alone
+  double doubt_limit = 9.0;  ///< mean normalised squared innovation above which it is not believed
 };
 
 /// A limit that the forecast watches.

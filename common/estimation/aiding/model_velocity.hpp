@@ -26,6 +26,7 @@ class ModelVelocity {
                                      const hydro::WaterVelocity& water, const PropulsionSample& sample,
                                      double surface_altitude_m) {
     if (!(std::abs(sample.rpm) < 1e5) || !water.running()) return Usable::out_of_range;
+    if (water.running_s() < config.settle_s) return Usable::out_of_range;
     const double depth =
         s.value(Group::surface_altitude, 0, surface_altitude_m) - s.state.nav.position.altitude_m;
     return config.min_depth_m <= 0.0 || depth >= config.min_depth_m ? Usable::yes : Usable::out_of_range;

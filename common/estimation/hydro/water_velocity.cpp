@@ -38,6 +38,7 @@ Vector3d VelocityModel::step(const Vector3d& V_B_m_s, const Vector3d& omega_befo
 
 void WaterVelocity::begin(const Vector3d& V_B_m_s) {
   running_ = true;
+  running_s_ = 0.0;
   V_B_ = V_B_m_s;
 }
 
@@ -56,6 +57,7 @@ void WaterVelocity::advance(const VelocityModel& model, const Vector3d& omega_B_
     omega_before_B_ = omega_B_rad_s;
     return;
   }
+  running_s_ += dt_s;
   const int parts = std::clamp(static_cast<int>(std::ceil(dt_s / kLongestStep_s)), 1, 100);
   for (int i = 0; i < parts; ++i) {
     V_B_ = model.step(V_B_, omega_before_B_, omega_B_rad_s, gamma_B, controls_, dt_s / parts);

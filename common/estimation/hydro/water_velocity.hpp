@@ -31,6 +31,8 @@ class WaterVelocity {
   void begin(const Eigen::Vector3d& V_B_m_s);
   void stop() { *this = WaterVelocity{}; }
   [[nodiscard]] bool running() const { return running_; }
+  /// Since begin(): what was wrong at the start dies out as the hull's drag and lift have it.
+  [[nodiscard]] double running_s() const { return running_s_; }
 
   void set_rpm(double rpm) {
     controls_.rpm = rpm;
@@ -59,6 +61,7 @@ class WaterVelocity {
 
  private:
   bool running_ = false;
+  double running_s_ = 0.0;
   bool rpm_heard_ = false;
   Eigen::Vector3d V_B_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d omega_before_B_ = Eigen::Vector3d::Zero();

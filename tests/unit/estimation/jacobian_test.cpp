@@ -113,6 +113,7 @@ Observation rows(const AidingEntry& entry, const StateIndex& index, const Filter
   Observation observation;
   VehicleModelConfig model;
   model.min_depth_m = 0.0;
+  model.settle_s = 0.0;
   model.origin_B_m = {0.2, -0.1, 0.05};
   hydro::WaterVelocity water;
   water.begin({1.6, -0.2, 0.1});
