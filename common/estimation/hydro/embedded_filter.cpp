@@ -13,8 +13,6 @@ using Eigen::Vector3d;
 
 constexpr int kGyroBias = kEmbeddedStates;
 constexpr int kCurrent = kGyroBias + 3;
-/// Three components: one in a thousand good ones lies beyond.
-constexpr double kGate = 16.27;
 
 Vector3d squares(double a, double b, double c) {
   return {a * a, b * b, c * c};
@@ -104,7 +102,7 @@ void EmbeddedFilter<N>::measure_dvl(const DvlSample& dvl) {
       const AidingState aiding(index_, state, Vector3d::Zero(), 0.0);
       return Vector3d(DvlVelocity(aiding, dvl_, dvl).predicted());
     };
-    filter_.template update<3>(seen, measured, r, kGate);
+    filter_.template update<3>(seen, measured, r);
   }
 }
 
@@ -133,7 +131,7 @@ void EmbeddedFilter<N>::link() {
               v_N - Vector3d(x[kVelocity] + x[kCurrent], x[kVelocity + 1] + x[kCurrent + 1], 0.0);
           return Vector3d(true_C_BN(c, x.template segment<3>(kPhi)) * through_N - x.template head<3>());
         },
-        Vector3d::Zero(), Matrix3d(squares(s, s, s).asDiagonal()), kGate);
+        Vector3d::Zero(), Matrix3d(squares(s, s, s).asDiagonal()));
   }
 }
 
