@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "cli/bench_floor.hpp"
+#include "cli/bench_hydro.hpp"
 #include "cli/bench_vehicle.hpp"
 #include "cli/command.hpp"
 #include "estimation/aiding/registry.hpp"
@@ -254,6 +255,7 @@ void late_fix(const std::string& configuration, double rate_hz, double late_s, i
 void run_bench(int rounds, const std::function<void(const BenchRow&)>& done) {
   for (const char* configuration : {"gps_ins15", "hybrid25", "full"}) done(predict(configuration, rounds));
   updates(rounds, done);
+  bench_hydro(rounds, done);
   const int few = std::max(1, rounds / 20);
   for (const char* configuration : {"gps_ins15", "standard", "hybrid25", "full"})
     done(solve(configuration, few));

@@ -26,12 +26,27 @@ TEST(BenchCommand, GivesEachFigureWithItsFloor) {
       EXPECT_GT(row.at(key).get<double>(), 0.0) << name << ' ' << key;
     }
   }
-  for (const char* name :
-       {"predict_gps_ins15", "predict_hybrid25", "predict_full", "update_dvl_velocity_full",
-        "update_gps_position_full", "update_gps_velocity_full", "update_dvl_beams_full", "update_depth_full",
-        "update_heading_full", "update_usbl_position_full", "update_airspeed_full", "update_speed_log_full",
-        "solve_gps_ins15", "solve_standard", "solve_full", "late_fix_2s_full_100hz",
-        "late_fix_2s_full_100hz_steps", "late_fix_2s_full_400hz"})
+  for (const char* name : {"predict_gps_ins15",
+                           "predict_hybrid25",
+                           "predict_full",
+                           "update_dvl_velocity_full",
+                           "update_gps_position_full",
+                           "update_gps_velocity_full",
+                           "update_dvl_beams_full",
+                           "update_depth_full",
+                           "ukf_step_printed",
+                           "ukf_step_linked",
+                           "model_velocity_step_full",
+                           "update_heading_full",
+                           "update_usbl_position_full",
+                           "update_airspeed_full",
+                           "update_speed_log_full",
+                           "solve_gps_ins15",
+                           "solve_standard",
+                           "solve_full",
+                           "late_fix_2s_full_100hz",
+                           "late_fix_2s_full_100hz_steps",
+                           "late_fix_2s_full_400hz"})
     EXPECT_EQ(names.count(name), 1U) << name;
 }
 
