@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
+#include "cli/solve_calibrate.hpp"
 #include "cli/solve_metrics.hpp"
 #include "cli/solve_outage.hpp"
 #include "cli/solve_run.hpp"
@@ -32,6 +33,7 @@ struct SolveOptions {
   std::string metrics;
   std::string outages;
   std::string start;
+  std::string calibrate_hydro;
   double rate_hz = 0.0;
   bool smooth = false;
   bool json = false;
@@ -140,6 +142,9 @@ SolveReport solve(const SolveOptions& options) {
     report.outages =
         run_outages(passage, *outages, options.smooth, dataset::kDefaultEpochNs, options.directory);
   }
+  if (!options.calibrate_hydro.empty())
+    report.calibration =
+        calibrate_hydro(passage, options.directory, options.config, options.calibrate_hydro);
   return report;
 }
 
@@ -177,11 +182,15 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
       "--smooth", options->smooth,
       "every state from all measurements before and after it: filter forward, each measurement at its own "
       "instant, then backward");
+  command->add_option("--calibrate-hydro", options->calibrate_hydro,
+                      "fit the coefficients of the configured vehicle model to the velocities that the DVL "
+                      "gave and write them, each with its sigma (JSON)");
   command->add_flag("--json", options->json, "print the metrics as JSON");
   command->callback([options, &exit_code] {
     const SolveReport report = solve(*options);
     if (!options->metrics.empty()) write_text(options->metrics, to_json(report));
     std::fputs((options->json ? to_json(report) : to_text(report)).c_str(), stdout);
+    if (!options->json) std::fputs(report.calibration.c_str(), stdout);
     if (report.positions == 0) exit_code = ExitCode::no;
   });
 }

@@ -24,6 +24,7 @@ struct SolveReport {
   dataset::Score filtered;                          ///< of the forward pass where smoothed
   double distance_m = kUnknown;                     ///< horizontal, of the reference while it was scored
   std::vector<OutageFigures> outages;
+  std::string calibration;  ///< for a person, where it was asked for
 };
 
 /// metrics.json, indented, with a line end. Unknown figures are null.
