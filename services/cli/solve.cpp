@@ -143,8 +143,7 @@ SolveReport solve(const SolveOptions& options) {
         run_outages(passage, *outages, options.smooth, dataset::kDefaultEpochNs, options.directory);
   }
   if (!options.calibrate_hydro.empty())
-    report.calibration =
-        calibrate_hydro(passage, options.directory, options.config, options.calibrate_hydro);
+    report.calibration = calibrate_hydro(passage, options.directory, options.config, options.calibrate_hydro);
   return report;
 }
 
