@@ -5,7 +5,25 @@
 namespace fathom::config {
 namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
+
+// Fins, shaft and what the autopilot orders of them: the same fields in every vehicle that has them.
+template <class C>
+void describe_steering(Schema<C>& s) {
+  s.field("fin_limit_deg", &C::fin_limit_rad, "largest fin angle").unit("deg").scaled(kDegree).range(1, 60);
+  s.field("fin_tau_s", &C::fin_tau_s, "time constant of the fins").unit("s").range(0.02, 5);
+  s.field("propulsor_tau_s", &C::propulsor_tau_s, "time constant of the shaft speed")
+      .unit("s")
+      .range(0.02, 30);
+  s.field("maximum_pitch_deg", &C::maximum_pitch_rad, "ordered at most")
+      .unit("deg")
+      .scaled(kDegree)
+      .range(1, 60);
+  s.field("maximum_turn_rate_deg_s", &C::maximum_turn_rate_rad_s, "ordered at most")
+      .unit("deg/s")
+      .scaled(kDegree)
+      .range(0.1, 60);
 }
+}  // namespace
 
 void describe(Schema<sim::AuvConfig>& s) {
   using C = sim::AuvConfig;
@@ -46,19 +64,7 @@ void describe(Schema<sim::AuvConfig>& s) {
       .range(-1, 1);
   s.field("buoyancy_ratio", &C::buoyancy_ratio, "displacement over weight").range(1.0001, 1.1);
   s.field("hull_diameter_m", &C::hull_diameter_m, "of the hull").unit("m").range(0.05, 5);
-  s.field("fin_limit_deg", &C::fin_limit_rad, "largest fin angle").unit("deg").scaled(kDegree).range(1, 60);
-  s.field("fin_tau_s", &C::fin_tau_s, "time constant of the fins").unit("s").range(0.02, 5);
-  s.field("propulsor_tau_s", &C::propulsor_tau_s, "time constant of the shaft speed")
-      .unit("s")
-      .range(0.02, 30);
-  s.field("maximum_pitch_deg", &C::maximum_pitch_rad, "ordered at most")
-      .unit("deg")
-      .scaled(kDegree)
-      .range(1, 60);
-  s.field("maximum_turn_rate_deg_s", &C::maximum_turn_rate_rad_s, "ordered at most")
-      .unit("deg/s")
-      .scaled(kDegree)
-      .range(0.1, 60);
+  describe_steering(s);
 }
 
 void describe(Schema<sim::AirDropConfig>& s) {
@@ -143,19 +149,7 @@ void describe(Schema<sim::RotatingArmConfig>& s) {
 
 void describe(Schema<sim::RemusConfig>& s) {
   using C = sim::RemusConfig;
-  s.field("fin_limit_deg", &C::fin_limit_rad, "largest fin angle").unit("deg").scaled(kDegree).range(1, 60);
-  s.field("fin_tau_s", &C::fin_tau_s, "time constant of the fins").unit("s").range(0.02, 5);
-  s.field("propulsor_tau_s", &C::propulsor_tau_s, "time constant of the shaft speed")
-      .unit("s")
-      .range(0.02, 30);
-  s.field("maximum_pitch_deg", &C::maximum_pitch_rad, "ordered at most")
-      .unit("deg")
-      .scaled(kDegree)
-      .range(1, 60);
-  s.field("maximum_turn_rate_deg_s", &C::maximum_turn_rate_rad_s, "ordered at most")
-      .unit("deg/s")
-      .scaled(kDegree)
-      .range(0.1, 60);
+  describe_steering(s);
   s.field("hull_diameter_m", &C::hull_diameter_m, "over which the vehicle floats up")
       .unit("m")
       .range(0.05, 5);
