@@ -83,5 +83,11 @@ TEST(HydroStudy, ModelBridgesTheLossOfTheDvl) {
   EXPECT_LT(t.at("engine drift_since_loss").max, 0.3 * t.at("engine_no_model drift_since_loss").mean);
 }
 
+TEST(HydroStudy, AnotherVehiclesCoefficientsDoNoHarm) {
+  const Table t = table("dvl_loss_300s_other_vehicle", 2, {"engine", "engine_no_model"});
+  EXPECT_LT(t.at("engine drift_since_loss").mean, 1.1 * t.at("engine_no_model drift_since_loss").mean);
+  EXPECT_LT(t.at("engine position_rms_199s").rms, 1.1 * t.at("engine_no_model position_rms_199s").rms);
+}
+
 }  // namespace
 }  // namespace fathom::study
