@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include <arpa/inet.h>
+
 #include "config/service_schema.hpp"
 
 namespace fathom::config {
@@ -211,9 +213,30 @@ void describe(Schema<HealthConfig>& s) {
   });
 }
 
+void describe(Schema<JournalConfig>& s) {
+  s.field("path", &JournalConfig::path,
+          "file that every alarm is appended to, one JSON object a line; its folder is made; empty: none");
+}
+
+void describe(Schema<MetricsConfig>& s) {
+  s.field("enabled", &MetricsConfig::enabled, "answer http://address:port/metrics for Prometheus");
+  s.field("address", &MetricsConfig::address,
+          "IPv4 address that is listened at: this host's own, 0.0.0.0 for every one it has");
+  s.field("port", &MetricsConfig::port, "TCP port").range(1, 65535);
+  s.check([](const MetricsConfig& metrics) -> Fault {
+    in_addr parsed{};
+    if (inet_pton(AF_INET, metrics.address.c_str(), &parsed) != 1) {
+      return {"address", "an IPv4 address such as 127.0.0.1"};
+    }
+    return {};
+  });
+}
+
 void describe(Schema<MonitorConfig>& s) {
   s.include(&MonitorConfig::common);
   s.include(&MonitorConfig::health);
+  s.field("journal", &MonitorConfig::journal, "the record of alarms");
+  s.field("metrics", &MonitorConfig::metrics, "metrics for Prometheus");
   s.field("evaluation_hz", &MonitorConfig::evaluation_hz, "how often everything is judged")
       .unit("Hz")
       .range(2, 100);

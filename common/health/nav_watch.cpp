@@ -38,7 +38,8 @@ void NavWatch::add(const NavState& state, const Instant& now) {
   invalid_ =
       is_navigating(mode_) && !(std::isfinite(state.latitude_rad) && std::isfinite(state.longitude_rad) &&
                                 all_finite(state.velocity_N_m_s) && all_finite(state.q_NB));
-  horizontal_95_m_ = is_navigating(mode_) ? horizontal_95_m(state.position_covariance_N_m2) : kUnknown;
+  horizontal_95_m_ =
+      is_navigating(mode_) ? fathom::horizontal_95_m(state.position_covariance_N_m2) : kUnknown;
   const double limit_m = config_.horizontal_95_limit_m;
   uncertain_ = horizontal_95_m_ > (uncertain_ ? 0.9 * limit_m : limit_m);
 }
@@ -49,6 +50,10 @@ void NavWatch::evaluate(const Instant& now) {
 
 NavMode NavWatch::mode() const {
   return stream_.presence() == Presence::missing ? NavMode::none : mode_;
+}
+
+double NavWatch::horizontal_95_m() const {
+  return stream_.presence() == Presence::missing ? kUnknown : horizontal_95_m_;
 }
 
 void NavWatch::report(AlarmBook& book, const Instant& now) const {

@@ -28,6 +28,8 @@ class NavWatch {
   /// The last state's, or none while the state is missing.
   [[nodiscard]] NavMode mode() const;
   [[nodiscard]] double age_s(const Instant& now) const { return stream_.age_s(now.monotonic_ns); }
+  /// NaN while the state is missing or has no position.
+  [[nodiscard]] double horizontal_95_m() const;
   [[nodiscard]] bool fresh() const { return stream_.presence() == Presence::present; }
 
  private:

@@ -62,6 +62,8 @@ class VehicleHealth {
   [[nodiscard]] MonitorStatus status(const Instant& now) const;
   [[nodiscard]] std::vector<Alarm> take_changes() { return book_.take_changes(); }
   [[nodiscard]] const AlarmBook& alarms() const { return book_; }
+  /// Of the last navigation state; NaN when unknown or missing.
+  [[nodiscard]] double horizontal_95_m() const { return nav_.horizontal_95_m(); }
 
  private:
   [[nodiscard]] bool ours(const SampleHeader& header) const { return header.vehicle == config_.vehicle; }

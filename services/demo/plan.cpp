@@ -22,6 +22,9 @@ using Sets = std::vector<std::string>;
 // Serial number of the demonstration's own network ports: two domains, two demonstrations side by side.
 constexpr int kPortsPerDomain = 16;
 
+// Of the monitor's metrics, plus the domain: demonstrations side by side do not meet.
+constexpr int kMetricsPort = 9464;
+
 // Host seconds that services get to find each other before a recording is played.
 constexpr double kStartUpS = 8.0;
 
@@ -156,7 +159,9 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   builder.add("fusion", fusion, fusion_file);
   builder.add("guidance_example", overrides["guidance_example"]);
   builder.add("simulator", simulator);
-  const Sets monitor = monitor_sets(plan, scenario, bridges, overrides["monitor"]);
+  Sets monitor = monitor_sets(plan, scenario, bridges, overrides["monitor"]);
+  monitor.push_back("journal.path=" + (run_directory / "alarms.jsonl").string());
+  monitor.push_back("metrics.port=" + std::to_string(kMetricsPort + options.domain));
   builder.add("monitor", monitor);
   // The simulator last: instruments speak when everyone listens.
   const auto simulator_at = std::find_if(plan.programs.begin(), plan.programs.end(),

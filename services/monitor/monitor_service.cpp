@@ -1,6 +1,9 @@
 #include "monitor/monitor_service.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -9,9 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "health/vehicle_health.hpp"
+#include "monitor/alarm_journal.hpp"
+#include "monitor/metrics.hpp"
+#include "runtime/build_info.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
 #include "samples/depth.hpp"
@@ -29,6 +37,10 @@ health::HealthConfig health_of(const config::MonitorConfig& config) {
   return health;
 }
 
+constexpr DurationNs kRetryNs = 10 * kNsPerSecond;    // of what could not be opened
+constexpr DurationNs kForecastNs = 5 * kNsPerSecond;  // an older forecast is none
+constexpr std::size_t kMostSensors = 64;              // names come from the network: bounded
+
 /// The part of a status that is worth telling at once when it changes.
 auto headline(const MonitorStatus& status) {
   return std::tuple(status.healthy, status.mode, status.alignment, status.gps_outage_active,
@@ -44,13 +56,20 @@ struct MonitorService::Impl {
         health(health_of(monitor_config), now(),
                [this](const health::WriterId& writer) { return describe(writer); }),
         status_writer(host.participant()),
-        alarm_writer(host.participant()) {
+        alarm_writer(host.participant()),
+        journal(monitor_config.journal.path),
+        metrics([this] { return snapshot(); }) {
+    open_outputs(now());
     listen_to_sensors();
     listen<NavState>();
     listen<AlignmentStatus>();
     listen<ServiceStatus>();
-    listen<Verdict>();
-    listen<Forecast>();
+    listen<Verdict>([this](const Verdict& verdict) { count(verdict); });
+    listen<Forecast>([this](const Forecast& told_now) {
+      if (told_now.header.vehicle.view() != config.common.vehicle) return;
+      forecast = told_now;
+      forecast_ns = host.clock().monotonic_ns();
+    });
     readers.push_back(std::make_shared<bus::Reader<Command>>(
         host.participant(), [this](const Command& command, const bus::SampleInfo&) { apply(command); }));
     host.on_tick(from_seconds(1.0 / config.evaluation_hz), [this] { tick(); });
@@ -67,12 +86,91 @@ struct MonitorService::Impl {
   [[nodiscard]] health::Instant now() const { return {host.clock().monotonic_ns(), host.clock().utc_ns()}; }
 
   template <class T>
-  void listen() {
-    readers.push_back(
-        std::make_shared<bus::Reader<T>>(host.participant(), [this](const T& sample, const bus::SampleInfo&) {
+  void listen(std::function<void(const T&)> besides = {}) {
+    readers.push_back(std::make_shared<bus::Reader<T>>(
+        host.participant(), [this, besides = std::move(besides)](const T& sample, const bus::SampleInfo&) {
           const std::lock_guard lock(mutex);
           health.add(sample, now());
+          if (besides) besides(sample);
         }));
+  }
+
+  void count(const Verdict& verdict) {
+    const auto kind = static_cast<std::size_t>(verdict.kind);
+    if (verdict.header.vehicle.view() != config.common.vehicle || kind >= kVerdictKinds) return;
+    if (verdicts.size() < kMostSensors || verdicts.contains(verdict.header.sensor)) {
+      ++verdicts[verdict.header.sensor][kind];
+    }
+  }
+
+  /// Journal and metrics, as far as they are wanted and not open yet.
+  void open_outputs(const health::Instant& at) {
+    tried_ns = at.monotonic_ns;
+    if (!config.journal.path.empty() && !journal.is_open()) {
+      if (journal.open(at.utc_ns)) {
+        const auto repaired = journal.counters().repaired_bytes;
+        if (repaired > 0) {
+          host.log().warning("journal " + config.journal.path + ": its last line was incomplete (" +
+                             std::to_string(repaired) + " bytes) and was closed");
+        }
+        journal.note(
+            "started",
+            "fathom-monitor " + std::string(runtime::version()) + ", process " + std::to_string(getpid()),
+            at.utc_ns);
+      }
+      complain(journal.error(), journal_trouble);
+      const std::lock_guard lock(mutex);
+      journal_counters = journal.counters();
+    }
+    if (config.metrics.enabled && !metrics.running()) {
+      const std::string trouble = metrics.start(config.metrics.address, config.metrics.port);
+      if (trouble.empty()) {
+        host.log().info("metrics at http://" + config.metrics.address + ":" +
+                        std::to_string(config.metrics.port) + "/metrics");
+      }
+      complain(trouble, metrics_trouble);
+    }
+  }
+
+  /// One line when a trouble is new or another one; the monitor goes on.
+  void complain(const std::string& trouble, std::string& known) {
+    if (!trouble.empty() && trouble != known) host.log().error(trouble);
+    known = trouble;
+  }
+
+  /// The monitor's own outputs are watched like everything else. Under the lock.
+  void judge_outputs(const health::Instant& at) {
+    const auto alarm = [&](const char* key, Severity severity, const std::string& trouble) {
+      health::Condition condition;
+      condition.key = key;
+      condition.severity = severity;
+      condition.text = trouble.substr(0, 240);
+      health.set(!trouble.empty(), condition, at);
+    };
+    alarm("journal_failed", Severity::warning, journal_trouble);
+    alarm("metrics_unavailable", Severity::notice, metrics_trouble);
+  }
+
+  /// Any thread.
+  MetricsSnapshot snapshot() {
+    MetricsSnapshot out;
+    const std::lock_guard lock(mutex);
+    const health::Instant at = now();
+    out.status = health.status(at);
+    out.alarms = health.alarms().all();
+    out.horizontal_95_m = health.horizontal_95_m();
+    out.verdicts = verdicts;
+    out.raised = raised;
+    out.acknowledged = commands;
+    out.dropped = health.alarms().dropped();
+    out.journal_lines = journal_counters.lines;
+    out.journal_failures = journal_counters.failures;
+    if (forecast && at.monotonic_ns - forecast_ns < kForecastNs) {
+      const auto count = std::min<std::size_t>(forecast->limit_count, Forecast::kMaxLimits);
+      out.forecast.assign(forecast->limits.begin(),
+                          forecast->limits.begin() + static_cast<std::ptrdiff_t>(count));
+    }
+    return out;
   }
 
   /// A sensor whose samples say more than that they came.
@@ -120,6 +218,7 @@ struct MonitorService::Impl {
   }
 
   void tick() {
+    if (const health::Instant at = now(); at.monotonic_ns - tried_ns >= kRetryNs) open_outputs(at);
     std::vector<Alarm> changes;
     std::vector<Alarm> repeats;
     std::optional<MonitorStatus> status;
@@ -127,6 +226,7 @@ struct MonitorService::Impl {
       // Nothing is written under the lock: a writer may wait for a thread of the bus that waits for the lock.
       const std::lock_guard lock(mutex);
       const health::Instant at = now();
+      judge_outputs(at);
       health.evaluate(at);
       changes = health.take_changes();
       if (at.monotonic_ns - repeated_ns >= from_seconds(config.alarm_repeat_s)) {
@@ -141,16 +241,15 @@ struct MonitorService::Impl {
         status = std::move(fresh);
       }
     }
-    for (const Alarm& alarm : changes) {
-      tell(alarm);
-      publish(alarm);
-    }
+    for (const Alarm& alarm : changes) publish(alarm);
     for (const Alarm& alarm : repeats) publish(alarm);
     if (status) {
       status->header = host.header();
       status->header.sequence = ++status_sequence;
       status_writer.write(*status);
     }
+    // Last: a disk may take its time.
+    for (const Alarm& alarm : changes) record(alarm);
   }
 
   void publish(Alarm alarm) {
@@ -159,21 +258,48 @@ struct MonitorService::Impl {
     alarm_writer.write(alarm);
   }
 
-  /// One line when an alarm is raised, becomes more severe or clears; acknowledgements are logged by apply().
-  void tell(const Alarm& alarm) {
-    const std::string text = " alarm " + alarm.alarm.str() + ": " + alarm.text;
+  /// What a change of the book means to those who read on: nothing when it says what was said before.
+  std::optional<JournalEvent> event_of(const Alarm& alarm) {
     const auto known = told.find(alarm.alarm);
-    if (!alarm.active) {
-      if (known == told.end()) return;
+    const bool was_active = known != told.end() && known->second.active;
+    std::optional<JournalEvent> event;
+    if (alarm.active && !was_active) {
+      event = JournalEvent::raised;
+    } else if (!alarm.active && was_active) {
+      event = JournalEvent::cleared;
+    } else if (alarm.active && alarm.severity > known->second.severity) {
+      event = JournalEvent::worsened;
+    } else if (alarm.acknowledged && known != told.end() && !known->second.acknowledged) {
+      event = JournalEvent::acknowledged;
+    }
+    if (alarm.active || !alarm.acknowledged) {
+      told[alarm.alarm] = alarm;
+    } else if (known != told.end()) {
       told.erase(known);
+    }
+    return event;
+  }
+
+  /// A line in the log and one in the journal; acknowledgements are logged by apply().
+  void record(const Alarm& alarm) {
+    const auto event = event_of(alarm);
+    if (!event) return;
+    const std::string text = " alarm " + alarm.alarm.str() + ": " + alarm.text;
+    if (*event == JournalEvent::cleared) {
       host.log().info("cleared" + text);
-    } else if (known == told.end() || known->second != alarm.severity) {
-      told[alarm.alarm] = alarm.severity;
+    } else if (*event != JournalEvent::acknowledged) {
       const auto level = alarm.severity == Severity::critical  ? runtime::LogLevel::error
                          : alarm.severity == Severity::warning ? runtime::LogLevel::warning
                                                                : runtime::LogLevel::info;
       host.log().write(level, std::string(to_string(alarm.severity)) + text);
     }
+    if (!config.journal.path.empty()) {
+      journal.append(alarm, *event, host.clock().utc_ns());
+      complain(journal.error(), journal_trouble);
+    }
+    const std::lock_guard lock(mutex);
+    if (*event == JournalEvent::raised) ++raised[static_cast<std::size_t>(alarm.severity)];
+    journal_counters = journal.counters();
   }
 
   void fill(ServiceStatus& status) {
@@ -187,26 +313,41 @@ struct MonitorService::Impl {
 
   host::ServiceHost& host;
   config::MonitorConfig config;
-  std::mutex mutex;  ///< guards health and commands: readers' handlers and the tick run on different threads
+  std::mutex
+      mutex;  ///< of what follows up to the next heading: handlers, tick and scrapes have their own threads
   health::VehicleHealth health;
   std::uint64_t commands = 0;
+  std::map<Name, std::array<std::uint64_t, kVerdictKinds>> verdicts;
+  std::optional<Forecast> forecast;
+  TimeNs forecast_ns = 0;  ///< monotonic, of its arrival
+  std::array<std::uint64_t, 3> raised{};
+  AlarmJournal::Counters journal_counters;
 
   // Of the tick's thread only.
   TimeNs published_ns = 0;
   TimeNs repeated_ns = 0;
   std::optional<MonitorStatus> said;
-  std::map<Name, Severity> told;  ///< alarms logged as raised and not yet as cleared
+  std::map<Name, Alarm> told;  ///< alarms as last recorded, until they are over and acknowledged
+  TimeNs tried_ns = 0;
+  std::string journal_trouble;
+  std::string metrics_trouble;
   std::uint64_t status_sequence = 0;
   std::uint64_t alarm_sequence = 0;
 
   bus::Writer<MonitorStatus> status_writer;
   bus::Writer<Alarm> alarm_writer;
+  AlarmJournal journal;
+  MetricsServer metrics;
   std::vector<std::shared_ptr<void>> readers;  ///< last: their handlers use all of the above
 };
 
 MonitorService::MonitorService(host::ServiceHost& host, const config::MonitorConfig& config)
     : impl_(std::make_unique<Impl>(host, config)) {}
 
-MonitorService::~MonitorService() = default;
+MonitorService::~MonitorService() {
+  if (impl_->journal.is_open()) {
+    impl_->journal.note("stopped", "fathom-monitor ended in good order", impl_->host.clock().utc_ns());
+  }
+}
 
 }  // namespace fathom::monitor

@@ -1,10 +1,15 @@
-#include <atomic>
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include <arpa/inet.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <sys/socket.h>
 
 #include "support/process.hpp"
 #include "vehicle_network.hpp"
@@ -20,6 +25,12 @@ class MonitorTest : public ::testing::Test {
   void start(std::uint32_t domain, std::vector<std::string> sets, const Clock& clock) {
     std::vector<std::string> arguments{"--config", kConfig};
     sets.push_back("bus.domain=" + std::to_string(domain));
+    journal = std::filesystem::temp_directory_path() /
+              ("fathom-monitor-test-" + std::to_string(getpid()) + "-" + std::to_string(domain) + ".jsonl");
+    std::filesystem::remove(journal);
+    metrics_port = 19464 + static_cast<int>(domain);
+    sets.push_back("journal.path=" + journal.string());
+    sets.push_back("metrics.port=" + std::to_string(metrics_port));
     sets.push_back(R"(sensors=[{"name":"gps","kind":"gps","rate_hz":10,"missing_s":30}])");
     for (const std::string& set : sets) {
       arguments.push_back("--set");
@@ -28,6 +39,7 @@ class MonitorTest : public ::testing::Test {
     setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
     network = std::make_unique<VehicleNetwork>(domain, clock);
     ear = std::make_unique<MonitorEar>(network->participant());
+    command_line = arguments;
     monitor = std::make_unique<Process>("fathom-monitor", arguments);
     ASSERT_TRUE(wait_until([&] { return ear->status().has_value() && network->commands_heard_by_someone(); }))
         << monitor->err();
@@ -50,12 +62,32 @@ class MonitorTest : public ::testing::Test {
     if (!monitor) return;
     monitor->kill(SIGTERM);
     EXPECT_EQ(monitor->wait(), 0) << monitor->err();
+    std::filesystem::remove(journal);
+  }
+  /// Every line of the journal as JSON; fails the test when one is none.
+  [[nodiscard]] std::vector<nlohmann::json> journal_lines() const {
+    std::vector<nlohmann::json> out;
+    std::ifstream file(journal);
+    for (std::string line; std::getline(file, line);) {
+      out.push_back(nlohmann::json::parse(line, nullptr, false));
+      EXPECT_FALSE(out.back().is_discarded()) << line;
+    }
+    return out;
+  }
+  [[nodiscard]] bool journalled(const std::string& event, const std::string& alarm) const {
+    const auto lines = journal_lines();
+    return std::any_of(lines.begin(), lines.end(), [&](const nlohmann::json& line) {
+      return line["event"] == event && line.value("alarm", "") == alarm;
+    });
   }
 
   SystemClock clock;
   std::unique_ptr<VehicleNetwork> network;
   std::unique_ptr<MonitorEar> ear;
   std::unique_ptr<Process> monitor;
+  std::vector<std::string> command_line;
+  std::filesystem::path journal;
+  int metrics_port = 0;
 };
 
 TEST_F(MonitorTest, AMissingServiceIsNamedClearedWhenItIsBackAndGoneWhenAcknowledged) {
@@ -146,6 +178,67 @@ TEST_F(MonitorTest, DeadFusionIsAnAlarmAndLateReadersHearOfIt) {
   EXPECT_TRUE(drive([&] { network->gps(true); }, [&] { return late.active("nav_state_missing"); }, 3.0));
 }
 
+TEST_F(MonitorTest, TheJournalSurvivesKillNineAndAnIncompleteLine) {
+  start(184, {"services=[]", "navigation.expected=false", "gps.limit_s=1.0"}, clock);
+  ASSERT_TRUE(drive([&] { network->gps(true); }, [&] { return ear->status()->gps_outage_s == 0.0; }));
+  ASSERT_TRUE(drive([&] { network->gps(false); }, [&] { return ear->active("gps_outage"); }));
+  EXPECT_TRUE(wait_until([&] { return journalled("raised", "gps_outage"); }, 2.0));
+  monitor->kill(SIGKILL);
+  EXPECT_EQ(monitor->wait(), 128 + SIGKILL);
+  std::ofstream(journal, std::ios::app) << R"({"time_utc":"2026-01-01T00:00:00.000Z","event":"cle)";
+  monitor = std::make_unique<Process>("fathom-monitor", command_line);
+  ASSERT_TRUE(drive([&] { network->gps(true); },
+                    [&] { return monitor->err().find("was incomplete") != std::string::npos; }))
+      << monitor->err();
+  EXPECT_TRUE(wait_until([&] { return journal_lines().size() >= 4; }, 2.0));
+  const auto lines = journal_lines();
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0]["event"], "started");
+  EXPECT_EQ(lines[1]["event"], "raised");
+  EXPECT_EQ(lines[2]["event"], "repaired");
+  EXPECT_EQ(lines[3]["event"], "started");
+  monitor->kill(SIGTERM);
+  EXPECT_EQ(monitor->wait(), 0);
+  EXPECT_EQ(journal_lines().back()["event"], "stopped");
+}
+
+TEST_F(MonitorTest, ATakenPortAndAnImpossibleJournalAreSaidAndTheMonitorGoesOn) {
+  const int taken = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(19464 + 185);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(bind(taken, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(taken, 1), 0);
+  start(185, {"services=[]", "navigation.expected=false"}, clock);
+  ASSERT_TRUE(drive([&] { network->gps(true); }, [&] { return ear->active("metrics_unavailable"); }));
+  EXPECT_EQ(ear->alarm("metrics_unavailable")->severity, Severity::notice);
+  EXPECT_NE(ear->alarm("metrics_unavailable")->text.find(std::to_string(metrics_port)), std::string::npos);
+  EXPECT_TRUE(drive([&] { network->gps(true); }, [&] { return ear->status()->healthy; }));
+  close(taken);
+  monitor->kill(SIGTERM);
+  EXPECT_EQ(monitor->wait(), 0) << monitor->err();
+  command_line.insert(command_line.end(), {"--set", "journal.path=/dev/null"});
+  monitor = std::make_unique<Process>("fathom-monitor", command_line);
+  ASSERT_TRUE(drive([&] { network->gps(true); }, [&] { return ear->active("journal_failed"); }));
+  EXPECT_NE(monitor->err().find("regular file"), std::string::npos) << monitor->err();
+}
+
+TEST_F(MonitorTest, ASecondWriterIsNamedByServiceProcessAndHost) {
+  start(186, {"services=[]", "navigation.expected=false"}, clock);
+  VehicleNetwork rogue(186, clock, "rogue");
+  ASSERT_TRUE(drive(
+      [&] {
+        network->gps(true);
+        rogue.gps(true);
+      },
+      [&] { return ear->active("second_writer:gps"); }));
+  const std::string text = ear->alarm("second_writer:gps")->text;
+  const std::string process = "(process " + std::to_string(getpid()) + " on host ";
+  EXPECT_NE(text.find("test_vehicle " + process), std::string::npos) << text;
+  EXPECT_NE(text.find("rogue " + process), std::string::npos) << text;
+}
+
 TEST(MonitorConfiguration, IsRefusedInOneLineBeforeAnythingStarts) {
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"gps.limit=3", "gps.limit"},
@@ -154,6 +247,8 @@ TEST(MonitorConfiguration, IsRefusedInOneLineBeforeAnythingStarts) {
       {R"(sensors=[{"name":"imu","kind":"imu"}])", "rate_hz"},
       {R"(sensors=[{"name":"imu","kind":"sonar","rate_hz":1}])", "kind"},
       {R"(services=[{"name":"a"},{"name":"a"}])", "services"},
+      {"metrics.port=70000", "metrics.port"},
+      {"metrics.address=everywhere", "metrics.address"},
   };
   for (const auto& [set, named] : wrong) {
     Process process("fathom-monitor", {"--config", kConfig, "--set", set});

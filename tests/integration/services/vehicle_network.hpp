@@ -21,8 +21,8 @@ namespace fathom::test {
 /// The rest of a vehicle as the service under test sees it: what is written here arrives there.
 class VehicleNetwork {
  public:
-  VehicleNetwork(std::uint32_t domain, const Clock& clock)
-      : clock_(clock), began_ns_(clock.utc_ns()), participant_(options(domain)) {}
+  VehicleNetwork(std::uint32_t domain, const Clock& clock, const std::string& name = "test_vehicle")
+      : clock_(clock), began_ns_(clock.utc_ns()), participant_(options(domain, name)) {}
 
   SampleHeader header(const Name& sensor) {
     SampleHeader out;
@@ -107,9 +107,9 @@ class VehicleNetwork {
   [[nodiscard]] bool commands_heard_by_someone() const { return command_.matched_readers() > 0; }
 
  private:
-  static bus::ParticipantOptions options(std::uint32_t domain) {
+  static bus::ParticipantOptions options(std::uint32_t domain, const std::string& name) {
     bus::ParticipantOptions out;
-    out.name = "test_vehicle";
+    out.name = name;
     out.domain = domain;
     out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
     return out;

@@ -109,6 +109,24 @@ TEST(StatusView, AlarmsOverAndUnacknowledgedComeLast) {
   EXPECT_EQ(sorted[2].alarm, Name("over"));
 }
 
+TEST(StatusView, ReceiversAreToldApartWhereThereAreSeveral) {
+  StatusView view = healthy_view();
+  MonitorStatus& monitor = view.monitor->sample;
+  monitor.receivers = {{"bow", false, Severity::notice, 0, 0.0, 30.0, 42.0, 2}};
+  EXPECT_EQ(joined(view, 120, false).find("bow"), std::string::npos) << "the only receiver is the vehicle's";
+  monitor.receivers.push_back(
+      {"stern", true, Severity::warning, 1'700'000'000 * kNsPerSecond, 61.5, 61.5, 61.5, 1});
+  const std::string shown = joined(view, 120, false);
+  EXPECT_NE(shown.find("bow       fix  outages 2, longest 30.0 s, in all 42.0 s"), std::string::npos)
+      << shown;
+  EXPECT_NE(shown.find("no fix for 61.5 s since 22:13:20Z, warning"), std::string::npos) << shown;
+  const auto gps = nlohmann::json::parse(json_line(view))["gps"];
+  ASSERT_EQ(gps["receivers"].size(), 2U);
+  EXPECT_TRUE(gps["receivers"][0]["since_utc"].is_null());
+  EXPECT_EQ(gps["receivers"][1]["severity"], "warning");
+  EXPECT_EQ(gps["receivers"][1]["total_s"], 61.5);
+}
+
 TEST(StatusView, JsonIsOneLineWithNullForTheUnknown) {
   StatusView view = healthy_view();
   view.nav->sample.depth_m = kUnknown;
