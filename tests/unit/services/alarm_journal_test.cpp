@@ -94,7 +94,9 @@ TEST_F(AlarmJournalTest, APowerCutAnywhereInTheLastLineCostsThatLineOnly) {
   }
   const std::string whole = contents();
   const std::size_t first = whole.find('\n') + 1;
+  // Every length from shortly before the last line on, some of before.
   for (std::size_t length = 0; length <= whole.size(); ++length) {
+    if (length > 1 && length + 2 < first && length % 16 != 0) continue;
     put(whole.substr(0, length));
     AlarmJournal journal(path);
     ASSERT_TRUE(journal.open(kNow)) << journal.error();
