@@ -108,6 +108,26 @@ class Ukf {
     return out;
   }
 
+  /// A linear measurement `H x`: what the sigma points would give, without drawing them.
+  template <int M>
+  Update<M> update_linear(const Eigen::Matrix<double, M, N>& H, const Eigen::Matrix<double, M, 1>& measured,
+                          const Eigen::Matrix<double, M, M>& R) {
+    Update<M> out;
+    const Eigen::Matrix<double, N, M> cross = P * H.transpose();
+    out.predicted = H * x;
+    out.covariance = H * cross + R;
+    out.innovation = measured - out.predicted;
+    const Eigen::LLT<Eigen::Matrix<double, M, M>> factor(out.covariance);
+    if (factor.info() != Eigen::Success) return out;
+    out.gain = factor.solve(cross.transpose()).transpose();
+    x += out.gain * out.innovation;
+    const Eigen::Matrix<double, N, M> v = factor.matrixL().solve(cross.transpose()).transpose();
+    P -= v * v.transpose();
+    P = (0.5 * (P + P.transpose())).eval();
+    out.used = true;
+    return out;
+  }
+
  private:
   [[nodiscard]] Points draw() const {
     // A variance that rounding has made vanish or worse gets a hair's breadth.

@@ -92,7 +92,9 @@ void EmbeddedFilter<N>::measure_dvl(const DvlSample& dvl) {
   if (!measured.allFinite()) return;
   const Matrix3d r = squares(config_.dvl_m_s, config_.dvl_m_s, config_.dvl_m_s).asDiagonal();
   if constexpr (N == kPrintedStates) {
-    filter_.template update<3>([](const State& x) { return Vector3d(x.template head<3>()); }, measured, r);
+    Eigen::Matrix<double, 3, N> h = Eigen::Matrix<double, 3, N>::Zero();
+    h.template leftCols<3>().setIdentity();
+    filter_.template update_linear<3>(h, measured, r);
   } else {
     FilterState state;
     const auto seen = [&](const State& x) {
@@ -110,11 +112,11 @@ template <int N>
 void EmbeddedFilter<N>::measure_gyro() {
   if constexpr (N == kLinkedStates) {
     const double s = config_.gyro_rad_s;
-    filter_.template update<3>(
-        [](const State& x) {
-          return Vector3d(x.template segment<3>(kOmega) + x.template segment<3>(kGyroBias));
-        },
-        navigator_.rate_nb_B_rad_s(), Matrix3d(squares(s, s, s).asDiagonal()));
+    Eigen::Matrix<double, 3, N> h = Eigen::Matrix<double, 3, N>::Zero();
+    h.template block<3, 3>(0, kOmega).setIdentity();
+    h.template block<3, 3>(0, kGyroBias).setIdentity();
+    filter_.template update_linear<3>(h, navigator_.rate_nb_B_rad_s(),
+                                      Matrix3d(squares(s, s, s).asDiagonal()));
   }
 }
 

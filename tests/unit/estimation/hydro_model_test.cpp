@@ -117,7 +117,11 @@ TEST(Ukf, LinearSystemIsAKalmanFilter) {
       x = f * x;
       p = f * p * f.transpose() + q;
       const Eigen::Vector2d y(normal(1.0), normal(1.0));
+      Ukf<3> linear = ukf;
       ukf.update<2>([&](const Vector3d& s) { return Eigen::Vector2d(h * s); }, y, r);
+      EXPECT_TRUE(linear.update_linear<2>(h, y, r).used);
+      EXPECT_LT((ukf.x - linear.x).cwiseAbs().maxCoeff(), 1e-9);
+      EXPECT_LT((ukf.P - linear.P).cwiseAbs().maxCoeff(), 1e-9);
       const Eigen::Matrix<double, 3, 2> k = p * h.transpose() * (h * p * h.transpose() + r).inverse();
       x += k * (y - h * x);
       p = (Eigen::Matrix3d::Identity() - k * h) * p;
