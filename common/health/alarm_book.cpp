@@ -73,6 +73,17 @@ void AlarmBook::event(const Condition& condition, const Instant& now) {
   if (found != entries_.end() && found->second.alarm.active) clear(found->second, now);
 }
 
+void AlarmBook::restore(const Alarm& alarm, const Instant& now) {
+  if (entries_.contains(alarm.alarm) || !make_room(alarm.severity)) return;
+  Entry& entry = entries_[alarm.alarm];
+  entry.alarm = alarm;
+  entry.alarm.header.vehicle = vehicle_;
+  entry.alarm.active = false;
+  entry.alarm.acknowledged = false;
+  if (entry.alarm.cleared_ns == 0) entry.alarm.cleared_ns = now.utc_ns;
+  note_change(entry.alarm);
+}
+
 int AlarmBook::acknowledge(std::string_view target, const Instant& /*now*/) {
   int acknowledged = 0;
   for (auto entry = entries_.begin(); entry != entries_.end();) {

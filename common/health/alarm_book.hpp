@@ -49,6 +49,10 @@ class AlarmBook {
   /// A momentary event: raised and cleared in one, it stays until acknowledged.
   void event(const Condition& condition, const Instant& now);
 
+  /// An alarm of before a restart that nobody has acknowledged: it stays, over as far as is known, until
+  /// somebody does. Ignored when the book has it already.
+  void restore(const Alarm& alarm, const Instant& now);
+
   /// "*" acknowledges every alarm. Returns how many were newly acknowledged.
   int acknowledge(std::string_view target, const Instant& now);
 

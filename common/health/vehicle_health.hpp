@@ -52,6 +52,8 @@ class VehicleHealth {
   void add(const Forecast& forecast, const Instant& now);
   /// Acknowledgements; other commands are not for the monitor. Returns how many alarms were acknowledged.
   int apply(const Command& command, const Instant& now);
+  /// See AlarmBook::restore().
+  void restore(const Alarm& alarm, const Instant& now) { book_.restore(alarm, now); }
   /// What the monitor cannot do itself, e.g. keep its journal: an alarm while `active`.
   void set(bool active, const Condition& condition, const Instant& now) { book_.set(active, condition, now); }
 

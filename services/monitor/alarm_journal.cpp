@@ -1,10 +1,14 @@
 #include "monitor/alarm_journal.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <optional>
+#include <sstream>
 #include <system_error>
 
 #include <fcntl.h>
@@ -19,6 +23,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::size_t kMostQuoted = 1024;
+constexpr off_t kMostRead = 1 << 20;  // of an old journal: what was not acknowledged for longer is history
 
 ordered_json number(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
@@ -30,6 +35,62 @@ ordered_json instant(TimeNs utc_ns) {
 
 std::string line_of(const ordered_json& entry) {
   return entry.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// 0 when it is no instant as instant() writes it.
+TimeNs instant_of(const ordered_json& entry, const char* key) {
+  const auto found = entry.find(key);
+  if (found == entry.end() || !found->is_string()) return 0;
+  int year = 0;
+  int month = 0;
+  int day = 0;
+  int hour = 0;
+  int minute = 0;
+  int second = 0;
+  int millisecond = 0;
+  if (std::sscanf(found->get_ref<const std::string&>().c_str(), "%4d-%2d-%2dT%2d:%2d:%2d.%3dZ", &year, &month,
+                  &day, &hour, &minute, &second, &millisecond) != 7) {
+    return 0;
+  }
+  return from_civil({.year = year,
+                     .month = month,
+                     .day = day,
+                     .hour = hour,
+                     .minute = minute,
+                     .second = second,
+                     .nanosecond = millisecond * kNsPerMillisecond})
+      .value_or(0);
+}
+
+/// Nothing when the line is no alarm's.
+std::optional<Alarm> alarm_of(const ordered_json& entry) {
+  const auto text = [&](const char* key) {
+    const auto found = entry.find(key);
+    return found != entry.end() && found->is_string() ? found->get<std::string>() : std::string();
+  };
+  const auto flag = [&](const char* key) {
+    const auto found = entry.find(key);
+    return found != entry.end() && found->is_boolean() && found->get<bool>();
+  };
+  const auto value = [&](const char* key) {
+    const auto found = entry.find(key);
+    return found != entry.end() && found->is_number() ? found->get<double>() : kUnknown;
+  };
+  Alarm alarm;
+  alarm.header.vehicle = Name(text("vehicle"));
+  alarm.alarm = Name(text("alarm"));
+  if (alarm.alarm.empty()) return std::nullopt;
+  for (const Severity severity : {Severity::notice, Severity::warning, Severity::critical}) {
+    if (text("severity") == to_string(severity)) alarm.severity = severity;
+  }
+  alarm.active = flag("active");
+  alarm.acknowledged = flag("acknowledged");
+  alarm.since_ns = instant_of(entry, "since_utc");
+  alarm.cleared_ns = instant_of(entry, "cleared_utc");
+  alarm.text = text("text");
+  alarm.value = value("value");
+  alarm.limit = value("limit");
+  return alarm;
 }
 
 /// Bytes behind the last end of line. Negative when the file cannot be read.
@@ -105,8 +166,28 @@ bool AlarmJournal::open(TimeNs utc_ns) {
     good = repair(utc_ns);
   }
   if (!good) close();
-  if (good) error_.clear();
+  if (good) {
+    error_.clear();
+    read_latched();
+  }
   return good;
+}
+
+void AlarmJournal::read_latched() {
+  latched_.clear();
+  const off_t size = lseek(file_, 0, SEEK_END);
+  const off_t begin = std::max<off_t>(0, size - kMostRead);
+  std::string all(static_cast<std::size_t>(std::max<off_t>(0, size - begin)), '\0');
+  if (pread(file_, all.data(), all.size(), begin) != static_cast<ssize_t>(all.size())) return;
+  std::istringstream lines(all);
+  for (std::string line; std::getline(lines, line);) {
+    const auto entry = ordered_json::parse(line, nullptr, false);
+    if (!entry.is_object()) continue;  // the first one read may be cut
+    const auto alarm = alarm_of(entry);
+    if (!alarm) continue;
+    std::erase_if(latched_, [&](const Alarm& known) { return known.alarm == alarm->alarm; });
+    if (!alarm->acknowledged) latched_.push_back(*alarm);
+  }
 }
 
 bool AlarmJournal::repair(TimeNs utc_ns) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/time.hpp"
 #include "samples/health.hpp"
@@ -34,6 +35,8 @@ class AlarmJournal {
 
   /// Opens and repairs. False: error() says why; to be tried again later.
   bool open(TimeNs utc_ns);
+  /// As of open(): alarms that nobody had acknowledged when the journal ended, in their last state.
+  [[nodiscard]] const std::vector<Alarm>& latched() const { return latched_; }
   [[nodiscard]] bool is_open() const { return file_ >= 0; }
   bool append(const Alarm& alarm, JournalEvent event, TimeNs utc_ns);
   /// The monitor's own beginning and end: a beginning without an end before it was a crash.
@@ -45,6 +48,7 @@ class AlarmJournal {
 
  private:
   bool repair(TimeNs utc_ns);
+  void read_latched();
   bool write_line(const std::string& line);
   bool fail(const char* what);
   void close();
@@ -53,6 +57,7 @@ class AlarmJournal {
   int file_ = -1;
   std::string error_;
   Counters counters_;
+  std::vector<Alarm> latched_;
 };
 
 }  // namespace fathom::monitor

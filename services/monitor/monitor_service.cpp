@@ -113,6 +113,7 @@ struct MonitorService::Impl {
           host.log().warning("journal " + config.journal.path + ": its last line was incomplete (" +
                              std::to_string(repaired) + " bytes) and was closed");
         }
+        restore(at);
         journal.note(
             "started",
             "fathom-monitor " + std::string(runtime::version()) + ", process " + std::to_string(getpid()),
@@ -129,6 +130,20 @@ struct MonitorService::Impl {
                         std::to_string(config.metrics.port) + "/metrics");
       }
       complain(trouble, metrics_trouble);
+    }
+  }
+
+  /// Alarms are latched until somebody acknowledges them, also when the monitor was started again in between.
+  void restore(const health::Instant& at) {
+    int restored = 0;
+    const std::lock_guard lock(mutex);
+    for (const Alarm& alarm : journal.latched()) {
+      if (alarm.header.vehicle.view() != config.common.vehicle) continue;
+      health.restore(alarm, at);
+      ++restored;
+    }
+    if (restored > 0) {
+      host.log().info(std::to_string(restored) + " alarm(s) of before that nobody has acknowledged");
     }
   }
 

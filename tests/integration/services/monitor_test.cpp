@@ -191,6 +191,10 @@ TEST_F(MonitorTest, TheJournalSurvivesKillNineAndAnIncompleteLine) {
                     [&] { return monitor->err().find("was incomplete") != std::string::npos; }))
       << monitor->err();
   EXPECT_TRUE(wait_until([&] { return journal_lines().size() >= 4; }, 2.0));
+  // Still latched, though the new monitor never saw it.
+  ASSERT_TRUE(drive([&] { network->gps(true); },
+                    [&] { return ear->alarm("gps_outage").has_value() && !ear->active("gps_outage"); }));
+  EXPECT_FALSE(ear->alarm("gps_outage")->acknowledged);
   const auto lines = journal_lines();
   ASSERT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines[0]["event"], "started");

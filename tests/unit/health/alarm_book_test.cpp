@@ -178,5 +178,32 @@ TEST(AlarmText, DurationsReadAtAGlance) {
   EXPECT_EQ(duration_text(kUnknown), "an unknown time");
 }
 
+TEST(AlarmBookRestored, StaysUntilAcknowledgedAndGivesWayToWhatHoldsNow) {
+  AlarmBook book("auv");
+  Alarm before;
+  before.alarm = "gps_outage";
+  before.active = true;
+  before.severity = Severity::critical;
+  before.since_ns = 7;
+  book.restore(before, at(0.0));
+  ASSERT_NE(book.find("gps_outage"), nullptr);
+  EXPECT_FALSE(book.find("gps_outage")->active) << "the condition is not seen to hold";
+  EXPECT_EQ(book.find("gps_outage")->since_ns, 7);
+  EXPECT_EQ(book.active_count(), 0u);
+  EXPECT_EQ(book.unacknowledged_count(), 1u);
+  EXPECT_EQ(book.take_changes().size(), 1u);
+  Condition now;
+  now.key = "gps_outage";
+  book.hold(now, at(1.0));
+  EXPECT_TRUE(book.find("gps_outage")->active);
+  EXPECT_EQ(book.find("gps_outage")->severity, now.severity) << "it is a new occurrence";
+  book.restore(before, at(2.0));
+  EXPECT_TRUE(book.find("gps_outage")->active);
+  book.release("gps_outage", at(3.0));
+  book.release("gps_outage", at(4.0));
+  EXPECT_EQ(book.acknowledge("*", at(5.0)), 1);
+  EXPECT_EQ(book.find("gps_outage"), nullptr);
+}
+
 }  // namespace
 }  // namespace fathom::health

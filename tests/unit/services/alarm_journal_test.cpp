@@ -1,5 +1,6 @@
 #include "monitor/alarm_journal.hpp"
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -116,6 +117,48 @@ TEST_F(AlarmJournalTest, APowerCutAnywhereInTheLastLineCostsThatLineOnly) {
     }
     EXPECT_EQ(all.back()["text"], "After the cut.");
   }
+}
+
+TEST_F(AlarmJournalTest, KnowsWhatNobodyAcknowledged) {
+  {
+    AlarmJournal journal(path);
+    ASSERT_TRUE(journal.open(kNow));
+    EXPECT_TRUE(journal.latched().empty());
+    Alarm seen = alarm("Seen.");
+    Alarm over = alarm("Over.");
+    over.alarm = "sensor_missing:dvl";
+    journal.append(seen, JournalEvent::raised, kNow);
+    journal.append(over, JournalEvent::raised, kNow);
+    seen.acknowledged = true;
+    journal.append(seen, JournalEvent::acknowledged, kNow);
+    over.active = false;
+    over.severity = Severity::critical;
+    over.cleared_ns = kNow + 1500 * kNsPerMillisecond;
+    over.limit = kUnknown;
+    journal.append(over, JournalEvent::cleared, kNow);
+    journal.note("stopped", "in good order", kNow);
+  }
+  AlarmJournal journal(path);
+  ASSERT_TRUE(journal.open(kNow));
+  ASSERT_EQ(journal.latched().size(), 1U);
+  const Alarm& left = journal.latched().front();
+  EXPECT_EQ(left.alarm, Name("sensor_missing:dvl"));
+  EXPECT_EQ(left.header.vehicle, Name("auv"));
+  EXPECT_EQ(left.severity, Severity::critical);
+  EXPECT_EQ(left.since_ns, kNow);
+  EXPECT_EQ(left.cleared_ns, kNow + 1500 * kNsPerMillisecond);
+  EXPECT_EQ(left.text, "Over.");
+  EXPECT_EQ(left.value, 12.5);
+  EXPECT_TRUE(std::isnan(left.limit));
+}
+
+TEST_F(AlarmJournalTest, LinesOfOthersAreNoAlarms) {
+  put("{\"alarm\":3}\nnull\n[]\n{}\n{\"alarm\":\"a\",\"since_utc\":\"soon\",\"active\":\"yes\"}\n\xff\n");
+  AlarmJournal journal(path);
+  ASSERT_TRUE(journal.open(kNow)) << journal.error();
+  ASSERT_EQ(journal.latched().size(), 1U);
+  EXPECT_EQ(journal.latched().front().since_ns, 0);
+  EXPECT_FALSE(journal.latched().front().active);
 }
 
 TEST_F(AlarmJournalTest, TailsOfGarbageAndOfZerosAreClosedToo) {
