@@ -166,6 +166,12 @@ void describe(Schema<SensorConfig>& s) {
   s.field("reacquire_s", &C::reacquire_s, "consistent rejections for this long are believed")
       .unit("s")
       .range(0, 1e6);
+  s.field("reacquire_step_m", &C::reacquire_step_m,
+          "GPS: behind an outage a fix further off than this has to agree with the motion for reacquire_s "
+          "first, "
+          "and no fix moves the position by more than twice this at once")
+      .unit("m")
+      .range(0.1, 1e6);
   s.field(
        "frozen_change", &C::frozen_change,
        "the same reading while the prediction moves by this much is frozen, in the sensor's SI unit; 0: off")
@@ -341,8 +347,12 @@ void describe(Schema<ForecastLimitConfig>& s) {
 void describe(Schema<EngineConfig>& s) {
   using C = EngineConfig;
   s.field("configuration", &C::configuration, "named set of estimated states")
-      .words(
-          {{"gps_ins15", "gps_ins15"}, {"standard", "standard"}, {"hybrid25", "hybrid25"}, {"full", "full"}});
+      .words({{"gps_ins15", "gps_ins15"},
+              {"gps_ins24", "gps_ins24"},
+              {"gps_ins36", "gps_ins36"},
+              {"standard", "standard"},
+              {"hybrid25", "hybrid25"},
+              {"full", "full"}});
   s.field("groups", &C::groups, "state groups switched on or off against the named set");
   s.field("imu", &C::imu, "error model of the inertial unit").required();
   s.field("states", &C::states, "initial uncertainty and drift of the states beyond the core");

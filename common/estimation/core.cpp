@@ -95,7 +95,8 @@ Core::Core(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {
     sensors_[i].enabled = setup.config.sensors[i].enabled;
 }
 
-ProcessNoise Core::process_noise(const Eigen::Matrix3d& C_NB) const {
+ProcessNoise Core::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& rate_B_rad_s,
+                                 const Vector3d& force_B_m_s2) const {
   // (NOISE-1): white noise, and as equivalent noise the scale and misalignment that are not estimated.
   const ImuConfig& imu = setup_->config.imu;
   const StateGroups& groups = setup_->config.groups;
@@ -115,16 +116,12 @@ ProcessNoise Core::process_noise(const Eigen::Matrix3d& C_NB) const {
       variance += misalignment_sigma * misalignment_sigma * (Vector3d::Constant(squares.sum()) - squares);
     to += C_NB * (imu.equivalent_noise_time_s * variance).asDiagonal() * C_NB.transpose();
   };
-  add(noise.attitude, rate_B_, groups.gyro_scale, imu.gyro_scale_sigma, groups.gyro_misalignment,
+  add(noise.attitude, rate_B_rad_s, groups.gyro_scale, imu.gyro_scale_sigma, groups.gyro_misalignment,
       imu.gyro_misalignment_sigma_rad);
   // Gravity is always there and looks like a bias; only the changing part of the force counts.
-  add(noise.velocity, force_B_ + 9.81 * C_NB.row(2).transpose(), groups.accel_scale, imu.accel_scale_sigma,
-      groups.accel_misalignment, imu.accel_misalignment_sigma_rad);
+  add(noise.velocity, force_B_m_s2 + 9.81 * C_NB.row(2).transpose(), groups.accel_scale,
+      imu.accel_scale_sigma, groups.accel_misalignment, imu.accel_misalignment_sigma_rad);
   return noise;
-}
-
-ProcessNoise Core::process_noise() const {
-  return process_noise(geo::to_matrix(state_.nav.q_NB));
 }
 
 void Core::advance(const ImuStep& step, TimeNs until_ns) {
@@ -152,7 +149,8 @@ void Core::advance(const ImuStep& step, TimeNs until_ns) {
   const Eigen::Matrix3d c = geo::to_matrix(state_.nav.q_NB);
   const Vector3d v_before = state_.nav.v_N_m_s;
   const ErrorRates rates = error_rates(earth, v_before, c * force_B_);
-  filter_.propagate(NavTransition(index, rates, c, rate_B_, force_B_, dt), process_noise(c));
+  filter_.propagate(NavTransition(index, rates, c, rate_B_, force_B_, dt),
+                    process_noise(c, rate_B_, force_B_));
   state_.nav = mechanise(state_.nav, earth, c, correct(in, fraction));
   travelled_N_m_ += 0.5 * dt * (v_before + state_.nav.v_N_m_s);
   for (const std::uint8_t state : setup_->drift.decaying()) state_.x[state] *= setup_->drift.kept(state, dt);
@@ -210,6 +208,9 @@ void Core::rebase(TimeNs now_ns, double unobserved_s) {
   for (Sensor& sensor : sensors_) {
     move(sensor.used_ns);
     for (Sensor::Rejections& one : sensor.rejections) move(one.since_ns);
+    move(sensor.candidate.refused_since_ns);
+    move(sensor.candidate.since_ns);
+    move(sensor.candidate.last_ns);
     sensor.stamp_ns = 0;
   }
   now_ns_ = now_ns;

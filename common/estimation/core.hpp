@@ -78,6 +78,17 @@ class Core {
     };
     /// Of each row where rows are judged alone, else all of them in the first.
     std::array<Rejections, Observation::kMaxRows> rejections{};
+    // Refused fixes of a position that may yet prove right: the way by the velocity less that of the fixes.
+    struct Candidate {
+      TimeNs refused_since_ns = 0;  ///< the first refusal since the last use
+      TimeNs since_ns = 0;          ///< of those that agree with each other and the motion; 0: none
+      TimeNs last_ns = 0;
+      int count = 0;
+      geo::Geodetic origin;  ///< the estimate at the first
+      Eigen::Vector2d first_N_m = Eigen::Vector2d::Zero();
+      Eigen::Vector2d last_N_m = Eigen::Vector2d::Zero();
+    };
+    Candidate candidate;
   };
 
   explicit Core(const Setup& setup);
@@ -122,14 +133,15 @@ class Core {
   /// Sigmas of roll, pitch and yaw.
   [[nodiscard]] Eigen::Vector3d rpy_sigma_rad() const;
   [[nodiscard]] const Sensor& sensor(int index) const { return sensors_[static_cast<std::size_t>(index)]; }
-  [[nodiscard]] ProcessNoise process_noise() const;
+  /// That of a step with this attitude, rate and force.
+  [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const Eigen::Vector3d& rate_B_rad_s,
+                                           const Eigen::Vector3d& force_B_m_s2) const;
   [[nodiscard]] const hydro::WaterVelocity& water_velocity() const { return water_; }
 
  private:
   [[nodiscard]] double since(TimeNs stamp_ns) const {
     return stamp_ns == 0 ? kUnknown : to_seconds(now_ns_ - stamp_ns);
   }
-  [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB) const;
   [[nodiscard]] AidingState aiding_state() const;
   void enter(AlignmentPhase phase);
   void lose_attitude();
@@ -142,11 +154,20 @@ class Core {
   // core_reacquire.cpp
   /// Rows, as a set of bits, whose refusal is not to be believed any longer.
   unsigned believed_rows(Sensor& sensor, const SensorConfig& config, const Observation& observation,
-                         unsigned refused);
+                         unsigned refused, bool fix);
+  /// A fix behind an outage, too far off to be believed by itself.
+  [[nodiscard]] bool on_probation(const SensorConfig& config, const Observation& observation) const;
+  /// Refused fixes agree with each other and with the motion for long enough.
+  bool believe_fix(Sensor::Candidate& candidate, const SensorConfig& config,
+                   const Observation& observation) const;
+  /// Weighs the position down until it moves no further than allowed; whether it had to.
+  bool bound_step(const SensorConfig& config, Observation& observation,
+                  InnovationStatistics& statistics) const;
   bool believe(Sensor::Rejections& past, const SensorConfig& config, const Observation& observation,
                int first, int end) const;
+  /// Variance that these rows ask for, added to `room`.
   void make_room(SourceKind source, const Sensor& sensor, const Observation& observation, unsigned rows,
-                 double factor);
+                 double factor, std::array<double, kNavStates>& room) const;
   void mark_used(const Measurement& measurement, bool with_position);
 
   // core_constraints.cpp

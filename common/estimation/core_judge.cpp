@@ -120,18 +120,29 @@ Judgement Core::judge(const Measurement& measurement) {
   const SensorConfig& rules = modelled ? setup_->model_gate : config;
   const GateLimits& limits = modelled ? setup_->model_limits : setup_->limits[slot];
   GateResult result = gate(filter_, rules, limits, observation, statistics);
+  const bool fix = measurement.source == SourceKind::gps && with_position;
+  const bool probation = fix && on_probation(config, whole);
   if (frozen(measurement, rules, sensor, whole)) {
     out.kind = VerdictKind::frozen;
   } else {
-    const unsigned believed = believed_rows(sensor, rules, whole, result.refused);
+    const unsigned refused = probation ? (1U << whole.rows) - 1U : result.refused;
+    const unsigned believed = believed_rows(sensor, rules, whole, refused, fix);
+    if (probation && believed == 0) {
+      result.pass = false;
+      result.limit = config.reacquire_step_m;
+      result.test_ratio = std::hypot(whole.innovation[0], whole.innovation[1]) / result.limit;
+    }
     for (double room = 1.0; (believed & result.refused) != 0 && room < kMostRoom; room *= 4.0) {
       // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
-      make_room(measurement.source, sensor, whole, believed, room);
+      std::array<double, kNavStates> variance{};
+      make_room(measurement.source, sensor, whole, believed, room, variance);
+      filter_.widen_drifted(variance);
       observation = whole;
       result = gate(filter_, rules, limits, observation, statistics);
     }
     out.kind = result.pass ? VerdictKind::used : VerdictKind::rejected;
     stepped = result.pass && believed != 0 && with_position;
+    if (result.pass && fix) stepped = bound_step(config, observation, statistics) || stepped;
   }
   out.dimensions = static_cast<std::uint32_t>(whole.rows);
   InnovationStatistics plain;
@@ -156,6 +167,7 @@ Judgement Core::judge(const Measurement& measurement) {
     last_reset_N_m_ = -Vector3d(x[0], x[1], x[2]);
   }
   sensor.used_ns = now_ns_;
+  sensor.candidate = {};
   mark_used(measurement, with_position);
   return out;
 }

@@ -1,7 +1,10 @@
 // Nothing is locked out for ever: refusals that agree with each other are believed, and the estimate is given
-// the room to follow (GATE-3).
+// the room to follow (GATE-3). Fixes of a position have to agree with the motion, too (GATE-4).
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
 
 #include "estimation/core.hpp"
 
@@ -11,6 +14,14 @@ namespace {
 constexpr int kRejectionsToBelieve = 3;
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kLeastUnheard_s = 1.0;
+constexpr double kDeviations = 4.0;
+/// However sure of its velocity the filter is.
+constexpr double kLeastSpeed_m_s = 1.0;
+/// Of reacquire_s, after which disagreement with the motion counts half.
+constexpr double kPatience = 3.0;
+constexpr double kStepsAtOnce = 2.0;
+constexpr double kWeighDown = 1.4;
+constexpr int kHalvings = 60;
 
 }  // namespace
 
@@ -21,7 +32,28 @@ bool measures(const Observation& observation, int row, int first_state) {
 }
 
 unsigned Core::believed_rows(Sensor& sensor, const SensorConfig& config, const Observation& observation,
-                             unsigned refused) {
+                             unsigned refused, bool fix) {
+  if (fix && !observation.each_alone) {
+    // Behind a fix stand two hypotheses for as long as it takes: it is wrong, or the estimate is.
+    unsigned position = 0;
+    for (int row = 0; row < observation.rows; ++row)
+      if (measures(observation, row, 0)) position |= 1U << row;
+    if ((refused & position) == 0 && config.gate_mode == GateMode::whole) sensor.candidate = {};
+    const bool believed = (refused & position) != 0 && believe_fix(sensor.candidate, config, observation);
+    if (config.gate_mode == GateMode::whole) return believed ? refused : 0U;
+    if ((refused & position) == 0) sensor.candidate = {};
+    unsigned rest = 0;
+    for (int row = 0; row < observation.rows; ++row) {
+      if ((position & 1U << row) != 0) continue;
+      Sensor::Rejections& past = sensor.rejections[static_cast<std::size_t>(row)];
+      if ((refused & 1U << row) == 0) {
+        past = {};
+      } else if (believe(past, config, observation, row, row + 1)) {
+        rest |= 1U << row;
+      }
+    }
+    return rest | (believed ? refused & position : 0U);
+  }
   if (!observation.each_alone && config.gate_mode == GateMode::whole) {
     const bool believed =
         refused != 0 && believe(sensor.rejections[0], config, observation, 0, observation.rows);
@@ -38,6 +70,79 @@ unsigned Core::believed_rows(Sensor& sensor, const SensorConfig& config, const O
     }
   }
   return believed;
+}
+
+bool Core::on_probation(const SensorConfig& config, const Observation& observation) const {
+  // (GATE-4)
+  if (config.reacquire_s <= 0.0 || !(gps_outage_s() > setup_->config.gps_timeout_s)) return false;
+  return std::hypot(observation.innovation[0], observation.innovation[1]) > config.reacquire_step_m;
+}
+
+bool Core::believe_fix(Sensor::Candidate& candidate, const SensorConfig& config,
+                       const Observation& observation) const {
+  // (GATE-4)
+  const Eigen::Vector2d innovation(observation.innovation[0], observation.innovation[1]);
+  const auto way_less_fixes = [&] {
+    // Not the estimated position: a compass may move that by tens of metres when it has drifted by hundreds.
+    const Eigen::Vector3d estimate = geo::difference_N(candidate.origin, state_.nav.position);
+    return Eigen::Vector2d(travelled_N_m_.head<2>() - (estimate.head<2>() - innovation));
+  };
+  Eigen::Vector2d off = way_less_fixes();
+  if (candidate.refused_since_ns == 0) candidate.refused_since_ns = now_ns_;
+  const double speed = std::max(kDeviations * std::sqrt(filter_(3, 3) + filter_(4, 4)), kLeastSpeed_m_s);
+  // What never agrees is the motion's fault, not for ever that of the fix.
+  const double patience = config.reacquire_s > 0.0
+                              ? std::exp2(std::floor(to_seconds(now_ns_ - candidate.refused_since_ns) /
+                                                     (kPatience * config.reacquire_s)))
+                              : 1.0;
+  const double noise =
+      kDeviations * std::numbers::sqrt2 * std::max(observation.sigma[0], observation.sigma[1]);
+  const auto agrees = [&](const Eigen::Vector2d& before, TimeNs stamp_ns) {
+    return (off - before).norm() <= patience * (noise + speed * to_seconds(now_ns_ - stamp_ns));
+  };
+  if (candidate.since_ns == 0 || !agrees(candidate.first_N_m, candidate.since_ns) ||
+      !agrees(candidate.last_N_m, candidate.last_ns)) {
+    candidate.since_ns = now_ns_;
+    candidate.origin = state_.nav.position;
+    off = way_less_fixes();
+    candidate.first_N_m = off;
+    candidate.count = 0;
+  }
+  candidate.last_ns = now_ns_;
+  candidate.last_N_m = off;
+  ++candidate.count;
+  return config.reacquire_s > 0.0 && candidate.count >= kRejectionsToBelieve &&
+         to_seconds(now_ns_ - candidate.since_ns) >= config.reacquire_s;
+}
+
+bool Core::bound_step(const SensorConfig& config, Observation& observation,
+                      InnovationStatistics& statistics) const {
+  const double most_m = kStepsAtOnce * config.reacquire_step_m;
+  bool bounded = false;
+  for (int i = 0; i < kHalvings; ++i) {
+    // K z of the horizontal position.
+    const auto rows = static_cast<std::size_t>(statistics.rows);
+    const Eigen::Index m = statistics.rows;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Observation::kMaxRows, Observation::kMaxRows> s(
+        m, m);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Observation::kMaxRows, 1> z(m);
+    Eigen::Matrix<double, Eigen::Dynamic, 2, 0, Observation::kMaxRows, 2> ph(m, 2);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const auto at = static_cast<Eigen::Index>(r);
+      z(at) = observation.innovation[r];
+      for (int axis = 0; axis < 2; ++axis)
+        ph(at, axis) = statistics.ph[r * kMaxStates + static_cast<std::size_t>(axis)];
+      for (std::size_t c = 0; c < rows; ++c)
+        s(at, static_cast<Eigen::Index>(c)) = statistics.s[r * Observation::kMaxRows + c];
+    }
+    const Eigen::Vector2d step = ph.transpose() * s.llt().solve(z);
+    if (!(step.norm() > most_m)) break;
+    bounded = true;
+    for (int row = 0; row < observation.rows; ++row)
+      if (measures(observation, row, 0)) observation.sigma[static_cast<std::size_t>(row)] *= kWeighDown;
+    filter_.statistics(observation, 1.0, statistics);
+  }
+  return bounded;
 }
 
 bool Core::believe(Sensor::Rejections& past, const SensorConfig& config, const Observation& observation,
@@ -64,7 +169,7 @@ bool Core::believe(Sensor::Rejections& past, const SensorConfig& config, const O
 }
 
 void Core::make_room(SourceKind source, const Sensor& sensor, const Observation& observation, unsigned rows,
-                     double factor) {
+                     double factor, std::array<double, kNavStates>& room) const {
   const double unheard_s =
       std::max(sensor.used_ns == 0 ? kLeastUnheard_s : since(sensor.used_ns), kLeastUnheard_s);
   for (int row = 0; row < observation.rows; ++row) {
@@ -81,14 +186,14 @@ void Core::make_room(SourceKind source, const Sensor& sensor, const Observation&
       const double h = observation.h[r][static_cast<std::size_t>(first + i)];
       // A heading says nothing about tilt, however its row looks when the vehicle is pitched.
       if (source == SourceKind::heading && i < 2) continue;
-      filter_.widen(first + i, squared * h * h);
+      room[static_cast<std::size_t>(first + i)] += squared * h * h;
     }
     // A velocity goes wrong by a level that is wrong: left as sure as it was, that would lead astray again.
     const bool over_ground = source == SourceKind::gps || source == SourceKind::dvl;
     if (first == 3 && over_ground && factor == 1.0) {
       const double tilt = observation.innovation[r] / (kGravity_m_s2 * unheard_s);
-      filter_.widen(6, tilt * tilt);
-      filter_.widen(7, tilt * tilt);
+      room[6] += tilt * tilt;
+      room[7] += tilt * tilt;
     }
   }
 }

@@ -104,6 +104,7 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "robust_parameter", sensor.robust_parameter, 0.1, 1e3);
   check.in(at + "robust_reject_ratio", sensor.robust_reject_ratio, 1, 1e12);
   check.in(at + "reacquire_s", sensor.reacquire_s, 0, 1e6);
+  check.in(at + "reacquire_step_m", sensor.reacquire_step_m, 0.1, 1e6);
   check.in(at + "frozen_change", sensor.frozen_change, 0, 1e6);
   check.in(at + "transceiver_latitude_rad", sensor.transceiver_latitude_rad, -kAngle / 4, kAngle / 4);
   check.in(at + "transceiver_longitude_rad", sensor.transceiver_longitude_rad, -kAngle, kAngle);
@@ -179,6 +180,12 @@ bool named_state_groups(const std::string& name, StateGroups& groups) {
     groups = wanted;
     return true;
   }
+  if (name == "gps_ins24" || name == "gps_ins36") {
+    wanted.accel_scale = wanted.gyro_scale = wanted.gps_position_bias = true;
+    wanted.accel_misalignment = wanted.gyro_misalignment = name == "gps_ins36";
+    groups = wanted;
+    return true;
+  }
   if (name == "standard") {
     wanted.dvl_scale = wanted.dvl_misalignment = true;
     wanted.current = wanted.surface_altitude = wanted.heading_bias = wanted.gps_position_bias = true;
@@ -209,6 +216,7 @@ SensorConfig default_sensor(SourceKind kind, const std::string& name) {
   switch (kind) {
     case SourceKind::gps:
       sensor.sigma = {1.5, 1.5, 3.0};
+      sensor.reacquire_s = 21.0;
       sensor.frozen_change = 2.0;
       break;
     case SourceKind::dvl:

@@ -74,7 +74,8 @@ struct StateGroups {
   bool model_bias = false;          ///< 2, of the vehicle model's velocity, ahead and across, Gauss-Markov
 };
 
-/// The groups of a named configuration: "gps_ins15", "standard", "hybrid25", "full".
+/// The groups of a named configuration: "gps_ins15"; "gps_ins24", with scale factors and the slow error of
+/// GPS; "gps_ins36", with misalignments, too; "standard", "hybrid25", "full".
 /// False when there is no such name.
 [[nodiscard]] bool named_state_groups(const std::string& name, StateGroups& groups);
 
@@ -139,6 +140,9 @@ struct SensorConfig {
   double robust_parameter = 5.0;      ///< student_t: degrees of freedom; huber: threshold in sigmas
   double robust_reject_ratio = 25.0;  ///< robust weighting ends where the plain test ratio exceeds this
   double reacquire_s = 10.0;          ///< consistent rejections for this long are believed
+  /// GPS: behind an outage a fix further off than this is on probation for reacquire_s though the gate would
+  /// pass it, and no fix moves the position by more than twice this at once; m.
+  double reacquire_step_m = 50.0;
   double frozen_change = 0.0;  ///< the same reading while the prediction moves by this much is frozen; 0: off
   bool transceiver_known = false;  ///< USBL: the fixes come from a transceiver at the place that follows
   double transceiver_latitude_rad = 0.0;

@@ -7,21 +7,24 @@
 namespace fathom::estimation {
 namespace {
 
+using Eigen::Vector3d;
+
 constexpr double kGrowthSpan_s = 60.0;
 constexpr double kDeviation95 = 1.959963984540054;
-/// An aiding sensor is taken to give this many independent measurements a second.
-constexpr double kIndependentRate_hz = 1.0;
+/// Less of it is no pattern yet.
+constexpr int kLeastMemory = 10;
+/// An aiding sensor is taken to give one independent measurement in each.
+constexpr double kStep_s = 1.0;
 
-double step_length(double elapsed_s) {
-  if (elapsed_s < 30.0) return 1.0;
-  if (elapsed_s < 60.0) return 2.0;
-  return elapsed_s < 300.0 ? 5.0 : 10.0;
-}
-
+/// 95 % value and root mean square.
+struct Uncertainty {
+  double within_95 = 0.0;
+  double rms = 0.0;
+};
 struct Now {
-  double horizontal = 0.0;
-  double vertical = 0.0;
-  double heading = 0.0;
+  Uncertainty horizontal;
+  Uncertainty vertical;
+  Uncertainty heading;
 };
 
 Now measure(const ErrorFilter& filter) {
@@ -30,14 +33,23 @@ Now measure(const ErrorFilter& filter) {
   const double c = filter(0, 1);
   const double middle = 0.5 * (a + b);
   const double half = std::hypot(0.5 * (a - b), c);
-  return {radius_95(std::sqrt(std::max(middle + half, 0.0)), std::sqrt(std::max(middle - half, 0.0))),
-          kDeviation95 * std::sqrt(std::max(filter(2, 2), 0.0)),
-          kDeviation95 * std::sqrt(std::max(filter(8, 8), 0.0))};
+  const double vertical = std::sqrt(std::max(filter(2, 2), 0.0));
+  const double heading = std::sqrt(std::max(filter(8, 8), 0.0));
+  return {{radius_95(std::sqrt(std::max(middle + half, 0.0)), std::sqrt(std::max(middle - half, 0.0))),
+           std::sqrt(a + b)},
+          {kDeviation95 * vertical, vertical},
+          {kDeviation95 * heading, heading}};
 }
 
-double of(const Now& now, const std::string& name) {
+const Uncertainty& of(const Now& now, const std::string& name) {
   if (name.starts_with("heading")) return now.heading;
   return name.starts_with("vertical") ? now.vertical : now.horizontal;
+}
+
+/// When a value that grows from `low` to `high` within a step passes the limit.
+void pass(double& time_s, double limit, double low, double high, double elapsed_s, double dt_s) {
+  if (std::isinf(time_s) && high >= limit)
+    time_s = elapsed_s + dt_s * std::max(limit - low, 0.0) / std::max(high - low, 1e-12);
 }
 
 }  // namespace
@@ -62,77 +74,139 @@ bool Forecaster::aids(const Core& core, int sensor) const {
          to_seconds(core.now_ns() - used) <= setup_->config.velocity_timeout_s;
 }
 
-void Forecaster::step(double dt_s) {
-  filter_.propagate(NavTransition(setup_->index, nav_, Eigen::Vector3d::Zero(), force_B_, dt_s), noise_);
+void Forecaster::begin(const Core& core) {
+  // (FC-1)
+  filter_ = core.filter();
+  filter_.record_to(nullptr);
+  state_ = core.state();
+  const NavSolution& nav = state_.nav;
+  const Vector3d rpy = geo::to_rpy(nav.q_NB);
+  yaw_rad_ = rpy.z();
+  second_ = 0;
+  still_ = {};
+  still_.roll_rad = rpy.x();
+  still_.pitch_rad = rpy.y();
+  still_.speed_m_s = std::hypot(nav.v_N_m_s.x(), nav.v_N_m_s.y());
+  still_.sink_m_s = nav.v_N_m_s.z();
+  still_.slip_rad = std::atan2(nav.v_N_m_s.y(), nav.v_N_m_s.x()) - rpy.z();
+  const double gravity = geo::gravity(nav.position.latitude_rad, nav.position.altitude_m);
+  still_.force_B_m_s2 = geo::to_matrix(nav.q_NB).transpose() * Vector3d(0.0, 0.0, -gravity);
+}
+
+void Forecaster::step(const Core& core, int lost, double dt_s) {
+  const MotionMemory::Second& motion =
+      memory_.size() >= kLeastMemory ? memory_.at(memory_.size() - 1 - second_++ % memory_.size()) : still_;
+  NavSolution& nav = state_.nav;
+  const double course = yaw_rad_ + 0.5 * dt_s * motion.turned_rad + motion.slip_rad;
+  nav.q_NB = geo::from_rpy({motion.roll_rad, motion.pitch_rad, yaw_rad_ + 0.5 * dt_s * motion.turned_rad});
+  nav.v_N_m_s = {motion.speed_m_s * std::cos(course), motion.speed_m_s * std::sin(course), motion.sink_m_s};
+  yaw_rad_ += dt_s * motion.turned_rad;
+  const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
+  filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s),
+                    core.process_noise(c, motion.rate_B_rad_s, motion.force_B_m_s2));
+  if (lost == kAll) return;
+  const AidingState state(setup_->index, state_, motion.rate_B_rad_s, 0.0, motion.force_B_m_s2);
   InnovationStatistics statistics;
   std::array<double, kMaxStates> ignored{};
-  for (std::size_t i = 0; i < setup_->config.sensors.size(); ++i) {
-    if (observations_[i].rows == 0) continue;
-    filter_.statistics(observations_[i], 1.0 / (kIndependentRate_hz * dt_s), statistics);
-    (void)filter_.update(observations_[i], statistics, ignored);
+  for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) {
+    if (i == lost || !aids(core, i)) continue;
+    const auto slot = static_cast<std::size_t>(i);
+    // The last sample is about one second old in the forecast's eyes, whatever its rate.
+    const bool modelled =
+        setup_->velocity_model && setup_->config.sensors[slot].kind == SourceKind::propulsion;
+    const AidingInput input{state, setup_->config.sensors[slot], setup_->config.states.surface_altitude_m,
+                            &setup_->config.vehicle_model, modelled ? &core.water_velocity() : nullptr};
+    Observation observation;
+    for (const AidingEntry& entry : aiding_registry())
+      if (entry.source == setup_->config.sensors[slot].kind)
+        (void)entry.observe(input, last_[slot], observation);
+    if (observation.rows == 0) continue;
+    observation.list_columns(setup_->index.size());
+    filter_.statistics(observation, kStep_s / dt_s, statistics);
+    (void)filter_.update(observation, statistics, ignored);
+  }
+}
+
+double Forecaster::horizontal_95_m(const Core& core, double after_s) {
+  if (!core.navigating()) return kUnknown;
+  begin(core);
+  for (double elapsed = 0.0; elapsed < after_s;) {
+    const double dt = std::min(kStep_s, after_s - elapsed);
+    step(core, kNone, dt);
+    elapsed += dt;
+  }
+  return measure(filter_).horizontal.within_95;
+}
+
+void Forecaster::follow(const Core& core, int lost, Forecast& out, std::uint32_t first) {
+  const auto& limits = setup_->config.forecast_limits;
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  begin(core);
+  const Now start = measure(filter_);
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    ForecastLimit& limit = out.limits[first + i];
+    limit = {};
+    limit.name = std::string_view(limits[i].name);
+    if (lost == kAll) limit.without = "all";
+    if (lost >= 0)
+      limit.without = std::string_view(setup_->config.sensors[static_cast<std::size_t>(lost)].sensor);
+    limit.limit = limits[i].limit;
+    const Uncertainty& now = of(start, limits[i].name);
+    limit.now = now.within_95;
+    limit.time_to_limit_s = now.within_95 >= limit.limit ? 0.0 : kNever;
+    limit.time_expected_s = now.rms >= limit.limit ? 0.0 : kNever;
+  }
+  Now before = start;
+  bool open = true;
+  for (double elapsed = 0.0; elapsed < setup_->config.forecast_span_s && open; elapsed += kStep_s) {
+    step(core, lost, kStep_s);
+    const Now after = measure(filter_);
+    open = false;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      ForecastLimit& limit = out.limits[first + i];
+      const Uncertainty& low = of(before, limits[i].name);
+      const Uncertainty& high = of(after, limits[i].name);
+      pass(limit.time_to_limit_s, limit.limit, low.within_95, high.within_95, elapsed, kStep_s);
+      pass(limit.time_expected_s, limit.limit, low.rms, high.rms, elapsed, kStep_s);
+      open = open || std::isinf(limit.time_expected_s);
+    }
+    before = after;
+    if (lost != kNone || elapsed >= kGrowthSpan_s) continue;
+    out.horizontal_growth_m_s =
+        (after.horizontal.within_95 - start.horizontal.within_95) / (elapsed + kStep_s);
+    open = true;
   }
 }
 
 void Forecaster::fill(const Core& core, Forecast& out) {
   const auto& limits = setup_->config.forecast_limits;
-  out.limit_count = static_cast<std::uint32_t>(std::min<std::size_t>(limits.size(), Forecast::kMaxLimits));
-  for (std::size_t i = 0; i < out.limit_count; ++i) {
-    out.limits[i] = ForecastLimit{};
-    out.limits[i].name = std::string_view(limits[i].name);
-    out.limits[i].limit = limits[i].limit;
-  }
+  const auto count = static_cast<std::uint32_t>(limits.size());
   out.horizontal_95_m = out.vertical_95_m = out.heading_95_rad = out.horizontal_growth_m_s = kUnknown;
-  if (!core.navigating()) return;
-
-  // (FC-1): straight ahead, unaccelerated.
-  const NavSolution& nav = core.state().nav;
-  const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
-  const Eigen::Vector3d force_N(0.0, 0.0, -geo::gravity(nav.position.latitude_rad, nav.position.altitude_m));
-  filter_ = core.filter();
-  nav_ = nav;
-  force_B_ = c.transpose() * force_N;
-  noise_ = core.process_noise();
-  const AidingState state(setup_->index, core.state(), core.rate_B_rad_s(), 0.0);
-  for (std::size_t i = 0; i < setup_->config.sensors.size(); ++i) {
-    observations_[i].rows = 0;
-    if (!aids(core, static_cast<int>(i))) continue;
-    observations_[i] = Observation{};
-    // The last sample is about one second old in the forecast's eyes, whatever its rate.
-    const bool modelled = setup_->velocity_model && setup_->config.sensors[i].kind == SourceKind::propulsion;
-    const AidingInput input{state, setup_->config.sensors[i], setup_->config.states.surface_altitude_m,
-                            &setup_->config.vehicle_model, modelled ? &core.water_velocity() : nullptr};
-    for (const AidingEntry& entry : aiding_registry())
-      if (entry.source == setup_->config.sensors[i].kind)
-        (void)entry.observe(input, last_[i], observations_[i]);
-    observations_[i].list_columns(setup_->index.size());
-  }
-
-  const Now start = measure(filter_);
-  out.horizontal_95_m = start.horizontal;
-  out.vertical_95_m = start.vertical;
-  out.heading_95_rad = start.heading;
-  for (std::size_t i = 0; i < out.limit_count; ++i) {
-    ForecastLimit& limit = out.limits[i];
-    limit.now = of(start, limits[i].name);
-    limit.time_to_limit_s = limit.now >= limit.limit ? 0.0 : std::numeric_limits<double>::infinity();
-  }
-  Now before = start;
-  double elapsed = 0.0;
-  while (elapsed < setup_->config.forecast_span_s) {
-    const double dt = step_length(elapsed);
-    step(dt);
-    const Now after = measure(filter_);
-    for (std::size_t i = 0; i < out.limit_count; ++i) {
-      ForecastLimit& limit = out.limits[i];
-      const double low = of(before, limits[i].name);
-      const double high = of(after, limits[i].name);
-      if (std::isinf(limit.time_to_limit_s) && high >= limit.limit)
-        limit.time_to_limit_s = elapsed + dt * (limit.limit - low) / std::max(high - low, 1e-12);
+  if (!core.navigating()) {
+    out.limit_count = count;
+    for (std::size_t i = 0; i < limits.size(); ++i) {
+      out.limits[i] = {};
+      out.limits[i].name = std::string_view(limits[i].name);
+      out.limits[i].limit = limits[i].limit;
     }
-    elapsed += dt;
-    before = after;
-    if (elapsed <= kGrowthSpan_s) out.horizontal_growth_m_s = (after.horizontal - start.horizontal) / elapsed;
+    return;
   }
+  const Now now = measure(core.filter());
+  out.horizontal_95_m = now.horizontal.within_95;
+  out.vertical_95_m = now.vertical.within_95;
+  out.heading_95_rad = now.heading.within_95;
+  follow(core, kNone, out, 0);
+  out.limit_count = count;
+  const auto more = [&](int lost) {
+    if (out.limit_count + count > Forecast::kMaxLimits) return;
+    follow(core, lost, out, out.limit_count);
+    out.limit_count += count;
+  };
+  int aiding = 0;
+  for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) aiding += aids(core, i) ? 1 : 0;
+  if (aiding > 0) more(kAll);
+  for (int i = 0; aiding > 1 && i < static_cast<int>(setup_->config.sensors.size()); ++i)
+    if (aids(core, i)) more(i);
 }
 
 }  // namespace fathom::estimation

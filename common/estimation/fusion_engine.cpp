@@ -59,6 +59,7 @@ class FusionEngine::Impl final : public VerdictSink {
       history_.begin_given(*pending_start_, sample.header.stamp_ns, *this);
       pending_start_.reset();
     }
+    forecaster_.watch(history_.core());
     nav_.header.stamp_ns = sample.header.stamp_ns;
     nav_.header.received_ns = sample.header.received_ns;
     ++nav_.header.sequence;
@@ -172,6 +173,18 @@ class FusionEngine::Impl final : public VerdictSink {
     forecaster_.fill(history_.core(), out);
   }
 
+  [[nodiscard]] double forecast_horizontal_95_m(double after_s) {
+    return forecaster_.horizontal_95_m(history_.core(), after_s);
+  }
+
+  [[nodiscard]] Matrix9 navigation_covariance() const {
+    const ErrorFilter& filter = history_.core().filter();
+    Matrix9 p;
+    for (int i = 0; i < kNavStates; ++i)
+      for (int j = 0; j < kNavStates; ++j) p(i, j) = filter(i, j);
+    return p;
+  }
+
   [[nodiscard]] const NavState& nav_state() const {
     if (!filled_) estimation::fill(setup_, history_.core(), nav_);
     filled_ = true;
@@ -281,6 +294,12 @@ void FusionEngine::fill(AlignmentStatus& status) const {
 }
 void FusionEngine::fill(Forecast& forecast) {
   impl_->fill(forecast);
+}
+double FusionEngine::forecast_horizontal_95_m(double after_s) {
+  return impl_->forecast_horizontal_95_m(after_s);
+}
+Eigen::Matrix<double, 9, 9> FusionEngine::navigation_covariance() const {
+  return impl_->navigation_covariance();
 }
 
 }  // namespace fathom::estimation

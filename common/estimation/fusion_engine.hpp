@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include <Eigen/Core>
+
 #include "estimation/engine_config.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
@@ -83,9 +85,16 @@ class FusionEngine {
 
   void fill(NavDetail& detail) const;
   void fill(AlignmentStatus& status) const;
-  /// Growth of the uncertainty if position fixes stop now and velocity aiding goes on as it is (not at all in
-  /// NavMode::inertial), by propagating the covariance. A few milliseconds of work.
+  /// Growth of the uncertainty if position fixes stop now, the vehicle goes on as in the last two minutes,
+  /// and the other aiding goes on as it is, or is lost as well: by propagating the covariance (FC-1). A few
+  /// milliseconds of work for each aiding sensor.
   void fill(Forecast& forecast);
+  /// Of the same: radius that holds 95 % of the horizontal errors `after_s` from now; unknown without
+  /// navigation.
+  [[nodiscard]] double forecast_horizontal_95_m(double after_s);
+
+  /// Covariance of position (m, N), velocity and attitude error phi of the point of the IMU.
+  [[nodiscard]] Eigen::Matrix<double, 9, 9> navigation_covariance() const;
 
  private:
   class Impl;

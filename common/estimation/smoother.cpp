@@ -218,6 +218,11 @@ void Smoother::run(const Output& output) {
   }
   for (; at.event < events_.size(); ++at.event)
     refuse(events_[at.event], VerdictKind::from_the_future, output.verdict);
+  if (output.detail && !ticks_.empty()) {
+    NavDetail detail;
+    estimation::fill(setup_, at.core, detail);
+    output.detail(detail);
+  }
 
   Segment segment(setup_.index.size());
   Adjoint adjoint(setup_.index.size());

@@ -7,6 +7,7 @@
 
 #include "estimation/adjoint.hpp"
 #include "estimation/imu_intake.hpp"
+#include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
 
 namespace fathom::estimation {
@@ -48,6 +49,8 @@ class Smoother {
     std::function<void(const Verdict&)> verdict;
     /// The forward pass, one state per accepted inertial sample, in the order of time.
     std::function<void(const NavState&)> filtered;
+    /// What the forward pass estimated, once, at its end.
+    std::function<void(const NavDetail&)> detail;
     /// One state per accepted inertial sample, the newest first.
     std::function<void(const NavState&)> smoothed;
     /// Share of the work done, 0 to 1.

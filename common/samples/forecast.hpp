@@ -8,16 +8,19 @@
 
 namespace fathom {
 
-/// When the 95 % uncertainty will pass a limit if nothing changes.
+/// When the uncertainty will pass a limit without position fixes, if the vehicle goes on as it did.
 struct ForecastLimit {
   Name name;                          ///< e.g. "horizontal_100m"
+  Name without;                       ///< an aiding sensor that is lost, too; "all": every one; else empty
   double limit = kUnknown;            ///< m, or rad for heading
   double now = kUnknown;              ///< present 95 % value, same unit
-  double time_to_limit_s = kUnknown;  ///< +infinity when never
+  double time_to_limit_s = kUnknown;  ///< of the 95 % value; +infinity when never
+  double time_expected_s = kUnknown;  ///< of the root mean square; likewise
 };
 
 struct Forecast {
-  static constexpr std::size_t kMaxLimits = 8;
+  /// Each configured limit as it is, then without each aiding sensor, then without all of them.
+  static constexpr std::size_t kMaxLimits = 64;
   SampleHeader header;
   double horizontal_95_m = kUnknown;
   double vertical_95_m = kUnknown;

@@ -98,9 +98,11 @@ json forecast(const StatusView& view) {
   for (std::size_t i = 0; i < count; ++i) {
     const ForecastLimit& limit = forecast.limits[i];
     limits.push_back({{"name", limit.name.view()},
+                      {"without", limit.without.view()},
                       {"limit", number(limit.limit)},
                       {"now", number(limit.now)},
                       {"time_to_limit_s", number(limit.time_to_limit_s)},
+                      {"time_expected_s", number(limit.time_expected_s)},
                       {"never", std::isinf(limit.time_to_limit_s)}});
   }
   return limits;

@@ -228,6 +228,7 @@ class Table {
     const auto count = std::min<std::size_t>(forecast.limit_count, Forecast::kMaxLimits);
     for (std::size_t i = 0; i < count; ++i) {
       const ForecastLimit& limit = forecast.limits[i];
+      if (!limit.without.empty()) continue;
       const std::string when = std::isinf(limit.time_to_limit_s)
                                    ? "never at this rate"
                                    : "in " + number("%.0f", limit.time_to_limit_s) + " s";

@@ -20,9 +20,11 @@ struct Mapping<Forecast> {
     copy(plain.horizontal_growth_m_s, wire.horizontal_growth_m_s());
     copy.sequence(plain.limits, plain.limit_count, wire.limits(), [](auto& each, auto& limit, auto& w) {
       each(limit.name, w.name());
+      each(limit.without, w.without());
       each(limit.limit, w.limit());
       each(limit.now, w.now());
       each(limit.time_to_limit_s, w.time_to_limit_s());
+      each(limit.time_expected_s, w.time_expected_s());
     });
   }
 

@@ -98,8 +98,8 @@ void fields(Is<AlignmentStatus> auto& s, auto visit) {
   visit(header, a, b, count, conditions, c, d, advice);
 }
 void fields(Is<ForecastLimit> auto& s, auto visit) {
-  auto& [a, b, c, d] = s;
-  visit(a, b, c, d);
+  auto& [a, b, c, d, e, f] = s;
+  visit(a, b, c, d, e, f);
 }
 void fields(Is<Forecast> auto& s, auto visit) {
   auto& [header, a, b, c, d, count, limits] = s;

@@ -191,7 +191,19 @@ TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   engine.fill(forecast);
   EXPECT_GT(forecast.horizontal_95_m, 0.5);
   EXPECT_GT(forecast.horizontal_growth_m_s, 0.0);
-  ASSERT_EQ(forecast.limit_count, 3U);
+  // As it is, without any aiding, and without the DVL, the depth sensor and the compass, one by one.
+  ASSERT_EQ(forecast.limit_count, 15U);
+  EXPECT_EQ(forecast.limits[0].without, Name(""));
+  EXPECT_EQ(forecast.limits[3].without, Name("all"));
+  EXPECT_EQ(forecast.limits[6].without, Name("dvl0"));
+  EXPECT_LT(forecast.limits[3].time_to_limit_s, forecast.limits[0].time_to_limit_s);
+  EXPECT_LT(forecast.limits[6].time_to_limit_s, forecast.limits[0].time_to_limit_s);
+  EXPECT_LE(forecast.limits[3].time_to_limit_s, forecast.limits[6].time_to_limit_s);
+  // Root mean square is less than what holds 95 %.
+  EXPECT_GT(forecast.limits[3].time_expected_s, forecast.limits[3].time_to_limit_s);
+  EXPECT_EQ(engine.forecast_horizontal_95_m(0.0), forecast.horizontal_95_m);
+  const double at_limit = engine.forecast_horizontal_95_m(forecast.limits[0].time_to_limit_s);
+  EXPECT_NEAR(at_limit, 20.0, 0.5);
   EXPECT_EQ(forecast.limits[0].name, Name("horizontal_20m"));
   EXPECT_GT(forecast.limits[0].time_to_limit_s, 10.0);
   EXPECT_TRUE(std::isinf(forecast.limits[1].time_to_limit_s));

@@ -269,7 +269,7 @@ TEST_F(BadInput, GapsWidenTheUncertaintyAndLongOnesEndIt) {
 
 TEST(Rejections, ThatAgreeForLongEnoughAreBelieved) {
   // The estimate is put 200 m away with a sigma of a metre: GPS is refused, and then believed.
-  const SurveyRun run({.duration_s = 49.0});
+  const SurveyRun run({.duration_s = 58.0, .dive_s = 1e9});
   FusionEngine engine(SurveyRun::config());
   bool set = false;
   double rejected_s = 0.0;
@@ -295,11 +295,13 @@ TEST(Rejections, ThatAgreeForLongEnoughAreBelieved) {
                               {nav.latitude_rad, nav.longitude_rad, nav.altitude_m})
                 .norm();
   EXPECT_TRUE(set);
-  EXPECT_GE(rejected_s, 8.0);
-  EXPECT_LE(rejected_s, 13.0);
+  EXPECT_GE(rejected_s, 20.0);
+  EXPECT_LE(rejected_s, 24.0);
   EXPECT_LT(error_m, 5.0);
-  EXPECT_EQ(nav.reset_counter, 2U);
-  EXPECT_NEAR(nav.last_reset_delta_N_m[0], -200.0, 10.0);
+  // The order, then the way back in steps.
+  EXPECT_GE(nav.reset_counter, 3U);
+  EXPECT_LT(nav.last_reset_delta_N_m[0], 0.0);
+  EXPECT_GE(nav.last_reset_delta_N_m[0], -101.0);
 }
 
 TEST(GivenStart, HoldsAtItsInstantOrWhenNavigationBegins) {

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "support/survey_run.hpp"
@@ -42,6 +45,113 @@ TEST(Reacquire, OneRowThatIsRefusedForeverIsBelievedThoughTheOthersPass) {
 TEST(Reacquire, NoGateIsTooTight) {
   EXPECT_NEAR(wrong_velocity_left(GateMode::whole, 0.5), 0.0, 0.05);
   EXPECT_NEAR(wrong_velocity_left(GateMode::per_component, 0.5), 0.0, 0.05);
+}
+
+/// 460 s under water, then 20 s of fixes that all lie 700 m to the side and go along with the vehicle, then
+/// true ones.
+class LyingFixes {
+ public:
+  static constexpr double kDive_s = 60.0;
+  static constexpr double kCluster_s = kDive_s + 460.0;
+  static constexpr double kTrue_s = kCluster_s + 20.0;
+  static constexpr double kEnd_s = kTrue_s + 45.0;
+  static constexpr double kAway_m = 700.0;
+
+  enum class Fixes { all, only_before };
+  struct Result {
+    double worst_m = 0.0;            ///< from the first wrong fix on
+    double at_cluster_m = 0.0;       ///< when that came
+    double recovered_after_s = 1e9;  ///< from the first true fix until the error stays below 10 m
+    double largest_step_m = 0.0;     ///< published
+    std::uint32_t resets = 0;
+    double sum_of_steps_m = 0.0;
+  };
+
+  explicit LyingFixes(bool with_dvl) : with_dvl_(with_dvl), run_(options()) {}
+
+  [[nodiscard]] Result navigate(Fixes fixes) const {
+    EngineConfig config = SurveyRun::config();
+    config.sensors[0].sigma = {1.0, 1.0, 2.0};
+    FusionEngine engine(config);
+    Result out;
+    std::size_t row = 0;
+    std::uint32_t resets = 0;
+    for (const test::Sample& sample : run_.samples) {
+      if (std::holds_alternative<DvlSample>(sample) && !with_dvl_ && seconds(sample) > kDive_s) continue;
+      if (const auto* gps = std::get_if<GpsSample>(&sample)) {
+        const double t = seconds(sample);
+        if (t > kDive_s && (fixes == Fixes::only_before || t < kCluster_s)) continue;
+        GpsSample told = *gps;
+        if (t >= kCluster_s && t < kTrue_s)
+          told.longitude_rad += kAway_m / (6.38e6 * std::cos(told.latitude_rad));
+        engine.add(told);
+        continue;
+      }
+      test::feed(engine, sample);
+      if (!std::holds_alternative<ImuSample>(sample)) continue;
+      const Truth& truth = run_.truth[row++];
+      const double t = seconds(sample);
+      if (t < kCluster_s) continue;
+      const NavState& nav = engine.nav_state();
+      const Eigen::Vector3d error =
+          geo::difference_N({truth.latitude_rad, truth.longitude_rad, truth.altitude_m},
+                            {nav.latitude_rad, nav.longitude_rad, nav.altitude_m});
+      const double size = error.head<2>().norm();
+      if (out.worst_m == 0.0) {
+        out.at_cluster_m = size;
+        resets = nav.reset_counter;
+      }
+      out.worst_m = std::max(out.worst_m, size);
+      if (size > 10.0) out.recovered_after_s = 1e9;
+      if (size <= 10.0 && out.recovered_after_s > 1e8) out.recovered_after_s = std::max(0.0, t - kTrue_s);
+      if (nav.reset_counter != resets + out.resets) {
+        out.resets = nav.reset_counter - resets;
+        const double step = std::hypot(nav.last_reset_delta_N_m[0], nav.last_reset_delta_N_m[1]);
+        out.largest_step_m = std::max(out.largest_step_m, step);
+        out.sum_of_steps_m += step;
+      }
+    }
+    return out;
+  }
+
+ private:
+  static SurveyRun::Options options() {
+    SurveyRun::Options o;
+    o.duration_s = kEnd_s;
+    o.dive_s = 1e9;  // it stays at the surface: what GPS says is up to navigate()
+    o.wave_rad = 0.0;
+    o.usbl = false;
+    return o;
+  }
+  static double seconds(const test::Sample& sample) {
+    return to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs);
+  }
+
+  bool with_dvl_;
+  SurveyRun run_;
+};
+
+void expect_not_captured(bool with_dvl) {
+  const LyingFixes scenario(with_dvl);
+  const LyingFixes::Result drift = scenario.navigate(LyingFixes::Fixes::only_before);
+  const LyingFixes::Result got = scenario.navigate(LyingFixes::Fixes::all);
+  EXPECT_LE(got.worst_m, 1.1 * drift.worst_m);
+  EXPECT_LE(got.recovered_after_s, 30.0);
+  EXPECT_NEAR(got.at_cluster_m, drift.at_cluster_m, 1e-6);
+  EXPECT_LE(got.largest_step_m, 101.0);
+  // What was corrected was published.
+  if (got.at_cluster_m > 60.0) {
+    EXPECT_GT(got.resets, 0U);
+    EXPECT_GT(got.sum_of_steps_m, 0.8 * got.at_cluster_m);
+  }
+}
+
+TEST(Reacquire, ACoherentClusterDoesNotCaptureAnInertialNavigatorAndTrueFixesAreBelieved) {
+  expect_not_captured(false);
+}
+
+TEST(Reacquire, ACoherentClusterDoesNotCaptureADeadReckoningNavigatorAndTrueFixesAreBelieved) {
+  expect_not_captured(true);
 }
 
 }  // namespace

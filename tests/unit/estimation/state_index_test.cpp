@@ -16,6 +16,8 @@ StateGroups named(const char* name) {
 
 TEST(StateIndex, NamedConfigurationsHoldWhatTheyAreKnownFor) {
   EXPECT_EQ(StateIndex(named("gps_ins15")).size(), 15);
+  EXPECT_EQ(StateIndex(named("gps_ins24")).size(), 24);
+  EXPECT_EQ(StateIndex(named("gps_ins36")).size(), 36);
   const StateIndex full(named("full"));
   EXPECT_EQ(full.size(), 53);
   EXPECT_EQ(full.imu_end(), 33);
