@@ -13,6 +13,7 @@
 
 #include "cli/command.hpp"
 #include "cli/solve_calibrate.hpp"
+#include "cli/solve_fixes.hpp"
 #include "cli/solve_metrics.hpp"
 #include "cli/solve_outage.hpp"
 #include "cli/solve_run.hpp"
@@ -112,6 +113,8 @@ SolveReport solve(const SolveOptions& options) {
   dataset::NavCsv csv(options.out, dataset::kDefaultEpochNs);
   Thinning rows(options.rate_hz);
   SolveReport report;
+  Path path;
+  Path filtered_path;
   const auto take = [&](const NavState& state) {
     report.alignment = state.alignment;
     // The file begins with the first position.
@@ -119,6 +122,7 @@ SolveReport solve(const SolveOptions& options) {
     ++report.positions;
     if (rows.pass(state.header.stamp_ns)) csv.add(state);
     score(state, scorer);
+    if (!data.gps.empty()) path.add(state);
   };
 
   report.dataset = options.directory;
@@ -128,7 +132,11 @@ SolveReport solve(const SolveOptions& options) {
   report.smoothed = options.smooth;
   if (options.smooth) {
     dataset::Scorer filtered;
-    report.passage = run_smoothed(passage, {[&](const NavState& state) { score(state, filtered); }, take});
+    const auto take_filtered = [&](const NavState& state) {
+      score(state, filtered);
+      if (!data.gps.empty()) filtered_path.add(state);
+    };
+    report.passage = run_smoothed(passage, {take_filtered, take});
     report.filtered = filtered.score();
   } else {
     passage.on_state = [&](const NavState& state, estimation::FusionEngine&) { take(state); };
@@ -138,6 +146,12 @@ SolveReport solve(const SolveOptions& options) {
   report.score = scorer.score();
   if (report.score.count > 0)
     report.distance_m = truth.distance_m(report.score.first_ns, report.score.last_ns);
+  const Antenna antenna = antenna_of(loaded.value, report.passage.gps_latency_s);
+  for (const GpsSample& fix : data.gps) {
+    if (fix.fix == GpsFix::none || passage.removes(fix)) continue;
+    report.at_fixes.add(path.error_m(fix, antenna));
+    if (options.smooth) report.filtered_at_fixes.add(filtered_path.error_m(fix, antenna));
+  }
   if (outages) {
     report.outages =
         run_outages(passage, *outages, options.smooth, dataset::kDefaultEpochNs, options.directory);
@@ -167,10 +181,11 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
                       "errors against the reference, consistency, verdicts, timing (JSON)");
   command->add_option(
       "--gps-outage", options->outages,
-      "T1,T2,...[@start[:recover]]: remove GPS for T s at a time from `start` on (seconds of the data "
+      "T1,T2,...[@start[:recover]] or random:N[@start]: remove GPS for T s at a time from `start` on "
+      "(seconds of the data "
       "set; default 60 s after motion begins), with `recover` s of GPS in between (default 40), and "
       "compare with the removed fixes, pooled over start, +13, +26 and +39 s; the solution written is "
-      "that of the first duration and start");
+      "that of the first duration and start; random: N windows of 5 to 60 s");
   command->add_option("--start", options->start, "\"reference\": from the first row of reference.csv")
       ->check(CLI::IsMember({"reference"}));
   command

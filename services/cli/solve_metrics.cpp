@@ -61,7 +61,8 @@ json outage(const OutageFigures& f) {
     list.push_back({{"start_s", number(window.start_s)},
                     {"end_s", number(window.end_s)},
                     {"horizontal_error_m", number(window.horizontal_error_m)},
-                    {"smoothed_horizontal_error_m", number(window.smoothed_horizontal_error_m)},
+                    {"inside_rms_m", number(window.inside.rms_m())},
+                    {"smoothed_inside_rms_m", number(window.smoothed_inside.rms_m())},
                     {"predicted_95_m", number(window.predicted_95_m)},
                     {"forecast_95_m", number(window.forecast_95_m)},
                     {"forecast_time_to_limit_s", limits}});
@@ -70,7 +71,10 @@ json outage(const OutageFigures& f) {
       {"duration_s", f.duration_s},
       {"count", f.windows.size()},
       {"horizontal_error_m", {{"rms", number(f.rms_m)}, {"p95", number(f.p95_m)}, {"max", number(f.max_m)}}},
-      {"smoothed_horizontal_error_m", {{"rms", number(f.smoothed_rms_m)}}},
+      {"inside_horizontal_error_m", {{"rms", number(f.inside_rms_m)}}},
+      {"smoothed_inside_horizontal_error_m", {{"rms", number(f.smoothed_inside_rms_m)}}},
+      {"forecast_coverage", number(f.forecast_coverage)},
+      {"predicted_coverage", number(f.predicted_coverage)},
       {"windows", list}};
 }
 
@@ -130,6 +134,14 @@ std::string to_json(const SolveReport& report) {
     out.update(errors(score, report.distance_m));
   }
   if (report.filtered.count > 0) out["filtered"] = errors(report.filtered, report.distance_m);
+  if (report.at_fixes.count > 0) {
+    out["at_fixes"] = {{"count", report.at_fixes.count},
+                       {"latency_found_s", report.passage.gps_latency_s},
+                       {"horizontal_error_m", {{"rms", number(report.at_fixes.rms_m())}}}};
+    if (report.smoothed)
+      out["at_fixes"]["filtered"] = {
+          {"horizontal_error_m", {{"rms", number(report.filtered_at_fixes.rms_m())}}}};
+  }
   if (!report.outages.empty()) {
     out["gps_outages"] = json::array();
     for (const OutageFigures& f : report.outages) out["gps_outages"].push_back(outage(f));
@@ -167,11 +179,19 @@ std::string to_text(const SolveReport& report) {
   if (report.filtered.count > 0)
     out += line("before smoothing: horizontal error rms %.2f m, 95 %% %.2f m",
                 report.filtered.horizontal_m.rms, report.filtered.horizontal_m.p95);
+  if (report.smoothed && report.at_fixes.count > 0)
+    out += line("at the fixes it was given, each at its own instant: rms %.2f m, before smoothing %.2f m",
+                report.at_fixes.rms_m(), report.filtered_at_fixes.rms_m());
   for (const OutageFigures& f : report.outages) {
+    out += f.duration_s > 0.0 ? line("GPS outage %g s:", f.duration_s) : "GPS outages at random:\n";
+    out += line("  horizontal error at its end rms %.2f m, 95 %% %.2f m, max %.2f m, %zu windows", f.rms_m,
+                f.p95_m, f.max_m, f.windows.size());
     out +=
-        line("GPS outage %g s: horizontal error at its end rms %.2f m, 95 %% %.2f m, max %.2f m, %zu windows",
-             f.duration_s, f.rms_m, f.p95_m, f.max_m, f.windows.size());
-    if (known(f.smoothed_rms_m)) out += line("  smoothed rms %.2f m", f.smoothed_rms_m);
+        line("  inside the 95 %% forecast when GPS was lost: %.1f %%, inside the 95 %% at the end: %.1f %%",
+             100.0 * f.forecast_coverage, 100.0 * f.predicted_coverage);
+    if (known(f.smoothed_inside_rms_m))
+      out += line("  over all withheld fixes: rms %.2f m, smoothed %.2f m", f.inside_rms_m,
+                  f.smoothed_inside_rms_m);
   }
   return out;
 }

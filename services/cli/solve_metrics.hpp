@@ -22,7 +22,9 @@ struct SolveReport {
   AlignmentPhase alignment = AlignmentPhase::none;  ///< at the end
   dataset::Score score;                             ///< against the reference; count 0 without one
   dataset::Score filtered;                          ///< of the forward pass where smoothed
-  double distance_m = kUnknown;                     ///< horizontal, of the reference while it was scored
+  FixErrors at_fixes;            ///< of the antenna at the fixes it was given, each at its own instant
+  FixErrors filtered_at_fixes;   ///< likewise the forward pass where smoothed
+  double distance_m = kUnknown;  ///< horizontal, of the reference while it was scored
   std::vector<OutageFigures> outages;
   std::string calibration;  ///< for a person, where it was asked for
 };

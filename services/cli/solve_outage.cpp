@@ -9,8 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/solve_smooth.hpp"
 #include "estimation/fusion_engine.hpp"
-#include "geo/so3.hpp"
-#include "geo/wgs84.hpp"
+#include "sim/random.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -19,11 +18,18 @@ constexpr double kDefaultStart_s = 60.0;  // after motion begins
 constexpr std::array<double, 4> kPooledStarts_s{0.0, 13.0, 26.0,
                                                 39.0};  // so that windows meet other manoeuvres
 constexpr double kChiSquare95TwoDof = 5.991464547107979;
+// Of random windows, and of GPS behind each.
+constexpr double kShortest_s = 5.0;
+constexpr double kLongest_s = 60.0;
+constexpr double kLeastRecovery_s = 40.0;
+constexpr double kMostRecovery_s = 70.0;
+constexpr int kMostEmptyPasses = 10;
 
 [[noreturn]] void refuse(const std::string& text) {
-  throw Failure(ExitCode::bad_configuration,
-                "--gps-outage: is '" + text +
-                    "', expected T1,T2,...[@start[:recover]] in seconds, e.g. 10,20,60@110:40");
+  throw Failure(
+      ExitCode::bad_configuration,
+      "--gps-outage: is '" + text +
+          "', expected T1,T2,...[@start[:recover]] in seconds, e.g. 10,20,60@110:40, or random:N[@start]");
 }
 
 double seconds_in(std::string_view part, const std::string& whole) {
@@ -37,42 +43,6 @@ double speed_m_s(const GpsSample& fix) {
   return fix.fix == GpsFix::none ? kUnknown : std::hypot(fix.velocity_N_m_s[0], fix.velocity_N_m_s[1]);
 }
 
-// What the evaluation needs to know of the GPS receiver.
-struct Antenna {
-  std::array<double, 3> from_output_B_m{0, 0, 0};
-  DurationNs latency_ns = 0;
-};
-
-Antenna antenna_of(const config::FusionConfig& config) {
-  Antenna antenna;
-  for (const estimation::SensorConfig& sensor : config.engine.sensors) {
-    if (sensor.kind != SourceKind::gps) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      antenna.from_output_B_m[i] = sensor.lever_B_m[i] - config.engine.output_lever_B_m[i];
-    }
-    antenna.latency_ns = from_seconds(sensor.latency_s);
-    break;
-  }
-  return antenna;
-}
-
-geo::Geodetic antenna_position(const NavState& state, const Antenna& antenna) {
-  const geo::Quaternion q{state.q_NB[0], state.q_NB[1], state.q_NB[2], state.q_NB[3]};
-  return geo::moved_by({state.latitude_rad, state.longitude_rad, state.altitude_m},
-                       geo::to_matrix(q) * geo::vec(antenna.from_output_B_m));
-}
-
-double horizontal_error_m(const NavState& before, const NavState& after, TimeNs instant_ns,
-                          const GpsSample& fix, const Antenna& antenna) {
-  const geo::Geodetic truth{fix.latitude_rad, fix.longitude_rad, fix.altitude_m};
-  const Eigen::Vector3d a = geo::difference_N(truth, antenna_position(before, antenna));
-  const Eigen::Vector3d b = geo::difference_N(truth, antenna_position(after, antenna));
-  const auto span = static_cast<double>(after.header.stamp_ns - before.header.stamp_ns);
-  const double share = span > 0.0 ? static_cast<double>(instant_ns - before.header.stamp_ns) / span : 0.0;
-  const Eigen::Vector3d error = a + share * (b - a);
-  return std::hypot(error.x(), error.y());
-}
-
 // Radius that 95 % of the errors stay within along the worse horizontal axis of the filter's covariance.
 double predicted_95_m(const NavState& state) {
   const auto& p = state.position_covariance_N_m2;
@@ -81,114 +51,144 @@ double predicted_95_m(const NavState& state) {
   return std::sqrt(kChiSquare95TwoDof * largest);
 }
 
+double fix_95_m(const config::FusionConfig& config) {
+  for (const estimation::SensorConfig& sensor : config.engine.sensors)
+    if (sensor.kind == SourceKind::gps)
+      return std::sqrt(kChiSquare95TwoDof) * std::max(sensor.sigma[0], sensor.sigma[1]);
+  return 0.0;
+}
+
 void pool(OutageFigures& figures) {
   std::vector<double> errors;
+  double forecast = 0.0;
+  double predicted = 0.0;
   double sum2 = 0.0;
-  double smoothed2 = 0.0;
+  FixErrors inside;
+  FixErrors smoothed_inside;
   for (const OutageWindow& window : figures.windows) {
+    inside.add(window.inside);
+    smoothed_inside.add(window.smoothed_inside);
     if (!known(window.horizontal_error_m)) continue;
     errors.push_back(window.horizontal_error_m);
+    // What it is compared with is a fix, which has an error of its own.
+    forecast += window.horizontal_error_m <= std::hypot(window.forecast_95_m, window.fix_95_m) ? 1.0 : 0.0;
+    predicted += window.horizontal_error_m <= std::hypot(window.predicted_95_m, window.fix_95_m) ? 1.0 : 0.0;
     sum2 += window.horizontal_error_m * window.horizontal_error_m;
-    smoothed2 += window.smoothed_horizontal_error_m * window.smoothed_horizontal_error_m;
   }
   if (errors.empty()) return;
   std::sort(errors.begin(), errors.end());
   const auto count = static_cast<double>(errors.size());
+  figures.forecast_coverage = forecast / count;
+  figures.predicted_coverage = predicted / count;
   figures.rms_m = std::sqrt(sum2 / count);
-  figures.smoothed_rms_m = std::sqrt(smoothed2 / count);
+  figures.inside_rms_m = inside.rms_m();
+  figures.smoothed_inside_rms_m = smoothed_inside.rms_m();
   figures.p95_m = errors[static_cast<std::size_t>(std::ceil(0.95 * count)) - 1];
   figures.max_m = errors.back();
 }
 
-std::vector<GpsWindow> planned(const dataset::Dataset& data, const OutageRequest& request, double duration_s,
-                               double offset_s, TimeNs epoch_ns, const std::string& directory) {
+Motion motion_in(const dataset::Dataset& data, const std::string& directory) {
   const auto motion = motion_of(data.gps);
-  if (!motion) {
-    throw Failure(ExitCode::bad_input,
-                  directory + "/gps.csv: no fix in motion, expected a moving vehicle for --gps-outage");
-  }
-  const TimeNs start_ns = request.start_s ? epoch_ns + from_seconds(*request.start_s)
-                                          : motion->first_ns + from_seconds(kDefaultStart_s);
-  return windows(start_ns + from_seconds(offset_s), motion->last_ns, from_seconds(duration_s),
-                 from_seconds(request.recover_s));
+  if (motion) return *motion;
+  throw Failure(ExitCode::bad_input,
+                directory + "/gps.csv: no fix in motion, expected a moving vehicle for --gps-outage");
 }
 
-// The last usable fix inside a window, or none.
-const GpsSample* last_fix(const std::vector<GpsSample>& gps, const GpsWindow& window) {
-  const GpsSample* last = nullptr;
-  for (const GpsSample& fix : gps) {
-    if (fix.fix != GpsFix::none && window.contains(fix.header.stamp_ns)) last = &fix;
+TimeNs start_of(const OutageRequest& request, const Motion& motion, TimeNs epoch_ns) {
+  return request.start_s ? epoch_ns + from_seconds(*request.start_s)
+                         : motion.first_ns + from_seconds(kDefaultStart_s);
+}
+
+std::vector<GpsWindow> planned(const dataset::Dataset& data, const OutageRequest& request, double duration_s,
+                               double offset_s, TimeNs epoch_ns, const std::string& directory) {
+  const Motion motion = motion_in(data, directory);
+  return windows(start_of(request, motion, epoch_ns) + from_seconds(offset_s), motion.last_ns,
+                 from_seconds(duration_s), from_seconds(request.recover_s));
+}
+
+// Of the pass with this number, always the same.
+std::vector<GpsWindow> random_windows(const dataset::Dataset& data, const OutageRequest& request, int pass,
+                                      TimeNs epoch_ns, const std::string& directory) {
+  const Motion motion = motion_in(data, directory);
+  sim::Random random(static_cast<std::uint64_t>(pass), "outages");
+  std::vector<GpsWindow> out;
+  TimeNs begin = start_of(request, motion, epoch_ns) + from_seconds(random.uniform(0.0, kLongest_s));
+  while (true) {
+    const DurationNs length = from_seconds(random.uniform(kShortest_s, kLongest_s));
+    if (begin + length > motion.last_ns) return out;
+    out.push_back({begin, begin + length});
+    begin += length + from_seconds(random.uniform(kLeastRecovery_s, kMostRecovery_s));
   }
-  return last;
+}
+
+// The fixes that were taken away in a window.
+std::vector<const GpsSample*> fixes_in(const std::vector<GpsSample>& gps, const GpsWindow& window) {
+  std::vector<const GpsSample*> out;
+  for (const GpsSample& fix : gps)
+    if (fix.fix != GpsFix::none && window.contains(fix.header.stamp_ns)) out.push_back(&fix);
+  return out;
+}
+
+struct Watch {
+  OutageWindow window;
+  TimeNs begin_ns = 0;
+  TimeNs end_ns = 0;  // of the last fix taken away
+  std::vector<const GpsSample*> fixes;
+  bool forecast_taken = false;
+  bool done = false;
+};
+
+void take_forecast(Watch& watch, estimation::FusionEngine& engine) {
+  watch.forecast_taken = true;
+  Forecast forecast;
+  engine.fill(forecast);
+  watch.window.forecast_95_m = engine.forecast_horizontal_95_m(to_seconds(watch.end_ns - watch.begin_ns));
+  for (std::uint32_t i = 0; i < forecast.limit_count; ++i)
+    if (forecast.limits[i].without.empty())
+      watch.window.time_to_limit_s[forecast.limits[i].name.str()] = forecast.limits[i].time_to_limit_s;
 }
 
 // One passage with windows removed; appends what became of them.
 void run_windows(Passage passage, const std::vector<GpsWindow>& removed, bool smooth, TimeNs epoch_ns,
                  OutageFigures& figures) {
-  const Antenna antenna = antenna_of(*passage.config);
-  struct Watch {
-    OutageWindow window;
-    TimeNs begin_ns;
-    const GpsSample* fix;
-    TimeNs instant_ns;
-    bool forecast_taken = false;
-    bool done = false;
-  };
   std::vector<Watch> watches;
   for (const GpsWindow& window : removed) {
-    const GpsSample* fix = last_fix(passage.data->gps, window);
-    if (fix == nullptr) continue;  // GPS was out by itself: nothing to compare with
-    Watch watch{{}, window.begin_ns, fix, fix->header.stamp_ns - antenna.latency_ns};
+    Watch watch;
+    watch.fixes = fixes_in(passage.data->gps, window);
+    if (watch.fixes.empty()) continue;  // GPS was out by itself: nothing to compare with
+    watch.begin_ns = window.begin_ns;
+    watch.end_ns = watch.fixes.back()->header.stamp_ns;
     watch.window.start_s = to_seconds(window.begin_ns - epoch_ns);
-    watch.window.end_s = to_seconds(fix->header.stamp_ns - epoch_ns);
-    watches.push_back(watch);
+    watch.window.end_s = to_seconds(watch.end_ns - epoch_ns);
+    watches.push_back(std::move(watch));
   }
   passage.gps_removed = removed;
-  NavState before;
+  Path path;
   std::size_t next = 0;
   passage.on_state = [&](const NavState& state, estimation::FusionEngine& engine) {
-    if (next < watches.size() && known(state.latitude_rad)) {
-      Watch& watch = watches[next];
-      if (!watch.forecast_taken && state.header.stamp_ns >= watch.begin_ns) {
-        watch.forecast_taken = true;
-        Forecast forecast;
-        engine.fill(forecast);
-        watch.window.forecast_95_m =
-            forecast.horizontal_95_m +
-            forecast.horizontal_growth_m_s * to_seconds(watch.instant_ns - watch.begin_ns);
-        for (std::uint32_t i = 0; i < forecast.limit_count; ++i) {
-          watch.window.time_to_limit_s[forecast.limits[i].name.str()] = forecast.limits[i].time_to_limit_s;
-        }
-      }
-      if (state.header.stamp_ns >= watch.instant_ns) {
-        const NavState& from = known(before.latitude_rad) ? before : state;
-        watch.window.horizontal_error_m =
-            horizontal_error_m(from, state, watch.instant_ns, *watch.fix, antenna);
-        watch.window.predicted_95_m = predicted_95_m(state);
-        watch.done = true;
-        ++next;
-      }
-    }
-    before = state;
+    path.add(state);
+    if (next >= watches.size() || !known(state.latitude_rad)) return;
+    Watch& watch = watches[next];
+    if (!watch.forecast_taken && state.header.stamp_ns >= watch.begin_ns) take_forecast(watch, engine);
+    if (state.header.stamp_ns < watch.end_ns) return;
+    watch.window.predicted_95_m = predicted_95_m(state);
+    watch.done = true;
+    ++next;
   };
-  static_cast<void>(run(passage));
-  if (smooth) {
-    next = 0;
-    before = NavState{};
-    const auto meet = [&](const NavState& state) {
-      for (; next < watches.size() && state.header.stamp_ns >= watches[next].instant_ns; ++next) {
-        if (!known(state.latitude_rad)) continue;
-        Watch& watch = watches[next];
-        const NavState& from = known(before.latitude_rad) ? before : state;
-        watch.window.smoothed_horizontal_error_m =
-            horizontal_error_m(from, state, watch.instant_ns, *watch.fix, antenna);
-      }
-      before = state;
-    };
-    static_cast<void>(run_smoothed(passage, {{}, meet}));
-  }
-  for (const Watch& watch : watches) {
-    if (watch.done) figures.windows.push_back(watch.window);
+  const PassageResult result = run(passage);
+  Path smoothed;
+  if (smooth)
+    static_cast<void>(run_smoothed(passage, {{}, [&](const NavState& state) { smoothed.add(state); }}));
+  const Antenna antenna = antenna_of(*passage.config, result.gps_latency_s);
+  for (Watch& watch : watches) {
+    if (!watch.done) continue;
+    for (const GpsSample* fix : watch.fixes) {
+      watch.window.inside.add(path.error_m(*fix, antenna));
+      if (smooth) watch.window.smoothed_inside.add(smoothed.error_m(*fix, antenna));
+    }
+    watch.window.fix_95_m = fix_95_m(*passage.config);
+    watch.window.horizontal_error_m = path.error_m(*watch.fixes.back(), antenna);
+    figures.windows.push_back(watch.window);
   }
 }
 
@@ -206,6 +206,12 @@ OutageRequest parse_outages(const std::string& text) {
       when = when.substr(0, colon);
     }
     request.start_s = seconds_in(when, text);
+  }
+  if (constexpr std::string_view kRandom = "random:"; rest.starts_with(kRandom)) {
+    const double count = seconds_in(rest.substr(kRandom.size()), text);
+    if (!(count >= 1.0 && count <= 100'000.0) || count != std::floor(count)) refuse(text);
+    request.random = static_cast<int>(count);
+    return request;
   }
   while (true) {
     const auto comma = rest.find(',');
@@ -247,12 +253,29 @@ std::vector<GpsWindow> windows(TimeNs begin_ns, TimeNs last_ns, DurationNs durat
 
 std::vector<GpsWindow> first_windows(const dataset::Dataset& data, const OutageRequest& request,
                                      TimeNs epoch_ns, const std::string& directory) {
+  if (request.random > 0) return random_windows(data, request, 0, epoch_ns, directory);
   return planned(data, request, request.durations_s.front(), 0.0, epoch_ns, directory);
 }
 
 std::vector<OutageFigures> run_outages(const Passage& passage, const OutageRequest& request, bool smooth,
                                        TimeNs epoch_ns, const std::string& directory) {
   std::vector<OutageFigures> all;
+  if (request.random > 0) {
+    OutageFigures& figures = all.emplace_back();
+    for (int pass = 0; static_cast<int>(figures.windows.size()) < request.random; ++pass) {
+      const std::size_t before = figures.windows.size();
+      Passage one = passage;
+      one.label = "random outages";
+      run_windows(std::move(one), random_windows(*passage.data, request, pass, epoch_ns, directory), smooth,
+                  epoch_ns, figures);
+      if (figures.windows.size() == before && pass > kMostEmptyPasses) break;
+    }
+    if (figures.windows.empty())
+      throw Failure(ExitCode::bad_input,
+                    directory + "/gps.csv: no outage fits before the last fix in motion");
+    pool(figures);
+    return all;
+  }
   for (const double duration_s : request.durations_s) {
     OutageFigures& figures = all.emplace_back();
     figures.duration_s = duration_s;

@@ -62,7 +62,17 @@ PassageResult run(const Passage& passage) {
   engine.finish();
   take_verdicts();
   result.wall_s = to_seconds(clock.monotonic_ns() - begin_ns);
+  NavDetail detail;
+  engine.fill(detail);
+  result.gps_latency_s = gps_latency_s(detail);
   return result;
+}
+
+double gps_latency_s(const NavDetail& detail) {
+  for (std::uint32_t i = 0; i < detail.count; ++i)
+    if (detail.states[i].name == Name("gps_latency_s") && known(detail.states[i].value))
+      return detail.states[i].value;
+  return 0.0;
 }
 
 void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config) {

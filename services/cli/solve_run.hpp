@@ -14,6 +14,7 @@
 #include "dataset/dataset.hpp"
 #include "estimation/engine_config.hpp"
 #include "samples/forecast.hpp"
+#include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/verdict.hpp"
 
@@ -67,7 +68,11 @@ struct PassageResult {
   std::uint64_t imu_samples = 0;
   std::uint64_t nav_states = 0;
   double wall_s = 0.0;
+  double gps_latency_s = 0.0;  ///< found beyond the configured one, at the end
 };
+
+/// Of a filter that estimates it; 0 of others.
+[[nodiscard]] double gps_latency_s(const NavDetail& detail);
 
 /// Hands every sample to the engine in the order of its arrival: what the fusion service does on the network.
 [[nodiscard]] PassageResult run(const Passage& passage);

@@ -27,6 +27,7 @@ PassageResult run_smoothed(const Passage& passage, const SmoothedStates& states)
   };
   output.filtered = states.filtered;
   output.smoothed = [&](const NavState& state) { smoothed.push_back(state); };
+  output.detail = [&](const NavDetail& detail) { result.gps_latency_s = gps_latency_s(detail); };
   output.progress = [&](double share) {
     progress.update(static_cast<std::uint64_t>(kProgressSteps * share));
   };
