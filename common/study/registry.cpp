@@ -2,6 +2,7 @@
 
 #include "study/alignment.hpp"
 #include "study/hydro/hydro_study.hpp"
+#include "study/gps_outage.hpp"
 #include "study/rotating_arm.hpp"
 #include "study/survey.hpp"
 
@@ -11,6 +12,7 @@ const std::vector<std::unique_ptr<const Study>>& study_registry() {
   static const auto all = [] {
     std::vector<std::unique_ptr<const Study>> studies;
     studies.push_back(std::make_unique<const AlignmentStudy>());
+    studies.push_back(make_gps_outage_study());
     studies.push_back(make_rotating_arm_study());
     studies.push_back(make_survey_study());
     studies.push_back(std::make_unique<HydroStudy>());
