@@ -1,8 +1,8 @@
 #include "study/registry.hpp"
 
 #include "study/alignment.hpp"
-#include "study/hydro/hydro_study.hpp"
 #include "study/gps_outage.hpp"
+#include "study/hydro/hydro_study.hpp"
 #include "study/rotating_arm.hpp"
 #include "study/survey.hpp"
 
