@@ -11,15 +11,15 @@ namespace fathom {
 /// When the uncertainty will pass a limit without position fixes, if the vehicle goes on as it did.
 struct ForecastLimit {
   Name name;                          ///< e.g. "horizontal_100m"
-  Name without;                       ///< an aiding sensor that is lost, too; "all": every one; else empty
   double limit = kUnknown;            ///< m, or rad for heading
   double now = kUnknown;              ///< present 95 % value, same unit
   double time_to_limit_s = kUnknown;  ///< of the 95 % value; +infinity when never
+  Name without;                       ///< an aiding sensor that is lost, too; "all": every one; else empty
   double time_expected_s = kUnknown;  ///< of the root mean square; likewise
 };
 
 struct Forecast {
-  /// Each configured limit as it is, then without each aiding sensor, then without all of them.
+  /// Each configured limit as it is, then without any aiding, then without each aiding sensor.
   static constexpr std::size_t kMaxLimits = 64;
   SampleHeader header;
   double horizontal_95_m = kUnknown;
