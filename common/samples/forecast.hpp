@@ -14,7 +14,7 @@ struct ForecastLimit {
   double limit = kUnknown;            ///< m, or rad for heading
   double now = kUnknown;              ///< present 95 % value, same unit
   double time_to_limit_s = kUnknown;  ///< of the 95 % value; +infinity when never
-  Name without;                       ///< an aiding sensor that is lost, too; "all": every one; else empty
+  Name without{};                     ///< an aiding sensor that is lost, too; "all": every one; else empty
   double time_expected_s = kUnknown;  ///< of the root mean square; likewise
 };
 
