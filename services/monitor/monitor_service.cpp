@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -182,8 +183,11 @@ struct MonitorService::Impl {
     out.journal_failures = journal_counters.failures;
     if (forecast && at.monotonic_ns - forecast_ns < kForecastNs) {
       const auto count = std::min<std::size_t>(forecast->limit_count, Forecast::kMaxLimits);
-      out.forecast.assign(forecast->limits.begin(),
-                          forecast->limits.begin() + static_cast<std::ptrdiff_t>(count));
+      // One series a limit: as it is, not as it would be without this or that aiding.
+      out.forecast.clear();
+      std::copy_if(forecast->limits.begin(), forecast->limits.begin() + static_cast<std::ptrdiff_t>(count),
+                   std::back_inserter(out.forecast),
+                   [](const ForecastLimit& limit) { return limit.without.empty(); });
     }
     return out;
   }
