@@ -179,9 +179,8 @@ class Core {
   /// True when the sample drives the model.
   bool drive_model(const Measurement& measurement);
   void foretell_velocity(const ImuStep& step);
-  /// Notes how the model did; false when it is not to be believed now.
-  bool believe_model(const AidingState& state, const Observation& observation,
-                     const InnovationStatistics& statistics);
+  /// Notes how the model did beside the DVL; false when it is not to be believed now.
+  bool consider_model(const AidingState& state, const PropulsionSample& sample);
 
   // core_align.cpp
   void align(const ImuStep& step);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/aiding/model_velocity.hpp"
 #include "estimation/core.hpp"
 
 namespace fathom::estimation {
@@ -87,7 +88,11 @@ Judgement Core::judge(const Measurement& measurement) {
   if (dropping_) return feed_drop(measurement).value_or(out);
 
   const AidingState state = aiding_state();
-  const bool modelled = drives && measurement.source == SourceKind::propulsion;
+  const bool foretold = drives && measurement.source == SourceKind::propulsion;
+  const bool believed_model =
+      foretold && consider_model(state, std::get<PropulsionSample>(measurement.sample));
+  // A model that is not believed leaves the shaft speed to the speed log, where one is configured.
+  const bool modelled = foretold && (believed_model || config.scale_m_s_per_rpm == 0.0);
   const AidingInput input{state, config, setup_->config.states.surface_altitude_m,
                           &setup_->config.vehicle_model, modelled ? &water_ : nullptr};
   Observation observation;
@@ -103,8 +108,12 @@ Judgement Core::judge(const Measurement& measurement) {
       first_refusal = usable;
     }
   }
+  if (modelled) water_.measured();
   if (drives && measurement.source == SourceKind::fins) {
-    out.kind = VerdictKind::used;
+    // They serve the model alone: its doubt is theirs.
+    out.model = ModelVelocity::kName;
+    out.kind = water_.doubt() <= setup_->config.vehicle_model.doubt_limit ? VerdictKind::used
+                                                                          : VerdictKind::rejected;
     return out;
   }
   if (observation.rows == 0) {
@@ -147,7 +156,7 @@ Judgement Core::judge(const Measurement& measurement) {
   out.dimensions = static_cast<std::uint32_t>(whole.rows);
   InnovationStatistics plain;
   filter_.statistics(whole, 1.0, plain);
-  if (modelled && !believe_model(state, whole, plain)) out.kind = VerdictKind::rejected;
+  if (modelled && !believed_model) out.kind = VerdictKind::rejected;
   for (std::size_t i = 0; i < static_cast<std::size_t>(whole.rows); ++i) {
     out.innovation[i] = whole.innovation[i];
     out.innovation_sigma[i] = std::sqrt(plain.s[i * kStride + i]);

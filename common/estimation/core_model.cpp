@@ -36,22 +36,30 @@ void Core::foretell_velocity(const ImuStep& step) {
     filter_.widen(i, (water_.doubt() - 1.0) * setup_->walk[static_cast<std::size_t>(i)] * dt_s);
 }
 
-bool Core::believe_model(const AidingState& state, const Observation& observation,
-                         const InnovationStatistics& statistics) {
+bool Core::consider_model(const AidingState& state, const PropulsionSample& sample) {
   // (HYD-4)
   const VehicleModelConfig& config = setup_->config.vehicle_model;
+  const double surface_m = setup_->config.states.surface_altitude_m;
+  if (ModelVelocity::usable(state, config, water_, sample, surface_m) != Usable::yes) return false;
   const ModelVelocity model(state, config, water_);
   const bool vouched = since(dvl_used_ns_) <= setup_->config.velocity_timeout_s;
-  double normalised = 0.0;
-  for (int i = 0; i < observation.rows; ++i) {
-    const auto r = static_cast<std::size_t>(i);
-    const double lasting = observation.sigma[r];
-    const double variance =
-        statistics.s[r * Observation::kMaxRows + r] - lasting * lasting + model.sigma(i) * model.sigma(i);
-    normalised += observation.innovation[r] * observation.innovation[r] / variance / observation.rows;
+  if (vouched) {
+    Observation observation;
+    observe(model, setup_->index, observation);
+    if (observation.rows < model.dimension()) return false;
+    observation.list_columns(setup_->index.size());
+    InnovationStatistics statistics;
+    filter_.statistics(observation, 1.0, statistics);
+    double normalised = 0.0;
+    for (int i = 0; i < observation.rows; ++i) {
+      const auto r = static_cast<std::size_t>(i);
+      const double lasting = observation.sigma[r];
+      const double variance =
+          statistics.s[r * Observation::kMaxRows + r] - lasting * lasting + model.sigma(i) * model.sigma(i);
+      normalised += observation.innovation[r] * observation.innovation[r] / variance / observation.rows;
+    }
+    water_.compare(normalised, config.memory_s);
   }
-  water_.measured();
-  if (vouched) water_.compare(normalised, config.memory_s);
   const bool tried = vouched || water_.compared_s() >= config.trial_s;
   return tried && water_.doubt() <= config.doubt_limit;
 }

@@ -30,6 +30,7 @@ class RefusalWatch {
     TimeNs since_ns = 0;
     TimeNs last_ns = 0;
     VerdictKind kind = VerdictKind::rejected;
+    Name model;  ///< that judged the last
   };
 
   RefusalWatchConfig config_;

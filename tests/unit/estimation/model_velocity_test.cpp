@@ -1,3 +1,6 @@
+#include <map>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "estimation/fusion_engine.hpp"
@@ -76,9 +79,11 @@ struct ModelRun {
 
   /// `thrust` times the truth is what the model believes; `late_s` holds shaft speed and fins back.
   static NavState run(const SurveyRun& survey, double thrust, double late_s, bool with_model,
-                      std::vector<Verdict>* verdicts = nullptr, NavDetail* detail = nullptr) {
+                      std::vector<Verdict>* verdicts = nullptr, NavDetail* detail = nullptr,
+                      double log_scale = 0.0) {
     EngineConfig config = SurveyRun::config();
     config.sensors.push_back(default_sensor(SourceKind::propulsion, "shaft"));
+    config.sensors.back().scale_m_s_per_rpm = log_scale;
     config.sensors.push_back(default_sensor(SourceKind::fins, "fins"));
     if (with_model) {
       config.groups.model_scale = config.groups.model_bias = true;
@@ -181,6 +186,27 @@ TEST(ModelVelocity, AModelThatWasWrongIsNotBelievedAlone) {
   EXPECT_GT(rejected, 100u);
   // What was not believed did no harm.
   const auto apart = geo::difference_N({without.latitude_rad, without.longitude_rad, without.altitude_m},
+                                       {wrong.latitude_rad, wrong.longitude_rad, wrong.altitude_m});
+  EXPECT_LT(apart.norm(), 0.5);
+}
+
+TEST(ModelVelocity, AModelThatIsDoubtedLeavesTheShaftToTheSpeedLog) {
+  const SurveyRun survey({.duration_s = 130.0, .usbl = false});
+  constexpr double kScale = 1.8 / 1080.0;
+  std::vector<Verdict> verdicts;
+  const NavState wrong = ModelRun::run(survey, 36.0, 0.0, true, &verdicts, nullptr, kScale);
+  const NavState log = ModelRun::run(survey, 36.0, 0.0, false, nullptr, nullptr, kScale);
+  std::map<std::pair<std::string, VerdictKind>, int> counts;
+  for (const Verdict& one : verdicts) {
+    if (one.source != SourceKind::propulsion && one.source != SourceKind::fins) continue;
+    if (to_seconds(one.header.stamp_ns - SurveyRun::kEpochNs) < ModelRun::kLost_s + 4.0) continue;
+    ++counts[{one.model.str(), one.kind}];
+  }
+  EXPECT_GT((counts[{"speed_log", VerdictKind::used}]), 100);
+  // The fins serve the model alone, and their verdict tells of it.
+  EXPECT_GT((counts[{"model_velocity", VerdictKind::rejected}]), 100);
+  EXPECT_EQ((counts[{"model_velocity", VerdictKind::used}]), 0);
+  const auto apart = geo::difference_N({log.latitude_rad, log.longitude_rad, log.altitude_m},
                                        {wrong.latitude_rad, wrong.longitude_rad, wrong.altitude_m});
   EXPECT_LT(apart.norm(), 0.5);
 }

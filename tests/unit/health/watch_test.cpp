@@ -315,6 +315,31 @@ TEST(RefusalWatch, OnlyWhenEverythingIsRefusedForLong) {
   EXPECT_FALSE(alarmed(book, "refused:dvl"));
 }
 
+TEST(RefusalWatch, TwoKindsUnderOneNameShareAnAlarm) {
+  // A controller's shaft speed is used by the speed log while its fins, which serve the vehicle model alone,
+  // are not.
+  RefusalWatch watch{RefusalWatchConfig{}};
+  AlarmBook book;
+  double t = 0.0;
+  const auto run = [&](double seconds, VerdictKind fins) {
+    std::size_t changes = 0;
+    for (const double end = t + seconds; t < end; t += 0.2) {
+      watch.add(verdict(SourceKind::propulsion, VerdictKind::used, t, "actuator"), at(t));
+      watch.add(verdict(SourceKind::fins, fins, t, "actuator"), at(t));
+      watch.report(book, at(t));
+      for (const Alarm& one : book.take_changes()) changes += one.active ? 1 : 0;
+    }
+    return changes;
+  };
+  EXPECT_EQ(run(9.0, VerdictKind::rejected), 0u);
+  EXPECT_GE(run(3.0, VerdictKind::rejected), 1u);
+  EXPECT_TRUE(alarmed(book, "refused:actuator"));
+  EXPECT_LE(run(4.0, VerdictKind::rejected), 5u);  // it stays, it does not flicker
+  EXPECT_TRUE(alarmed(book, "refused:actuator"));
+  run(1.0, VerdictKind::used);
+  EXPECT_FALSE(alarmed(book, "refused:actuator"));
+}
+
 TEST(Uncertainty, RadiusOfALineACircleAndTheUnknown) {
   EXPECT_NEAR(horizontal_95_m({4, 0, 0, 0, 4, 0, 0, 0, 1}), 2.0 * 2.4477, 0.01);
   EXPECT_NEAR(horizontal_95_m({9, 0, 0, 0, 0, 0, 0, 0, 1}), 3.0 * 1.95996, 0.01);
