@@ -160,7 +160,7 @@ class Core {
   void foretell_velocity(const ImuStep& step);
   /// Notes how the model did; false when it is not to be believed now.
   bool believe_model(const AidingState& state, const Observation& observation,
-                     const InnovationStatistics& statistics);
+                     const std::array<double, Observation::kMaxRows>& innovation_sigma);
 
   // core_align.cpp
   void align(const ImuStep& step);

@@ -8,7 +8,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kStride = Observation::kMaxRows;
 constexpr double kMostRoom = 1e6;
 
 VerdictKind verdict_of(Usable usable) {
@@ -134,12 +133,10 @@ Judgement Core::judge(const Measurement& measurement) {
     stepped = result.pass && believed != 0 && with_position;
   }
   out.dimensions = static_cast<std::uint32_t>(whole.rows);
-  InnovationStatistics plain;
-  filter_.statistics(whole, 1.0, plain);
-  if (modelled && !believe_model(state, whole, plain)) out.kind = VerdictKind::rejected;
+  if (modelled && !believe_model(state, whole, result.innovation_sigma)) out.kind = VerdictKind::rejected;
   for (std::size_t i = 0; i < static_cast<std::size_t>(whole.rows); ++i) {
     out.innovation[i] = whole.innovation[i];
-    out.innovation_sigma[i] = std::sqrt(plain.s[i * kStride + i]);
+    out.innovation_sigma[i] = result.innovation_sigma[i];
   }
   out.test_ratio = result.test_ratio;
   out.limit = result.limit;

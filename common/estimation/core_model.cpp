@@ -37,7 +37,7 @@ void Core::foretell_velocity(const ImuStep& step) {
 }
 
 bool Core::believe_model(const AidingState& state, const Observation& observation,
-                         const InnovationStatistics& statistics) {
+                         const std::array<double, Observation::kMaxRows>& innovation_sigma) {
   // (HYD-4)
   const VehicleModelConfig& config = setup_->config.vehicle_model;
   const ModelVelocity model(state, config, water_);
@@ -47,7 +47,7 @@ bool Core::believe_model(const AidingState& state, const Observation& observatio
     const auto r = static_cast<std::size_t>(i);
     const double lasting = observation.sigma[r];
     const double variance =
-        statistics.s[r * Observation::kMaxRows + r] - lasting * lasting + model.sigma(i) * model.sigma(i);
+        innovation_sigma[r] * innovation_sigma[r] - lasting * lasting + model.sigma(i) * model.sigma(i);
     normalised += observation.innovation[r] * observation.innovation[r] / variance / observation.rows;
   }
   water_.measured();
