@@ -359,6 +359,10 @@ void describe(Schema<EngineConfig>& s) {
           "a roll-back repeats at most this much more than it must")
       .unit("s")
       .range(0.01, 60);
+  s.field("replay_steps_per_sample", &C::replay_steps_per_sample,
+          "steps that one inertial sample repeats for late measurements; what needs more is spread over the "
+          "next")
+      .range(2, 1e6);
   s.field("future_tolerance_s", &C::future_tolerance_s,
           "stamps further ahead of the inertial ones are refused")
       .unit("s")

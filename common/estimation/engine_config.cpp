@@ -282,6 +282,7 @@ std::string EngineConfig::validate() const {
   check.in("horizon_s", horizon_s, 0.1, 60);
   check.in("snapshot_interval_s", snapshot_interval_s, 0.01, horizon_s);
   check.in("future_tolerance_s", future_tolerance_s, 0, 60);
+  check.in("replay_steps_per_sample", replay_steps_per_sample, 2, 1e6);
   check.in("measurement_capacity", measurement_capacity, 64, 65535);
   check.in("magnetic_variation_rad", magnetic_variation_rad, -kAngle, kAngle);
   check.in("gps_timeout_s", gps_timeout_s, 0.1, 1e5);

@@ -260,7 +260,10 @@ struct EngineConfig {
   VehicleModelConfig vehicle_model;
   double horizon_s = 5.0;            ///< measurements up to this late give the same bits as punctual ones
   double snapshot_interval_s = 0.2;  ///< a roll-back repeats at most this much more than it must
-  double future_tolerance_s = 0.5;   ///< stamps further ahead of the newest inertial sample are refused
+  /// Steps that one inertial sample repeats for late measurements; what needs more is spread over the next
+  /// ones.
+  std::uint32_t replay_steps_per_sample = 256;
+  double future_tolerance_s = 0.5;  ///< stamps further ahead of the newest inertial sample are refused
   std::uint32_t measurement_capacity = 2048;  ///< measurements remembered; more within the horizon shorten it
   bool magnetic_variation_known = false;
   double magnetic_variation_rad = 0.0;  ///< east positive; used when the compass does not report its own
