@@ -170,8 +170,17 @@ void describe(Schema<SensorConfig>& s) {
        "frozen_change", &C::frozen_change,
        "the same reading while the prediction moves by this much is frozen, in the sensor's SI unit; 0: off")
       .range(0, 1e6);
+  s.field(
+      "two_antenna", &C::two_antenna,
+      "heading: from two GPS antennas, mounting_rpy_deg being the direction from the rear one to the front "
+      "one; its own sigma counts at the start, the compass's states do not apply to it");
+  s.field("angle_sigma_deg", &C::angle_sigma_rad, "usbl: noise of a direction, across it")
+      .unit("deg")
+      .range(1e-4, 180)
+      .scaled(kRadPerDeg);
   s.field("transceiver_known", &C::transceiver_known,
-          "usbl: the fixes come from a transceiver at the place that follows");
+          "usbl: the transceiver, or the beacon that the vehicle's own transceiver looks at, is at the place "
+          "that follows; a place that comes with the fix goes before it");
   s.field("transceiver_latitude_deg", &C::transceiver_latitude_rad, "usbl: for transceiver_known")
       .unit("deg")
       .range(-90, 90)
@@ -223,7 +232,8 @@ void describe(Schema<AlignmentConfig>& s) {
       .words({{"automatic", HeadingSource::automatic},
               {"compass", HeadingSource::compass},
               {"given", HeadingSource::given},
-              {"gyrocompass", HeadingSource::gyrocompass}});
+              {"gyrocompass", HeadingSource::gyrocompass},
+              {"two_antenna", HeadingSource::two_antenna}});
   s.field("given_heading_deg", &C::given_heading_rad, "for heading_source \"given\"")
       .unit("deg")
       .range(-360, 360)

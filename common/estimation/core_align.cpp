@@ -51,7 +51,9 @@ void Core::notice(const Measurement& measurement) {
     const double variation =
         setup_->config.magnetic_variation_known ? setup_->config.magnetic_variation_rad : kUnknown;
     const double psi = true_heading(*heading, variation) - config.mounting_rpy_rad[2];
-    if (std::abs(psi) < 20.0 && window_.duration_s() > 0.0) window_.add_heading(psi);
+    const AlignmentConfig& alignment = setup_->config.alignment;
+    if (std::abs(psi) < 20.0 && window_.duration_s() > 0.0 && heading_wanted(alignment, config))
+      window_.add_heading(psi, heading_sigma(alignment, config, *heading), config.two_antenna);
   }
 }
 
@@ -156,10 +158,11 @@ void Core::start_at_rest() {
       from_gyro = true;
       break;
     case HeadingSource::compass:
+    case HeadingSource::two_antenna:
     case HeadingSource::automatic:
       if (window_.headings() > 0) {
         heading = window_.heading_start_rad();
-        heading_sigma = config.compass_sigma_rad;
+        heading_sigma = window_.heading_sigma_rad();
       } else if (config.heading_source == HeadingSource::automatic && gyro_good) {
         from_gyro = true;
       } else {

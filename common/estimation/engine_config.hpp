@@ -140,10 +140,15 @@ struct SensorConfig {
   double robust_reject_ratio = 25.0;  ///< robust weighting ends where the plain test ratio exceeds this
   double reacquire_s = 10.0;          ///< consistent rejections for this long are believed
   double frozen_change = 0.0;  ///< the same reading while the prediction moves by this much is frozen; 0: off
-  bool transceiver_known = false;  ///< USBL: the fixes come from a transceiver at the place that follows
+  /// Heading: from two GPS antennas. Its sigma is believed at the start, and no deviation curve is its.
+  bool two_antenna = false;
+  double angle_sigma_rad = 0.0087;  ///< USBL: of a direction, across it
+  /// USBL: the place that follows is that of the transceiver, or of the beacon that the vehicle's own
+  /// transceiver looks at; a place that comes with the sample goes before it.
+  bool transceiver_known = false;
   double transceiver_latitude_rad = 0.0;
   double transceiver_longitude_rad = 0.0;
-  double transceiver_depth_m = 0.0;  ///< below the water surface, down
+  double transceiver_depth_m = 0.0;  ///< below the water surface, down; also where the sample has no depth
   double sideslip_sigma_rad = 0.0;   ///< airspeed: sideslip beyond its state; 0: nothing is known of it
   double attack_sigma_rad = 0.0;     ///< airspeed: likewise the angle of attack
   double baro_sigma_m = 0.0;         ///< airspeed: of the barometric height in its samples; 0: not used
@@ -171,6 +176,7 @@ enum class HeadingSource : std::uint8_t {
   compass = 1,
   given = 2,  ///< given_heading_rad
   gyrocompass = 3,
+  two_antenna = 4,  ///< a heading sensor with two_antenna set
 };
 
 struct AlignmentConfig {
