@@ -53,7 +53,8 @@ Setup::Setup(const EngineConfig& engine_config)
   sigma(Group::dvl_misalignment, model.dvl_misalignment_sigma_rad);
   sigma(Group::dvl_bias, model.dvl_bias_sigma_m_s);
   sigma(Group::current, model.current_sigma_m_s);
-  markov(*this, Group::current, model.current_sigma_m_s, model.current_time_constant_s);
+  if (model.current_time_constant_s > 0.0)
+    markov(*this, Group::current, model.current_sigma_m_s, model.current_time_constant_s);
   sigma(Group::depth_bias, model.depth_bias_sigma_m);
   sigma(Group::surface_altitude, model.surface_altitude_sigma_m);
   fill(walk, index, Group::surface_altitude,

@@ -63,7 +63,7 @@ void check_states(const StateModelConfig& states, Check& check) {
   check.in("states.dvl_misalignment_sigma_rad", states.dvl_misalignment_sigma_rad, 1e-6, 1);
   check.in("states.dvl_bias_sigma_m_s", states.dvl_bias_sigma_m_s, 1e-6, 10);
   check.in("states.current_sigma_m_s", states.current_sigma_m_s, 1e-6, 100);
-  check.in("states.current_time_constant_s", states.current_time_constant_s, 1, 1e9);
+  check.in("states.current_time_constant_s", states.current_time_constant_s, 0, 1e9);
   check.in("states.depth_bias_sigma_m", states.depth_bias_sigma_m, 1e-6, 100);
   check.in("states.surface_altitude_m", states.surface_altitude_m, -500, 9000);
   check.in("states.surface_altitude_sigma_m", states.surface_altitude_sigma_m, 1e-6, 1e4);

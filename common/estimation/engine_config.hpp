@@ -84,7 +84,7 @@ struct StateModelConfig {
   double dvl_misalignment_sigma_rad = 0.0087;  ///< 0.5 deg
   double dvl_bias_sigma_m_s = 0.004;
   double current_sigma_m_s = 0.5;
-  double current_time_constant_s = 1800.0;
+  double current_time_constant_s = 1800.0;  ///< 0: it does not change
   double depth_bias_sigma_m = 0.1;
   double surface_altitude_m = 0.0;  ///< value when the state group is off
   double surface_altitude_sigma_m = 100.0;
