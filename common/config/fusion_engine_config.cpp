@@ -122,13 +122,15 @@ void describe(Schema<SensorConfig>& s) {
           "depth, usbl")
       .unit("m")
       .range(-1000, 1000);
-  s.field("mounting_rpy_deg", &C::mounting_rpy_rad,
-          "roll, pitch, yaw of the instrument's axes in the body frame; must be given for dvl")
+  s.field(
+       "mounting_rpy_deg", &C::mounting_rpy_rad,
+       "roll, pitch, yaw of the instrument's axes in the body frame, of a usbl transceiver in its ship; must "
+       "be given for dvl")
       .unit("deg")
       .range(-360, 360)
       .scaled(kRadPerDeg);
   s.field("latency_s", &C::latency_s, "subtracted from the stamp").unit("s").range(-10, 60);
-  s.field("sigma_m", &C::sigma, "noise: gps and usbl north, east, down; depth in the first")
+  s.field("sigma_m", &C::sigma, "noise: gps and usbl north, east, down; depth and usbl range in the first")
       .unit("m")
       .range(1e-6, 1e6);
   s.field("sigma_m_s", &C::sigma, "noise: dvl and propulsion x, y, z; airspeed in the first")
@@ -189,7 +191,8 @@ void describe(Schema<SensorConfig>& s) {
       .unit("deg")
       .range(-360, 360)
       .scaled(kRadPerDeg);
-  s.field("transceiver_depth_m", &C::transceiver_depth_m, "usbl: for transceiver_known, below the surface")
+  s.field("transceiver_depth_m", &C::transceiver_depth_m,
+          "usbl: for transceiver_known and for fixes that come with a place but no depth, below the surface")
       .unit("m")
       .range(-1000, 12'000);
   s.field(

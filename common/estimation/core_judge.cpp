@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/aiding/usbl_range_bearing.hpp"
 #include "estimation/core.hpp"
 
 namespace fathom::estimation {
@@ -19,6 +20,7 @@ VerdictKind verdict_of(Usable usable) {
     case Usable::unknown_frame:
       return VerdictKind::unknown_frame;
     case Usable::not_estimated:
+    case Usable::other_model:
       break;
   }
   return VerdictKind::source_disabled;
@@ -36,8 +38,11 @@ std::array<double, 3> reading_of(const AnySample& any) {
   }
   if (const auto* depth = std::get_if<DepthSample>(&any)) return {depth->depth_m, 0.0, 0.0};
   if (const auto* heading = std::get_if<HeadingSample>(&any)) return {heading->heading_rad, 0.0, 0.0};
-  if (const auto* usbl = std::get_if<UsblSample>(&any))
-    return {usbl->latitude_rad, usbl->longitude_rad, usbl->depth_m};
+  if (const auto* usbl = std::get_if<UsblSample>(&any)) {
+    if (usbl->frame == UsblFrame::geodetic) return {usbl->latitude_rad, usbl->longitude_rad, usbl->depth_m};
+    if (UsblRangeBearing::present(*usbl)) return {usbl->range_m, usbl->bearing_rad, usbl->depression_rad};
+    return usbl->relative_m;
+  }
   if (const auto* air = std::get_if<AirspeedSample>(&any)) return {air->airspeed_m_s, 0.0, 0.0};
   return {kUnknown, kUnknown, kUnknown};
 }
@@ -98,7 +103,7 @@ Judgement Core::judge(const Measurement& measurement) {
     if (usable == Usable::yes) {
       with_position = with_position || measures_position(entry.source);
       if (out.model.empty()) out.model = entry.name;
-    } else if (first_refusal == Usable::yes) {
+    } else if (first_refusal == Usable::yes && usable != Usable::other_model) {
       first_refusal = usable;
     }
   }

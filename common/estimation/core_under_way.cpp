@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimation/aiding/heading.hpp"
+#include "estimation/aiding/usbl_station.hpp"
 #include "estimation/core.hpp"
 
 namespace fathom::estimation {
@@ -37,12 +38,15 @@ void Core::notice_under_way(const Measurement& measurement, const SensorConfig& 
     under_way_.dvl_velocity_B_m_s = geo::to_matrix(geo::from_rpy(geo::vec(config.mounting_rpy_rad))) * v_D;
     under_way_.dvl_ns = now_ns_;
   } else if (const auto* usbl = std::get_if<UsblSample>(&measurement.sample)) {
-    if (usbl->frame != UsblFrame::geodetic || !std::isfinite(usbl->depth_m)) return;
-    if (!(std::abs(usbl->latitude_rad) <= 1.5708) || !(std::abs(usbl->longitude_rad) <= 6.2832)) return;
-    under_way_.usbl_latitude_rad = usbl->latitude_rad;
-    under_way_.usbl_longitude_rad = usbl->longitude_rad;
-    under_way_.usbl_depth_m = usbl->depth_m;
-    under_way_.usbl_sigma_m = sigma_of(config.sigma[0], usbl->sigma_m, config.use_sample_sigma);
+    const double surface_m = setup_->config.states.surface_altitude_m;
+    const auto place = usbl_place(config, *usbl, surface_m);
+    if (!place) return;
+    const UsblNoise noise(config, *usbl);
+    under_way_.usbl_latitude_rad = place->latitude_rad;
+    under_way_.usbl_longitude_rad = place->longitude_rad;
+    under_way_.usbl_depth_m = surface_m - place->altitude_m;
+    under_way_.usbl_sigma_m =
+        known(usbl->range_m) ? std::hypot(noise.range_m, usbl->range_m * noise.angle_rad) : noise.range_m;
     under_way_.usbl_lever_B_m = geo::vec(config.lever_B_m);
     under_way_.usbl_ns = now_ns_;
   }

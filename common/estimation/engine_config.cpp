@@ -105,6 +105,7 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "robust_reject_ratio", sensor.robust_reject_ratio, 1, 1e12);
   check.in(at + "reacquire_s", sensor.reacquire_s, 0, 1e6);
   check.in(at + "frozen_change", sensor.frozen_change, 0, 1e6);
+  check.in(at + "angle_sigma_rad", sensor.angle_sigma_rad, 1e-6, 4);
   check.in(at + "transceiver_latitude_rad", sensor.transceiver_latitude_rad, -kAngle / 4, kAngle / 4);
   check.in(at + "transceiver_longitude_rad", sensor.transceiver_longitude_rad, -kAngle, kAngle);
   check.in(at + "transceiver_depth_m", sensor.transceiver_depth_m, -1000, 12000);

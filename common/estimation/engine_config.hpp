@@ -122,7 +122,8 @@ struct SensorConfig {
   SourceKind kind = SourceKind::gps;
   bool enabled = true;
   std::array<double, 3> lever_B_m{0, 0, 0};         ///< from the IMU to the instrument, along B
-  std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< attitude of the instrument's axes in B
+  std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< attitude of the instrument's axes in B; in the ship
+                                                    ///< that carries a USBL transceiver
   double latency_s = 0.0;                           ///< subtracted from the stamp
   /// Noise of each component: GPS position and USBL m (N, E, D), DVL m/s (x, y, z), speed log m/s (x, y, z),
   /// depth m, heading rad, airspeed m/s in the first. A figure carried by the sample counts when larger.
@@ -172,7 +173,7 @@ enum class StartMode : std::uint8_t {
   air_drop = 4,   ///< start_from() at the release with roll and pitch unknown; alignment under way in water
 };
 enum class HeadingSource : std::uint8_t {
-  automatic = 0,  ///< compass, else gyrocompass where the gyro allows
+  automatic = 0,  ///< two antennas, else compass, else gyrocompass where the gyro allows
   compass = 1,
   given = 2,  ///< given_heading_rad
   gyrocompass = 3,
