@@ -218,9 +218,9 @@ void Core::order(const Command& command) {
       next_zero_velocity_ns_ = now_ns_;
       break;
     case CommandKind::realign:
-      if (setup_->config.alignment.mode == StartMode::air_drop && navigating_) {
+      if (released_ && navigating_) {
         // Under way there is nothing to stand still for: tilt is found again, the rest carried on.
-        start_drop(nullptr);
+        restart_drop(setup_->config.air_drop.tilt_sigma_rad, 0.0);
         break;
       }
       lose_attitude();
