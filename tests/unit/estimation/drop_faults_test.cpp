@@ -245,7 +245,9 @@ TEST(DropFaults, AHeadingLostTooNeedsMotionWithGps) {
     again.header.received_ns += shift;
     drop.engine.add(again);
     const double t = time_of(imu->header);
-    if (t < 56.0) EXPECT_EQ(drop.engine.nav_state().mode, NavMode::none);
+    if (t < 56.0) {
+      EXPECT_EQ(drop.engine.nav_state().mode, NavMode::none);
+    }
     const auto k = static_cast<std::size_t>(std::lround(t * 100.0));
     if (t < 56.0 || k % 25 != 0 || k > fall.truth.size()) continue;
     const Truth& truth = fall.truth[k - 1];
