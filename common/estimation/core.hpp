@@ -195,8 +195,8 @@ class Core {
 
   // core_drop.cpp
   void start_drop(const InitialState& initial);
-  /// Tilt is found again under way; heading, velocity and position are carried on, over `unobserved_s` without
-  /// inertial samples as they were.
+  /// Tilt is found again under way; heading, velocity and position are carried on, over `unobserved_s`
+  /// without inertial samples as they were.
   void restart_drop(double tilt_sigma_rad, double unobserved_s);
   void begin_drop(DropConfig config);
   /// After a gap in which the attitude was lost; false where the heading is lost with it.
@@ -253,6 +253,7 @@ class Core {
   UnderWay under_way_;
   bool released_ = false;  ///< from an aircraft; what is lost after that is found again by whatever there is
   bool dropping_ = false;
+  bool regained_ = false;  ///< begun anew after a loss: the velocity is then that through the water
   DropAlignment drop_;
   // Since the release: integrals of C f, once and twice; covariance of position and velocity as if the
   // attitude were known, at the instant given.

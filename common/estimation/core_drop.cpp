@@ -55,6 +55,7 @@ void Core::begin_drop(DropConfig config) {
   drop_ = DropAlignment(config);
   drop_.start(state_.nav.q_NB);
   dropping_ = released_ = true;
+  regained_ = false;
   fall_dv_N_.setZero();
   fall_dp_N_.setZero();
   fall_s_ = carried_s_ = 0.0;
@@ -76,6 +77,7 @@ bool Core::resume_drop(double gap_s) {
     filter_.widen(6 + i, sigma.angle_rad * sigma.angle_rad);
   }
   widen_drop(sigma);
+  regained_ = true;
   enter(drop_.phase());
   return true;
 }
@@ -181,13 +183,30 @@ void Core::hand_over_drop() {
   const Matrix3d attitude = drop_.attitude_covariance();
   Eigen::Matrix<double, 6, 3> arm;
   arm << geo::skew(fall_dp_N_), geo::skew(fall_dv_N_);
-  const Eigen::Matrix<double, 6, 3> cross = arm * attitude;
-  const Eigen::Matrix<double, 6, 6> motion = fall_covariance_ + cross * arm.transpose();
+  Eigen::Matrix<double, 6, 3> cross = arm * attitude;
+  Eigen::Matrix<double, 6, 6> motion = fall_covariance_ + cross * arm.transpose();
   const TiltFilter& fine = drop_.filter();
   const int accel = setup_->index.of(Group::accel_bias);
   const auto fine_accel = fine.covariance().block<3, 3>(TiltFilter::kAccel, TiltFilter::kAccel);
   const auto fine_tilt = fine.covariance().block<3, 3>(TiltFilter::kPhi, TiltFilter::kAccel);
-  const Eigen::Matrix<double, 6, 3> motion_accel = arm * fine_tilt;
+  Eigen::Matrix<double, 6, 3> motion_accel = arm * fine_tilt;
+  if (regained_) {
+    // (ALN-19) The velocity of before the gap is of no use; that through the water turns with the heading.
+    const auto& p = fine.covariance();
+    const auto fine_v = p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kVelocity);
+    const auto fine_v_phi = p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kPhi);
+    const Matrix3d turned = geo::skew(fine.v_N_m_s());
+    const Matrix3d v_phi = turned * attitude - fine_v_phi;
+    const double current = setup_->config.states.current_sigma_m_s;
+    state_.nav.v_N_m_s = fine.v_N_m_s();
+    motion.topRightCorner<3, 3>() = arm.topRows<3>() * v_phi.transpose();
+    motion.bottomLeftCorner<3, 3>() = motion.topRightCorner<3, 3>().transpose();
+    motion.bottomRightCorner<3, 3>() = v_phi * turned.transpose() - turned * fine_v_phi.transpose() + fine_v +
+                                       current * current * Matrix3d::Identity();
+    cross.bottomRows<3>() = v_phi;
+    motion_accel.bottomRows<3>() =
+        turned * fine_tilt - p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kAccel);
+  }
   for (int i = 0; i < 6; ++i) {
     for (int k = 0; k <= i; ++k) filter_.set(i, k, motion(i, k));
     for (int k = 0; k < 3; ++k) {

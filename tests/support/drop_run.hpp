@@ -59,6 +59,7 @@ inline EngineConfig drop_config() {
   EngineConfig config;
   config.alignment.mode = estimation::StartMode::air_drop;
   config.imu.accel_bias_sigma_m_s2 = 0.011;
+  config.groups.log_scale = true;
   SensorConfig depth = estimation::default_sensor(SourceKind::depth, "depth");
   depth.sigma = {0.1, 0.1, 0.1};
   SensorConfig propulsion = estimation::default_sensor(SourceKind::propulsion, "propulsion");
