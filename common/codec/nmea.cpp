@@ -9,6 +9,7 @@
 #include "codec/nmea_heading.hpp"
 #include "codec/nmea_sentence.hpp"
 #include "codec/psimssb.hpp"
+#include "codec/ship_pose.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -29,7 +30,10 @@ class Nmea0183 final : public Framer {
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
     const Sentence sentence = split_sentence(frame);
     if (sentence.type == "PSIMSSB") return decode_usbl(sentence, frame.size(), offset, sink);
-    if (scope_ == Scope::usbl_only) return Outcome::ignored();
+    if (scope_ == Scope::usbl_only) {
+      ship_.note(sentence);
+      return Outcome::ignored();
+    }
     if (const std::optional<GpsSentence> type = gps_sentence(sentence)) {
       return decode_gps(*type, sentence, frame.size(), offset, sink);
     }
@@ -98,6 +102,7 @@ class Nmea0183 final : public Framer {
     const auto reason = parse_psimssb(sentence, usbl_sigma_floor_m_, sample, time, usable);
     if (reason) return Outcome::refused(*reason);
     if (!usable) return Outcome::ignored();
+    ship_.give(sample, time.time_of_day_ns);
     emit(sink, sample, time, offset, length);
     return Outcome::used();
   }
@@ -105,6 +110,7 @@ class Nmea0183 final : public Framer {
   bool require_checksum_;
   double usbl_sigma_floor_m_;
   Scope scope_;
+  ShipPose ship_;
   GpsEpochs epochs_;
   ShaftFollower shaft_;
   FinsPairing fins_;

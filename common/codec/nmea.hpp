@@ -12,7 +12,8 @@ namespace fathom::codec {
 /// Other sentences are good frames without sample; DPT and DBT among them, which are ranges to the bottom.
 [[nodiscard]] std::unique_ptr<Codec> make_nmea0183(const CodecOptions& options);
 
-/// The same stream, of which only PSIMSSB gives samples.
+/// The same stream, of which only PSIMSSB gives samples. GGA, HDT and THS are those of the ship and go into
+/// its relative fixes.
 [[nodiscard]] std::unique_ptr<Codec> make_psimssb(const CodecOptions& options);
 
 }  // namespace fathom::codec

@@ -122,13 +122,15 @@ void describe(Schema<SensorConfig>& s) {
           "depth, usbl")
       .unit("m")
       .range(-1000, 1000);
-  s.field("mounting_rpy_deg", &C::mounting_rpy_rad,
-          "roll, pitch, yaw of the instrument's axes in the body frame; must be given for dvl")
+  s.field(
+       "mounting_rpy_deg", &C::mounting_rpy_rad,
+       "roll, pitch, yaw of the instrument's axes in the body frame, of a usbl transceiver in its ship; must "
+       "be given for dvl")
       .unit("deg")
       .range(-360, 360)
       .scaled(kRadPerDeg);
   s.field("latency_s", &C::latency_s, "subtracted from the stamp").unit("s").range(-10, 60);
-  s.field("sigma_m", &C::sigma, "noise: gps and usbl north, east, down; depth in the first")
+  s.field("sigma_m", &C::sigma, "noise: gps and usbl north, east, down; depth and usbl range in the first")
       .unit("m")
       .range(1e-6, 1e6);
   s.field("sigma_m_s", &C::sigma, "noise: dvl and propulsion x, y, z; airspeed in the first")
@@ -176,8 +178,17 @@ void describe(Schema<SensorConfig>& s) {
        "frozen_change", &C::frozen_change,
        "the same reading while the prediction moves by this much is frozen, in the sensor's SI unit; 0: off")
       .range(0, 1e6);
+  s.field(
+      "two_antenna", &C::two_antenna,
+      "heading: from two GPS antennas, mounting_rpy_deg being the direction from the rear one to the front "
+      "one; its own sigma counts at the start, the compass's states do not apply to it");
+  s.field("angle_sigma_deg", &C::angle_sigma_rad, "usbl: noise of a direction, across it")
+      .unit("deg")
+      .range(1e-4, 180)
+      .scaled(kRadPerDeg);
   s.field("transceiver_known", &C::transceiver_known,
-          "usbl: the fixes come from a transceiver at the place that follows");
+          "usbl: the transceiver, or the beacon that the vehicle's own transceiver looks at, is at the place "
+          "that follows; a place that comes with the fix goes before it");
   s.field("transceiver_latitude_deg", &C::transceiver_latitude_rad, "usbl: for transceiver_known")
       .unit("deg")
       .range(-90, 90)
@@ -186,7 +197,8 @@ void describe(Schema<SensorConfig>& s) {
       .unit("deg")
       .range(-360, 360)
       .scaled(kRadPerDeg);
-  s.field("transceiver_depth_m", &C::transceiver_depth_m, "usbl: for transceiver_known, below the surface")
+  s.field("transceiver_depth_m", &C::transceiver_depth_m,
+          "usbl: for transceiver_known and for fixes that come with a place but no depth, below the surface")
       .unit("m")
       .range(-1000, 12'000);
   s.field(
@@ -229,7 +241,8 @@ void describe(Schema<AlignmentConfig>& s) {
       .words({{"automatic", HeadingSource::automatic},
               {"compass", HeadingSource::compass},
               {"given", HeadingSource::given},
-              {"gyrocompass", HeadingSource::gyrocompass}});
+              {"gyrocompass", HeadingSource::gyrocompass},
+              {"two_antenna", HeadingSource::two_antenna}});
   s.field("given_heading_deg", &C::given_heading_rad, "for heading_source \"given\"")
       .unit("deg")
       .range(-360, 360)
@@ -369,6 +382,10 @@ void describe(Schema<EngineConfig>& s) {
           "a roll-back repeats at most this much more than it must")
       .unit("s")
       .range(0.01, 60);
+  s.field("replay_steps_per_sample", &C::replay_steps_per_sample,
+          "steps that one inertial sample repeats for late measurements; what needs more is spread over the "
+          "next")
+      .range(2, 1e6);
   s.field("future_tolerance_s", &C::future_tolerance_s,
           "stamps further ahead of the inertial ones are refused")
       .unit("s")

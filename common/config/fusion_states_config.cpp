@@ -57,7 +57,9 @@ void describe(Schema<StateModelConfig>& s) {
       .scaled(kRadPerDeg);
   s.field("dvl_bias_sigma_m_s", &C::dvl_bias_sigma_m_s, "each axis").unit("m/s").range(1e-6, 10);
   s.field("current_sigma_m_s", &C::current_sigma_m_s, "each component").unit("m/s").range(1e-6, 100);
-  s.field("current_time_constant_s", &C::current_time_constant_s, "of the current").unit("s").range(1, 1e9);
+  s.field("current_time_constant_s", &C::current_time_constant_s, "of the current; 0: it does not change")
+      .unit("s")
+      .range(0, 1e9);
   s.field("depth_bias_sigma_m", &C::depth_bias_sigma_m, "depth bias").unit("m").range(1e-6, 100);
   s.field("surface_altitude_m", &C::surface_altitude_m,
           "ellipsoidal height of the water surface, where it is not estimated or as its start")

@@ -252,6 +252,38 @@ void describe(Schema<sim::UsblConfig>& s) {
   s.field("ship_N_m", &C::ship_N_m, "transceiver: north and east of the start, down from the surface")
       .unit("m")
       .range(-1e5, 1e5);
+  s.field("ship_velocity_N_m_s", &C::ship_velocity_N_m_s, "of the ship: north, east, down")
+      .unit("m/s")
+      .range(-50, 50);
+  s.field("ship_rpy_deg", &C::ship_rpy_rad, "attitude of the ship")
+      .unit("deg")
+      .scaled(kDegree)
+      .range(-360, 360);
+  s.field("ship_sigma_m", &C::ship_sigma_m, "error of the ship's place as it is sent, each axis")
+      .unit("m")
+      .range(0, 1e3);
+  s.field("output", &C::output,
+          "place of the transponder; components along north or along the ship; range and direction along the "
+          "ship; or of a beacon in the ship's place along the vehicle, which carries the transceiver")
+      .words({{"geodetic", C::Output::geodetic},
+              {"ned", C::Output::ned},
+              {"vessel", C::Output::vessel},
+              {"range_bearing", C::Output::range_bearing},
+              {"inverted", C::Output::inverted}});
+  s.field("angle_sigma_deg", &C::angle_sigma_rad, "error of a direction, across it")
+      .unit("deg")
+      .scaled(kDegree)
+      .range(0, 90);
+  s.field("misalignment_sigma_deg", &C::misalignment_sigma_rad,
+          "error of the transceiver's axes, each axis, drawn once a run")
+      .unit("deg")
+      .scaled(kDegree)
+      .range(0, 20);
+  s.check([](const C& usbl) -> Fault {
+    const bool polar = usbl.output == C::Output::range_bearing || usbl.output == C::Output::inverted;
+    if (polar && !usbl.protocol.empty()) return {"output", "geodetic, ned or vessel for a device protocol"};
+    return {};
+  });
 }
 
 void describe(Schema<sim::PropulsionConfig>& s) {

@@ -28,9 +28,16 @@
 /// | gps.csv | t_s, lat_deg, lon_deg, alt_m, sigma_{n,e,d}_m, v{n,e,d}_m_s, fix | sigma_v{n,e,d}_m_s,
 /// satellites | | dvl.csv | t_s, v{x,y,z}_m_s | b1..b4_m_s, valid (0 or 1), sigma_m_s, altitude_m, mode
 /// (bottom or water) | | depth.csv | t_s, depth_m | sigma_m | | heading.csv | t_s, heading_deg | sigma_deg,
-/// north (true or magnetic) | | usbl.csv | t_s, lat_deg, lon_deg, depth_m, sigma_m | | | airspeed.csv | t_s,
+/// north (true or magnetic) | | usbl.csv | t_s, lat_deg, lon_deg, depth_m, sigma_m | frame and what goes with
+/// it, see below | | airspeed.csv | t_s,
 /// airspeed_m_s | baro_alt_m | | propulsion.csv | t_s, rpm | | | fins.csv | t_s, rudder_rad, stern_rad | | |
 /// reference.csv | t_s, lat_deg, lon_deg, alt_m, v{n,e,d}_m_s, {roll,pitch,yaw}_deg | |
+///
+/// usbl.csv with the column frame: geodetic (or blank), ned, vessel or vehicle. A row that is not geodetic
+/// has {x,y,z}_m from the station along that frame (vehicle: from the vehicle to the station), or range_m,
+/// bearing_deg, depression_deg and their sigma_deg; station_{lat_deg,lon_deg,depth_m} of the ship's
+/// transceiver or of the beacon, and for vessel station_{roll,pitch,yaw}_deg. lat_deg, lon_deg, depth_m may
+/// then be missing.
 ///
 /// Any file may have t_received_s, the instant of arrival; without it a measurement arrives when it is valid.
 /// A missing file is a missing sensor. Other columns are ignored. A blank field or "nan" is unknown, except

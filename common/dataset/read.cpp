@@ -86,6 +86,14 @@ std::array<double, 3> numbers3(const CsvReader& csv, const std::array<Column, 3>
   return {csv.number(columns[0]), csv.number(columns[1]), csv.number(columns[2])};
 }
 
+std::array<Optional, 3> optional3(const CsvReader& csv, const char* a, const char* b, const char* c) {
+  return {csv.optional_column(a), csv.optional_column(b), csv.optional_column(c)};
+}
+
+std::array<Optional, 3> required3(const CsvReader& csv, const char* a, const char* b, const char* c) {
+  return {csv.column(a), csv.column(b), csv.column(c)};
+}
+
 void read_rows(SensorFile& file, std::vector<ImuSample>& out) {
   const auto rate = columns3(file.csv, "gx_rad_s", "gy_rad_s", "gz_rad_s");
   const auto force = columns3(file.csv, "ax_m_s2", "ay_m_s2", "az_m_s2");
@@ -192,18 +200,67 @@ void read_rows(SensorFile& file, std::vector<HeadingSample>& out) {
   }
 }
 
+UsblFrame usbl_frame(const CsvReader& csv, const Optional& column) {
+  const std::string_view word = column ? csv.text(*column) : std::string_view{};
+  if (word.empty() || word == "geodetic") return UsblFrame::geodetic;
+  if (word == "ned") return UsblFrame::ned;
+  if (word == "vessel") return UsblFrame::vessel_frd;
+  if (word == "vehicle") return UsblFrame::vehicle_frd;
+  csv.fail("column frame: '" + std::string(word) + "', expected geodetic, ned, vessel or vehicle");
+}
+
+// What a fix relative to a station consists of; every column is optional.
+struct RelativeColumns {
+  explicit RelativeColumns(const CsvReader& csv)
+      : path(optional3(csv, "x_m", "y_m", "z_m")),
+        range(csv.optional_column("range_m")),
+        bearing(csv.optional_column("bearing_deg")),
+        depression(csv.optional_column("depression_deg")),
+        sigma(csv.optional_column("sigma_deg")),
+        station(optional3(csv, "station_lat_deg", "station_lon_deg", "station_depth_m")),
+        station_rpy(optional3(csv, "station_roll_deg", "station_pitch_deg", "station_yaw_deg")) {}
+
+  void read(const CsvReader& csv, UsblSample& sample) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      sample.relative_m[i] = csv.number(path[i]);
+      sample.station_rpy_rad[i] = csv.number(station_rpy[i]) * kRadPerDeg;
+    }
+    sample.range_m = csv.number(range);
+    sample.bearing_rad = csv.number(bearing) * kRadPerDeg;
+    sample.depression_rad = csv.number(depression) * kRadPerDeg;
+    sample.sigma_rad = csv.number(sigma) * kRadPerDeg;
+    sample.station_latitude_rad = csv.number(station[0]) * kRadPerDeg;
+    sample.station_longitude_rad = csv.number(station[1]) * kRadPerDeg;
+    sample.station_depth_m = csv.number(station[2]);
+  }
+
+  std::array<Optional, 3> path;
+  Optional range, bearing, depression, sigma;
+  std::array<Optional, 3> station, station_rpy;
+};
+
 void read_rows(SensorFile& file, std::vector<UsblSample>& out) {
   const CsvReader& csv = file.csv;
-  const auto position = columns3(csv, "lat_deg", "lon_deg", "depth_m");
+  const Optional frame = csv.optional_column("frame");
+  const std::array<Optional, 3> position = frame ? optional3(csv, "lat_deg", "lon_deg", "depth_m")
+                                                 : required3(csv, "lat_deg", "lon_deg", "depth_m");
+  const RelativeColumns relative(csv);
   const Column sigma = csv.column("sigma_m");
   while (file.next()) {
     UsblSample& sample = out.emplace_back();
     sample.header = file.header;
-    const auto geodetic = file.geodetic(position[0], position[1]);
+    sample.frame = usbl_frame(csv, frame);
+    sample.sigma_m = csv.number(sigma);
+    if (sample.frame != UsblFrame::geodetic) {
+      relative.read(csv, sample);
+      continue;
+    }
+    if (!position[0] || !position[1] || !position[2])
+      csv.fail("column frame: geodetic, expected the columns lat_deg, lon_deg and depth_m");
+    const auto geodetic = file.geodetic(*position[0], *position[1]);
     sample.latitude_rad = geodetic[0];
     sample.longitude_rad = geodetic[1];
-    sample.depth_m = csv.number(position[2]);
-    sample.sigma_m = csv.number(sigma);
+    sample.depth_m = csv.number(*position[2]);
   }
 }
 

@@ -109,6 +109,41 @@ void write_heading(const std::filesystem::path& directory, const WriteOptions& o
   });
 }
 
+const char* word(UsblFrame frame) {
+  switch (frame) {
+    case UsblFrame::geodetic:
+      break;
+    case UsblFrame::ned:
+      return "ned";
+    case UsblFrame::vessel_frd:
+      return "vessel";
+    case UsblFrame::vehicle_frd:
+      return "vehicle";
+  }
+  return "geodetic";
+}
+
+void write_usbl(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<UsblSample>& stream) {
+  const bool relative = any(stream, [](const UsblSample& s) { return s.frame != UsblFrame::geodetic; });
+  const std::string header =
+      std::string("lat_deg,lon_deg,depth_m,sigma_m") +
+      (relative ? ",frame,x_m,y_m,z_m,range_m,bearing_deg,depression_deg,sigma_deg,station_lat_deg,"
+                  "station_lon_deg,station_depth_m,station_roll_deg,station_pitch_deg,station_yaw_deg"
+                : "");
+  write_stream(directory, "usbl", options, stream, header, [&](CsvWriter& csv, const UsblSample& s) {
+    csv.number(s.latitude_rad * kDegPerRad).number(s.longitude_rad * kDegPerRad);
+    csv.number(s.depth_m).number(s.sigma_m);
+    if (!relative) return;
+    csv.text(word(s.frame));
+    numbers3(csv, s.relative_m);
+    csv.number(s.range_m).number(s.bearing_rad * kDegPerRad).number(s.depression_rad * kDegPerRad);
+    csv.number(s.sigma_rad * kDegPerRad).number(s.station_latitude_rad * kDegPerRad);
+    csv.number(s.station_longitude_rad * kDegPerRad).number(s.station_depth_m);
+    for (const double angle : s.station_rpy_rad) csv.number(angle * kDegPerRad);
+  });
+}
+
 void write_airspeed(const std::filesystem::path& directory, const WriteOptions& options,
                     const std::vector<AirspeedSample>& stream) {
   const bool altitude = any(stream, [](const AirspeedSample& s) { return known(s.baro_altitude_m); });
@@ -134,11 +169,7 @@ void write(const std::filesystem::path& directory, const Dataset& data, const Wr
   write_dvl(directory, options, data.dvl);
   write_depth(directory, options, data.depth);
   write_heading(directory, options, data.heading);
-  write_stream(directory, "usbl", options, data.usbl, "lat_deg,lon_deg,depth_m,sigma_m",
-               [](CsvWriter& csv, const UsblSample& s) {
-                 csv.number(s.latitude_rad * kDegPerRad).number(s.longitude_rad * kDegPerRad);
-                 csv.number(s.depth_m).number(s.sigma_m);
-               });
+  write_usbl(directory, options, data.usbl);
   write_airspeed(directory, options, data.airspeed);
   write_stream(directory, "propulsion", options, data.propulsion, "rpm",
                [](CsvWriter& csv, const PropulsionSample& s) { csv.number(s.rpm); });

@@ -53,7 +53,8 @@ Setup::Setup(const EngineConfig& engine_config)
   sigma(Group::dvl_misalignment, model.dvl_misalignment_sigma_rad);
   sigma(Group::dvl_bias, model.dvl_bias_sigma_m_s);
   sigma(Group::current, model.current_sigma_m_s);
-  markov(*this, Group::current, model.current_sigma_m_s, model.current_time_constant_s);
+  if (model.current_time_constant_s > 0.0)
+    markov(*this, Group::current, model.current_sigma_m_s, model.current_time_constant_s);
   sigma(Group::depth_bias, model.depth_bias_sigma_m);
   sigma(Group::surface_altitude, model.surface_altitude_sigma_m);
   fill(walk, index, Group::surface_altitude,
@@ -160,15 +161,15 @@ void Core::finish(const ImuStep& step) {
   const ImuConfig& imu = setup_->config.imu;
   if (step.gap_s > 0.0) {
     if (step.gap_s > imu.lost_gap_s) {
-      lose_attitude();
+      if (!resume_drop(step.gap_s)) lose_attitude();
     } else if (navigating_) {
-      const double velocity = imu.gap_acceleration_sigma_m_s2 * step.gap_s;
-      const double angle = imu.gap_rate_sigma_rad_s * step.gap_s;
+      const GapSigma sigma(imu, step.gap_s);
       for (int i = 0; i < 3; ++i) {
-        filter_.widen(i, 0.25 * velocity * velocity * step.gap_s * step.gap_s);
-        filter_.widen(3 + i, velocity * velocity);
-        filter_.widen(6 + i, angle * angle);
+        filter_.widen(i, sigma.position_m * sigma.position_m);
+        filter_.widen(3 + i, sigma.velocity_m_s * sigma.velocity_m_s);
+        filter_.widen(6 + i, sigma.angle_rad * sigma.angle_rad);
       }
+      if (dropping_) widen_drop(sigma);
     }
     window_.reset();
   }
@@ -216,7 +217,9 @@ void Core::rebase(TimeNs now_ns, double unobserved_s) {
   now_ns_ = now_ns;
   ImuStep silence;
   silence.gap_s = unobserved_s;
-  if (unobserved_s > 0.0 && navigating_) finish(silence);
+  if (!(unobserved_s > 0.0) || !navigating_) return;
+  state_.nav.position = geo::moved_by(state_.nav.position, unobserved_s * state_.nav.v_N_m_s);
+  finish(silence);
 }
 
 void Core::lose_attitude() {

@@ -36,16 +36,32 @@ struct Setup {
   GateLimits model_limits;
 };
 
+/// What was wrong with inertial samples that were refused since the one before. They move nothing, but what
+/// averages must not trust an interval in which the instrument was not well.
+enum class ImuFault : std::uint8_t { none = 0, not_finite = 1, stale = 2 };
+
 /// One inertial interval as the mechanisation takes it. Increments are along B, not yet corrected for bias.
 struct ImuStep {
   TimeNs from_ns = 0;
   TimeNs to_ns = 0;
   Increments increments;
   double gap_s = 0.0;  ///< part of the interval during which nothing was measured
+  ImuFault fault = ImuFault::none;
 };
 
 /// The row looks at one of the three states from `first_state` on.
 [[nodiscard]] bool measures(const Observation& observation, int row, int first_state);
+
+/// What may have happened while nothing was measured: standard deviations along each axis.
+struct GapSigma {
+  GapSigma(const ImuConfig& imu, double gap_s)
+      : position_m(0.5 * imu.gap_acceleration_sigma_m_s2 * gap_s * gap_s),
+        velocity_m_s(imu.gap_acceleration_sigma_m_s2 * gap_s),
+        angle_rad(imu.gap_rate_sigma_rad_s * gap_s) {}
+  double position_m;
+  double velocity_m_s;
+  double angle_rad;
+};
 
 /// Why a start is not possible yet, or that it is.
 struct StartConditions {
@@ -109,6 +125,8 @@ class Core {
   void rebase(TimeNs now_ns, double unobserved_s);
 
   [[nodiscard]] bool navigating() const { return navigating_; }
+  /// Only a state from outside can start it: what the configuration says, and no release has happened yet.
+  [[nodiscard]] bool waits_for_state() const;
   /// Roll and pitch are still those of the in-motion alignment after a drop.
   [[nodiscard]] bool dropping() const { return dropping_; }
   [[nodiscard]] const DropAlignment& drop() const { return drop_; }
@@ -196,7 +214,14 @@ class Core {
   void start_under_way();
 
   // core_drop.cpp
-  void start_drop(const InitialState* initial);
+  void start_drop(const InitialState& initial);
+  /// Tilt is found again under way; heading, velocity and position are carried on, over `unobserved_s`
+  /// without inertial samples as they were.
+  void restart_drop(double tilt_sigma_rad, double unobserved_s);
+  void begin_drop(DropConfig config);
+  /// After a gap in which the attitude was lost; false where the heading is lost with it.
+  bool resume_drop(double gap_s);
+  void widen_drop(const GapSigma& sigma);
   void advance_drop(const ImuStep& step);
   [[nodiscard]] std::optional<Judgement> feed_drop(const Measurement& measurement);
   /// The attitude was turned: what was integrated with it turns along.
@@ -246,7 +271,9 @@ class Core {
   double gps_speed_m_s_ = kUnknown;
   int fast_fixes_ = 0;
   UnderWay under_way_;
+  bool released_ = false;  ///< from an aircraft; what is lost after that is found again by whatever there is
   bool dropping_ = false;
+  bool regained_ = false;  ///< begun anew after a loss: the velocity is then that through the water
   DropAlignment drop_;
   // Since the release: integrals of C f, once and twice; covariance of position and velocity as if the
   // attitude were known, at the instant given.

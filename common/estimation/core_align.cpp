@@ -51,8 +51,15 @@ void Core::notice(const Measurement& measurement) {
     const double variation =
         setup_->config.magnetic_variation_known ? setup_->config.magnetic_variation_rad : kUnknown;
     const double psi = true_heading(*heading, variation) - config.mounting_rpy_rad[2];
-    if (std::abs(psi) < 20.0 && window_.duration_s() > 0.0) window_.add_heading(psi);
+    const AlignmentConfig& alignment = setup_->config.alignment;
+    if (std::abs(psi) < 20.0 && window_.duration_s() > 0.0 && heading_wanted(alignment, config))
+      window_.add_heading(psi, heading_sigma(alignment, config, *heading), config.two_antenna);
   }
+}
+
+bool Core::waits_for_state() const {
+  const StartMode mode = setup_->config.alignment.mode;
+  return mode == StartMode::given || (mode == StartMode::air_drop && !released_);
 }
 
 StartConditions Core::conditions() const {
@@ -85,15 +92,16 @@ void Core::align(const ImuStep& step) {
     enter(AlignmentPhase::waiting);
     waiting_since_ns_ = now_ns_;
   }
-  const bool from_outside = config.mode == StartMode::given || config.mode == StartMode::air_drop;
-  if (from_outside || in.dt_s <= 0.0) return;
+  if (waits_for_state() || in.dt_s <= 0.0) return;
 
   const Vector3d force = in.dv_m_s / in.dt_s;
   const double keep = std::exp(-in.dt_s / config.in_motion_averaging_s);
   smooth_force_ = smooth_time_s_ > 0.0 ? Vector3d(keep * smooth_force_ + (1.0 - keep) * force) : force;
   smooth_time_s_ += in.dt_s;
   const bool may_move = config.mode != StartMode::at_rest;
-  const bool may_rest = config.mode != StartMode::in_motion;
+  // A dropped vehicle that only runs smoothly is not at rest: GPS has to say so.
+  const bool may_rest =
+      config.mode != StartMode::in_motion && (!released_ || since(gps_seen_ns_) <= kFreshFix_s);
   const bool late = to_seconds(now_ns_ - waiting_since_ns_) > config.timeout_s;
 
   if (may_move && fast_fixes_ >= kFastFixes && since(gps_seen_ns_) <= 1.0 &&
@@ -156,10 +164,11 @@ void Core::start_at_rest() {
       from_gyro = true;
       break;
     case HeadingSource::compass:
+    case HeadingSource::two_antenna:
     case HeadingSource::automatic:
       if (window_.headings() > 0) {
         heading = window_.heading_start_rad();
-        heading_sigma = config.compass_sigma_rad;
+        heading_sigma = window_.heading_sigma_rad();
       } else if (config.heading_source == HeadingSource::automatic && gyro_good) {
         from_gyro = true;
       } else {
@@ -333,7 +342,7 @@ void Core::start(const InitialState& initial, TimeNs now_ns) {
   navigating_ = levelled_ = true;
   hold_since_ns_ = 0;
   if (setup_->config.alignment.mode == StartMode::air_drop) {
-    start_drop(&initial);
+    start_drop(initial);
   } else {
     enter(AlignmentPhase::fine);
   }

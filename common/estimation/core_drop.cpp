@@ -14,42 +14,79 @@ using Eigen::Vector3d;
 
 // A step longer than the nominal one by half is one with a sample missing.
 constexpr double kMissedSample = 1.5;
+// A heading known worse than this is none: the filter could not be linearised about it.
+constexpr double kHeadingLeft_rad = 0.79;
 
 }  // namespace
 
-void Core::start_drop(const InitialState* initial) {
+void Core::start_drop(const InitialState& initial) {
   DropConfig config = setup_->config.air_drop;
+  config.tilt_sigma_rad = std::max(initial.attitude_sigma_rad[0], initial.attitude_sigma_rad[1]);
+  config.heading_sigma_rad = initial.attitude_sigma_rad[2];
+  fall_covariance_.setZero();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    fall_covariance_(at, at) = std::pow(initial.position_sigma_N_m[i], 2);
+    fall_covariance_(at + 3, at + 3) = std::pow(initial.velocity_sigma_N_m_s[i], 2);
+  }
+  begin_drop(config);
+}
+
+void Core::restart_drop(double tilt_sigma_rad, double unobserved_s) {
+  DropConfig config = setup_->config.air_drop;
+  config.tilt_sigma_rad = tilt_sigma_rad;
+  config.heading_sigma_rad = rpy_sigma_rad().z();
+  if (!dropping_) {
+    for (int i = 0; i < 6; ++i)
+      for (int k = 0; k < 6; ++k) fall_covariance_(i, k) = filter_(i, k);
+    carried_s_ = fall_s_;
+  }
+  fall_s_ += unobserved_s;
+  carry_drop_covariance();
+  begin_drop(config);
+}
+
+void Core::begin_drop(DropConfig config) {
   for (const SensorConfig& one : setup_->config.sensors)
     if (one.kind == SourceKind::propulsion && one.scale_m_s_per_rpm > 0.0)
       config.speed_per_rpm = one.scale_m_s_per_rpm;
   config.stability.max_gap_s =
       std::min(config.stability.max_gap_s, kMissedSample / setup_->config.imu.nominal_rate_hz);
-  if (initial != nullptr) {
-    fall_covariance_.setZero();
-    config.tilt_sigma_rad = std::max(initial->attitude_sigma_rad[0], initial->attitude_sigma_rad[1]);
-    config.heading_sigma_rad = initial->attitude_sigma_rad[2];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto at = static_cast<Eigen::Index>(i);
-      fall_covariance_(at, at) = std::pow(initial->position_sigma_N_m[i], 2);
-      fall_covariance_(at + 3, at + 3) = std::pow(initial->velocity_sigma_N_m_s[i], 2);
-    }
-  } else {
-    config.heading_sigma_rad = rpy_sigma_rad().z();
-    if (dropping_) {
-      carry_drop_covariance();
-    } else {
-      for (int i = 0; i < 6; ++i)
-        for (int k = 0; k < 6; ++k) fall_covariance_(i, k) = filter_(i, k);
-    }
-  }
   drop_ = DropAlignment(config);
   drop_.start(state_.nav.q_NB);
-  dropping_ = true;
+  dropping_ = released_ = true;
+  regained_ = false;
   fall_dv_N_.setZero();
   fall_dp_N_.setZero();
   fall_s_ = carried_s_ = 0.0;
   hold_since_ns_ = 0;
   enter(drop_.phase());
+}
+
+bool Core::resume_drop(double gap_s) {
+  // (ALN-19)
+  if (!released_ || !navigating_) return false;
+  const GapSigma sigma(setup_->config.imu, gap_s);
+  const Vector3d rpy = rpy_sigma_rad();
+  if (std::hypot(rpy.z(), sigma.angle_rad) > kHeadingLeft_rad) return false;
+  restart_drop(std::max(rpy.x(), rpy.y()), gap_s);
+  drop_.lose();
+  for (int i = 0; i < 3; ++i) {
+    filter_.widen(i, sigma.position_m * sigma.position_m);
+    filter_.widen(3 + i, sigma.velocity_m_s * sigma.velocity_m_s);
+    filter_.widen(6 + i, sigma.angle_rad * sigma.angle_rad);
+  }
+  widen_drop(sigma);
+  regained_ = true;
+  enter(drop_.phase());
+  return true;
+}
+
+void Core::widen_drop(const GapSigma& sigma) {
+  drop_.widen(sigma.angle_rad, sigma.velocity_m_s, sigma.position_m);
+  carry_drop_covariance();
+  fall_covariance_.diagonal().head<3>().array() += sigma.position_m * sigma.position_m;
+  fall_covariance_.diagonal().tail<3>().array() += sigma.velocity_m_s * sigma.velocity_m_s;
 }
 
 void Core::carry_drop_covariance() {
@@ -90,6 +127,8 @@ void Core::turn_drop(const Vector3d& rotation_N_rad) {
 void Core::advance_drop(const ImuStep& step) {
   const double dt_s = to_seconds(step.to_ns - step.from_ns);
   if (step.gap_s > 0.0) drop_.interrupt(StabilityReset::gap);
+  if (step.fault == ImuFault::not_finite) drop_.interrupt(StabilityReset::not_finite);
+  if (step.fault == ImuFault::stale) drop_.interrupt(StabilityReset::stale);
   if (!(dt_s > 0.0)) return;
   const NavSolution& nav = state_.nav;
   // The attitude is that of the end of the step.
@@ -144,13 +183,30 @@ void Core::hand_over_drop() {
   const Matrix3d attitude = drop_.attitude_covariance();
   Eigen::Matrix<double, 6, 3> arm;
   arm << geo::skew(fall_dp_N_), geo::skew(fall_dv_N_);
-  const Eigen::Matrix<double, 6, 3> cross = arm * attitude;
-  const Eigen::Matrix<double, 6, 6> motion = fall_covariance_ + cross * arm.transpose();
+  Eigen::Matrix<double, 6, 3> cross = arm * attitude;
+  Eigen::Matrix<double, 6, 6> motion = fall_covariance_ + cross * arm.transpose();
   const TiltFilter& fine = drop_.filter();
   const int accel = setup_->index.of(Group::accel_bias);
   const auto fine_accel = fine.covariance().block<3, 3>(TiltFilter::kAccel, TiltFilter::kAccel);
   const auto fine_tilt = fine.covariance().block<3, 3>(TiltFilter::kPhi, TiltFilter::kAccel);
-  const Eigen::Matrix<double, 6, 3> motion_accel = arm * fine_tilt;
+  Eigen::Matrix<double, 6, 3> motion_accel = arm * fine_tilt;
+  if (regained_) {
+    // (ALN-19) The velocity of before the gap is of no use; that through the water turns with the heading.
+    const auto& p = fine.covariance();
+    const auto fine_v = p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kVelocity);
+    const auto fine_v_phi = p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kPhi);
+    const Matrix3d turned = geo::skew(fine.v_N_m_s());
+    const Matrix3d v_phi = turned * attitude - fine_v_phi;
+    const double current = setup_->config.states.current_sigma_m_s;
+    state_.nav.v_N_m_s = fine.v_N_m_s();
+    motion.topRightCorner<3, 3>() = arm.topRows<3>() * v_phi.transpose();
+    motion.bottomLeftCorner<3, 3>() = motion.topRightCorner<3, 3>().transpose();
+    motion.bottomRightCorner<3, 3>() = v_phi * turned.transpose() - turned * fine_v_phi.transpose() + fine_v +
+                                       current * current * Matrix3d::Identity();
+    cross.bottomRows<3>() = v_phi;
+    motion_accel.bottomRows<3>() =
+        turned * fine_tilt - p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kAccel);
+  }
   for (int i = 0; i < 6; ++i) {
     for (int k = 0; k <= i; ++k) filter_.set(i, k, motion(i, k));
     for (int k = 0; k < 3; ++k) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "estimation/aiding/model_velocity.hpp"
+#include "estimation/aiding/usbl_range_bearing.hpp"
 #include "estimation/core.hpp"
 
 namespace fathom::estimation {
@@ -9,7 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kStride = Observation::kMaxRows;
 constexpr double kMostRoom = 1e6;
 
 VerdictKind verdict_of(Usable usable) {
@@ -21,6 +21,7 @@ VerdictKind verdict_of(Usable usable) {
     case Usable::unknown_frame:
       return VerdictKind::unknown_frame;
     case Usable::not_estimated:
+    case Usable::other_model:
       break;
   }
   return VerdictKind::source_disabled;
@@ -38,8 +39,11 @@ std::array<double, 3> reading_of(const AnySample& any) {
   }
   if (const auto* depth = std::get_if<DepthSample>(&any)) return {depth->depth_m, 0.0, 0.0};
   if (const auto* heading = std::get_if<HeadingSample>(&any)) return {heading->heading_rad, 0.0, 0.0};
-  if (const auto* usbl = std::get_if<UsblSample>(&any))
-    return {usbl->latitude_rad, usbl->longitude_rad, usbl->depth_m};
+  if (const auto* usbl = std::get_if<UsblSample>(&any)) {
+    if (usbl->frame == UsblFrame::geodetic) return {usbl->latitude_rad, usbl->longitude_rad, usbl->depth_m};
+    if (UsblRangeBearing::present(*usbl)) return {usbl->range_m, usbl->bearing_rad, usbl->depression_rad};
+    return usbl->relative_m;
+  }
   if (const auto* air = std::get_if<AirspeedSample>(&any)) return {air->airspeed_m_s, 0.0, 0.0};
   return {kUnknown, kUnknown, kUnknown};
 }
@@ -104,7 +108,7 @@ Judgement Core::judge(const Measurement& measurement) {
     if (usable == Usable::yes) {
       with_position = with_position || measures_position(entry.source);
       if (out.model.empty()) out.model = entry.name;
-    } else if (first_refusal == Usable::yes) {
+    } else if (first_refusal == Usable::yes && usable != Usable::other_model) {
       first_refusal = usable;
     }
   }
@@ -154,12 +158,10 @@ Judgement Core::judge(const Measurement& measurement) {
     if (result.pass && fix) stepped = bound_step(config, observation, statistics) || stepped;
   }
   out.dimensions = static_cast<std::uint32_t>(whole.rows);
-  InnovationStatistics plain;
-  filter_.statistics(whole, 1.0, plain);
   if (modelled && !believed_model) out.kind = VerdictKind::rejected;
   for (std::size_t i = 0; i < static_cast<std::size_t>(whole.rows); ++i) {
     out.innovation[i] = whole.innovation[i];
-    out.innovation_sigma[i] = std::sqrt(plain.s[i * kStride + i]);
+    out.innovation_sigma[i] = result.innovation_sigma[i];
   }
   out.test_ratio = result.test_ratio;
   out.limit = result.limit;
@@ -237,9 +239,9 @@ void Core::order(const Command& command) {
       next_zero_velocity_ns_ = now_ns_;
       break;
     case CommandKind::realign:
-      if (setup_->config.alignment.mode == StartMode::air_drop && navigating_) {
+      if (released_ && navigating_) {
         // Under way there is nothing to stand still for: tilt is found again, the rest carried on.
-        start_drop(nullptr);
+        restart_drop(setup_->config.air_drop.tilt_sigma_rad, 0.0);
         break;
       }
       lose_attitude();

@@ -182,12 +182,15 @@ void Core::make_room(SourceKind source, const Sensor& sensor, const Observation&
     } else if (measures(observation, row, 3)) {
       first = 3;
     }
-    for (int i = 0; i < 3; ++i) {
-      const double h = observation.h[r][static_cast<std::size_t>(first + i)];
-      // A heading says nothing about tilt, however its row looks when the vehicle is pitched.
-      if (source == SourceKind::heading && i < 2) continue;
-      room[static_cast<std::size_t>(first + i)] += squared * h * h;
-    }
+    // Of states that would explain the innovation: h z / |h|^2, whatever unit the row has.
+    // A heading says nothing about tilt, however its row looks when the vehicle is pitched.
+    const double* weights = observation.h[r].data() + first;
+    const int least = source == SourceKind::heading ? 2 : 0;
+    double weight = 0.0;
+    for (int i = least; i < 3; ++i) weight += weights[i] * weights[i];
+    if (weight == 0.0) continue;
+    for (int i = least; i < 3; ++i)
+      room[static_cast<std::size_t>(first + i)] += squared * weights[i] * weights[i] / (weight * weight);
     // A velocity goes wrong by a level that is wrong: left as sure as it was, that would lead astray again.
     const bool over_ground = source == SourceKind::gps || source == SourceKind::dvl;
     if (first == 3 && over_ground && factor == 1.0) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimation/aiding/heading.hpp"
+#include "estimation/aiding/usbl_station.hpp"
 #include "estimation/core.hpp"
 
 namespace fathom::estimation {
@@ -23,8 +24,13 @@ void Core::notice_under_way(const Measurement& measurement, const SensorConfig& 
     const double variation =
         setup_->config.magnetic_variation_known ? setup_->config.magnetic_variation_rad : kUnknown;
     const double psi = true_heading(*heading, variation) - config.mounting_rpy_rad[2];
-    if (!(std::abs(psi) < 20.0)) return;
+    const AlignmentConfig& alignment = setup_->config.alignment;
+    if (!(std::abs(psi) < 20.0) || !heading_wanted(alignment, config)) return;
+    if (!config.two_antenna && under_way_.two_antenna && since(under_way_.heading_ns) <= kFreshVelocity_s)
+      return;
     under_way_.heading_rad = psi;
+    under_way_.heading_sigma_rad = heading_sigma(alignment, config, *heading);
+    under_way_.two_antenna = config.two_antenna;
     under_way_.heading_ns = now_ns_;
   } else if (const auto* dvl = std::get_if<DvlSample>(&measurement.sample)) {
     const Vector3d v_D = geo::vec(dvl->velocity_D_m_s);
@@ -32,12 +38,15 @@ void Core::notice_under_way(const Measurement& measurement, const SensorConfig& 
     under_way_.dvl_velocity_B_m_s = geo::to_matrix(geo::from_rpy(geo::vec(config.mounting_rpy_rad))) * v_D;
     under_way_.dvl_ns = now_ns_;
   } else if (const auto* usbl = std::get_if<UsblSample>(&measurement.sample)) {
-    if (usbl->frame != UsblFrame::geodetic || !std::isfinite(usbl->depth_m)) return;
-    if (!(std::abs(usbl->latitude_rad) <= 1.5708) || !(std::abs(usbl->longitude_rad) <= 6.2832)) return;
-    under_way_.usbl_latitude_rad = usbl->latitude_rad;
-    under_way_.usbl_longitude_rad = usbl->longitude_rad;
-    under_way_.usbl_depth_m = usbl->depth_m;
-    under_way_.usbl_sigma_m = sigma_of(config.sigma[0], usbl->sigma_m, config.use_sample_sigma);
+    const double surface_m = setup_->config.states.surface_altitude_m;
+    const auto place = usbl_place(config, *usbl, surface_m);
+    if (!place) return;
+    const UsblNoise noise(config, *usbl);
+    under_way_.usbl_latitude_rad = place->latitude_rad;
+    under_way_.usbl_longitude_rad = place->longitude_rad;
+    under_way_.usbl_depth_m = surface_m - place->altitude_m;
+    under_way_.usbl_sigma_m =
+        known(usbl->range_m) ? std::hypot(noise.range_m, usbl->range_m * noise.angle_rad) : noise.range_m;
     under_way_.usbl_lever_B_m = geo::vec(config.lever_B_m);
     under_way_.usbl_ns = now_ns_;
   }
@@ -45,9 +54,9 @@ void Core::notice_under_way(const Measurement& measurement, const SensorConfig& 
 
 bool Core::can_start_under_way() const {
   const AlignmentConfig& config = setup_->config.alignment;
-  const bool compass =
-      config.heading_source == HeadingSource::automatic || config.heading_source == HeadingSource::compass;
-  if (!compass || !(since(under_way_.heading_ns) <= kFreshVelocity_s)) return false;
+  const bool measured =
+      config.heading_source != HeadingSource::given && config.heading_source != HeadingSource::gyrocompass;
+  if (!measured || !(since(under_way_.heading_ns) <= kFreshVelocity_s)) return false;
   if (smooth_time_s_ < config.in_motion_averaging_s) return false;
   const bool gps = since(gps_seen_ns_) <= kFreshVelocity_s && known(gps_speed_m_s_);
   const bool dvl = since(under_way_.dvl_ns) <= kFreshVelocity_s;
@@ -81,10 +90,10 @@ void Core::start_under_way() {
   }
   start.nav.position = geo::moved_by(start.nav.position, age_s * start.nav.v_N_m_s);
   std::array<double, kMaxStates> sigma = setup_->initial_sigma;
-  const double turned = start.nav.v_N_m_s.norm() * (gps ? 0.0 : config.compass_sigma_rad);
+  const double turned = start.nav.v_N_m_s.norm() * (gps ? 0.0 : under_way_.heading_sigma_rad);
   for (std::size_t i = 0; i < 3; ++i) sigma[3 + i] = std::hypot(kVelocitySigma_m_s, turned);
   sigma[6] = sigma[7] = config.in_motion_tilt_sigma_rad;
-  sigma[8] = std::hypot(config.compass_sigma_rad, 0.5 * config.in_motion_tilt_sigma_rad);
+  sigma[8] = std::hypot(under_way_.heading_sigma_rad, 0.5 * config.in_motion_tilt_sigma_rad);
   begin(start, sigma);
 }
 

@@ -63,7 +63,7 @@ void check_states(const StateModelConfig& states, Check& check) {
   check.in("states.dvl_misalignment_sigma_rad", states.dvl_misalignment_sigma_rad, 1e-6, 1);
   check.in("states.dvl_bias_sigma_m_s", states.dvl_bias_sigma_m_s, 1e-6, 10);
   check.in("states.current_sigma_m_s", states.current_sigma_m_s, 1e-6, 100);
-  check.in("states.current_time_constant_s", states.current_time_constant_s, 1, 1e9);
+  check.in("states.current_time_constant_s", states.current_time_constant_s, 0, 1e9);
   check.in("states.depth_bias_sigma_m", states.depth_bias_sigma_m, 1e-6, 100);
   check.in("states.surface_altitude_m", states.surface_altitude_m, -500, 9000);
   check.in("states.surface_altitude_sigma_m", states.surface_altitude_sigma_m, 1e-6, 1e4);
@@ -106,6 +106,7 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "reacquire_s", sensor.reacquire_s, 0, 1e6);
   check.in(at + "reacquire_step_m", sensor.reacquire_step_m, 0.1, 1e6);
   check.in(at + "frozen_change", sensor.frozen_change, 0, 1e6);
+  check.in(at + "angle_sigma_rad", sensor.angle_sigma_rad, 1e-6, 4);
   check.in(at + "transceiver_latitude_rad", sensor.transceiver_latitude_rad, -kAngle / 4, kAngle / 4);
   check.in(at + "transceiver_longitude_rad", sensor.transceiver_longitude_rad, -kAngle, kAngle);
   check.in(at + "transceiver_depth_m", sensor.transceiver_depth_m, -1000, 12000);
@@ -290,6 +291,7 @@ std::string EngineConfig::validate() const {
   check.in("horizon_s", horizon_s, 0.1, 60);
   check.in("snapshot_interval_s", snapshot_interval_s, 0.01, horizon_s);
   check.in("future_tolerance_s", future_tolerance_s, 0, 60);
+  check.in("replay_steps_per_sample", replay_steps_per_sample, 2, 1e6);
   check.in("measurement_capacity", measurement_capacity, 64, 65535);
   check.in("magnetic_variation_rad", magnetic_variation_rad, -kAngle, kAngle);
   check.in("gps_timeout_s", gps_timeout_s, 0.1, 1e5);

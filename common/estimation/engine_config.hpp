@@ -85,7 +85,7 @@ struct StateModelConfig {
   double dvl_misalignment_sigma_rad = 0.0087;  ///< 0.5 deg
   double dvl_bias_sigma_m_s = 0.004;
   double current_sigma_m_s = 0.5;
-  double current_time_constant_s = 1800.0;
+  double current_time_constant_s = 1800.0;  ///< 0: it does not change
   double depth_bias_sigma_m = 0.1;
   double surface_altitude_m = 0.0;  ///< value when the state group is off
   double surface_altitude_sigma_m = 100.0;
@@ -123,7 +123,8 @@ struct SensorConfig {
   SourceKind kind = SourceKind::gps;
   bool enabled = true;
   std::array<double, 3> lever_B_m{0, 0, 0};         ///< from the IMU to the instrument, along B
-  std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< attitude of the instrument's axes in B
+  std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< attitude of the instrument's axes in B; in the ship
+                                                    ///< that carries a USBL transceiver
   double latency_s = 0.0;                           ///< subtracted from the stamp
   /// Noise of each component: GPS position and USBL m (N, E, D), DVL m/s (x, y, z), speed log m/s (x, y, z),
   /// depth m, heading rad, airspeed m/s in the first. A figure carried by the sample counts when larger.
@@ -144,10 +145,15 @@ struct SensorConfig {
   /// pass it, and no fix moves the position by more than twice this at once; m.
   double reacquire_step_m = 50.0;
   double frozen_change = 0.0;  ///< the same reading while the prediction moves by this much is frozen; 0: off
-  bool transceiver_known = false;  ///< USBL: the fixes come from a transceiver at the place that follows
+  /// Heading: from two GPS antennas. Its sigma is believed at the start, and no deviation curve is its.
+  bool two_antenna = false;
+  double angle_sigma_rad = 0.0087;  ///< USBL: of a direction, across it
+  /// USBL: the place that follows is that of the transceiver, or of the beacon that the vehicle's own
+  /// transceiver looks at; a place that comes with the sample goes before it.
+  bool transceiver_known = false;
   double transceiver_latitude_rad = 0.0;
   double transceiver_longitude_rad = 0.0;
-  double transceiver_depth_m = 0.0;  ///< below the water surface, down
+  double transceiver_depth_m = 0.0;  ///< below the water surface, down; also where the sample has no depth
   double sideslip_sigma_rad = 0.0;   ///< airspeed: sideslip beyond its state; 0: nothing is known of it
   double attack_sigma_rad = 0.0;     ///< airspeed: likewise the angle of attack
   double baro_sigma_m = 0.0;         ///< airspeed: of the barometric height in its samples; 0: not used
@@ -171,10 +177,11 @@ enum class StartMode : std::uint8_t {
   air_drop = 4,   ///< start_from() at the release with roll and pitch unknown; alignment under way in water
 };
 enum class HeadingSource : std::uint8_t {
-  automatic = 0,  ///< compass, else gyrocompass where the gyro allows
+  automatic = 0,  ///< two antennas, else compass, else gyrocompass where the gyro allows
   compass = 1,
   given = 2,  ///< given_heading_rad
   gyrocompass = 3,
+  two_antenna = 4,  ///< a heading sensor with two_antenna set
 };
 
 struct AlignmentConfig {
@@ -264,7 +271,10 @@ struct EngineConfig {
   VehicleModelConfig vehicle_model;
   double horizon_s = 5.0;            ///< measurements up to this late give the same bits as punctual ones
   double snapshot_interval_s = 0.2;  ///< a roll-back repeats at most this much more than it must
-  double future_tolerance_s = 0.5;   ///< stamps further ahead of the newest inertial sample are refused
+  /// Steps that one inertial sample repeats for late measurements; what needs more is spread over the next
+  /// ones.
+  std::uint32_t replay_steps_per_sample = 256;
+  double future_tolerance_s = 0.5;  ///< stamps further ahead of the newest inertial sample are refused
   std::uint32_t measurement_capacity = 2048;  ///< measurements remembered; more within the horizon shorten it
   bool magnetic_variation_known = false;
   double magnetic_variation_rad = 0.0;  ///< east positive; used when the compass does not report its own

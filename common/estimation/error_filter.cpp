@@ -151,12 +151,14 @@ void ErrorFilter::statistics(const Observation& observation, double noise_scale,
       out.s[static_cast<std::size_t>(j) * kStride + static_cast<std::size_t>(i)] = sum;
     }
   }
-  auto lower = out.s;
-  out.squared_distance = 0.0;
-  if (!factorise(lower, m)) {
-    out.squared_distance = std::numeric_limits<double>::infinity();
-    return;
-  }
+  out.squared_distance = squared_distance(observation, out);
+}
+
+double squared_distance(const Observation& observation, const InnovationStatistics& statistics) {
+  const int m = statistics.rows;
+  auto lower = statistics.s;
+  if (!factorise(lower, m)) return std::numeric_limits<double>::infinity();
+  double distance = 0.0;
   std::array<double, kRows> y{};
   for (int i = 0; i < m; ++i) {
     double value = observation.innovation[static_cast<std::size_t>(i)];
@@ -165,8 +167,9 @@ void ErrorFilter::statistics(const Observation& observation, double noise_scale,
                y[static_cast<std::size_t>(k)];
     value /= lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
     y[static_cast<std::size_t>(i)] = value;
-    out.squared_distance += value * value;
+    distance += value * value;
   }
+  return distance;
 }
 
 bool ErrorFilter::update(const Observation& observation, const InnovationStatistics& statistics,

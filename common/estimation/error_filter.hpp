@@ -18,6 +18,9 @@ struct InnovationStatistics {
   double squared_distance = 0.0;                                ///< innovation' S^-1 innovation
 };
 
+/// innovation' S^-1 innovation of these statistics; infinite where S is not positive.
+[[nodiscard]] double squared_distance(const Observation& observation, const InnovationStatistics& statistics);
+
 /// Noise that enters during one step, per second.
 struct ProcessNoise {
   Eigen::Matrix3d velocity = Eigen::Matrix3d::Zero();  ///< m^2/s^3

@@ -128,7 +128,7 @@ void Forecaster::step(const Core& core, int lost, double dt_s) {
 }
 
 double Forecaster::horizontal_95_m(const Core& core, double after_s) {
-  if (!core.navigating()) return kUnknown;
+  if (!core.navigating() || !std::isfinite(after_s)) return kUnknown;
   begin(core);
   for (double elapsed = 0.0; elapsed < after_s;) {
     const double dt = std::min(kStep_s, after_s - elapsed);

@@ -58,6 +58,22 @@ void drop_row(Observation& observation, int row) {
   --observation.rows;
 }
 
+/// The statistics of those rows alone.
+void keep_rows(InnovationStatistics& statistics, unsigned refused) {
+  std::size_t kept = 0;
+  std::array<std::size_t, kStride> from{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
+    if ((refused & 1U << i) == 0) from[kept++] = i;
+  for (std::size_t i = 0; i < kept; ++i) {
+    for (std::size_t j = 0; j < kept; ++j)
+      statistics.s[i * kStride + j] = statistics.s[from[i] * kStride + from[j]];
+    if (from[i] != i)
+      std::copy_n(statistics.ph.data() + from[i] * kMaxStates, kMaxStates,
+                  statistics.ph.data() + i * kMaxStates);
+  }
+  statistics.rows = static_cast<int>(kept);
+}
+
 }  // namespace
 
 double chi_square_quantile(double probability, int degrees) {
@@ -84,6 +100,8 @@ GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const Gat
                 Observation& observation, InnovationStatistics& statistics) {
   GateResult result;
   filter.statistics(observation, 1.0, statistics);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
+    result.innovation_sigma[i] = std::sqrt(statistics.s[i * kStride + i]);
   if (observation.each_alone || sensor.gate_mode == GateMode::per_component) {
     // (GATE-1), each component on its own.
     result.limit = limits.chi_square[1];
@@ -100,6 +118,7 @@ GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const Gat
       const double ratio = z * z / s / result.limit;
       if (ratio <= 1.0) {
         observation.sigma[static_cast<std::size_t>(row)] = std::sqrt(scale) * sigma;
+        statistics.s[i * kStride + i] = s;
         worst_kept = std::max(worst_kept, ratio);
         ++row;
       } else if (observation.rows == 1) {
@@ -114,13 +133,18 @@ GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const Gat
     }
     result.pass = true;
     result.test_ratio = worst_kept;
-    filter.statistics(observation, 1.0, statistics);
+    if (result.refused != 0) keep_rows(statistics, result.refused);
+    statistics.squared_distance = squared_distance(observation, statistics);
     return result;
   }
   result.limit = limits.chi_square[static_cast<std::size_t>(observation.rows)];
   const bool hopeless = statistics.squared_distance > sensor.robust_reject_ratio * result.limit;
   const double scale = hopeless ? 1.0 : noise_scale(sensor, statistics.squared_distance, observation.rows);
-  if (scale > 1.0 && std::isfinite(scale)) filter.statistics(observation, scale, statistics);
+  if (scale > 1.0 && std::isfinite(scale)) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
+      statistics.s[i * kStride + i] += (scale - 1.0) * observation.sigma[i] * observation.sigma[i];
+    statistics.squared_distance = squared_distance(observation, statistics);
+  }
   result.test_ratio = statistics.squared_distance / result.limit;
   result.pass = result.test_ratio <= 1.0;
   if (!result.pass) result.refused = (1U << observation.rows) - 1U;

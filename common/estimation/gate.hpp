@@ -22,11 +22,14 @@ struct GateResult {
   double test_ratio = kUnknown;  ///< squared distance over its limit
   double limit = kUnknown;
   unsigned refused = 0;  ///< the rows that were not accepted, a bit each
+  /// Of each row of the observation as it came, before any widening.
+  std::array<double, Observation::kMaxRows> innovation_sigma{};
 };
 
 /// Tests an innovation (GATE-1). With robust weighting the noise is first widened as far as the innovation
 /// calls for (GATE-2); with GateMode::per_component the rows that fail are taken out of `observation`, and it
-/// passes when any is left. `statistics` is what the update must use afterwards.
+/// passes when any is left. `statistics` is what the update must use afterwards: H P is worked out once, what
+/// is decided afterwards changes only R and which rows there are.
 [[nodiscard]] GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const GateLimits& limits,
                               Observation& observation, InnovationStatistics& statistics);
 

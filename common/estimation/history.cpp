@@ -13,6 +13,8 @@ constexpr std::uint64_t kFineSteps = 2;
 /// An eighth of the age between snapshots, a quarter where one between two is given up.
 constexpr DurationNs kSaveShare = 8;
 constexpr DurationNs kThinShare = 4;
+/// A second navigator that is set back again and again finishes at once after so many samples.
+constexpr int kMostCatching = 32;
 
 std::size_t step_capacity(const EngineConfig& config) {
   const double span = config.horizon_s + 2.0 * config.snapshot_interval_s;
@@ -33,7 +35,8 @@ History::History(const Setup& setup)
       snapshots_(snapshot_capacity(setup.config), Snapshot{0, Core(setup)}),
       snapshot_order_(snapshots_.size()),
       pool_(setup.config.measurement_capacity),
-      order_(setup.config.measurement_capacity) {
+      order_(setup.config.measurement_capacity),
+      catching_(setup) {
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint16_t>(i);
   for (std::size_t i = 0; i < snapshot_order_.size(); ++i) snapshot_order_[i] = static_cast<std::uint16_t>(i);
 }
@@ -60,7 +63,9 @@ History::Placing History::insert(const Measurement& measurement) {
     while (kept < snapshot_count_ && snapshot(kept).core.now_ns() < event(0).stamp_ns) ++kept;
     if (kept == snapshot_count_) return Placing::late;
     const TimeNs floor = snapshot(kept).core.now_ns();
-    if (stamp <= floor || (dirty_ns_ != 0 && dirty_ns_ <= floor)) return Placing::late;
+    const bool needed =
+        (dirty_ns_ != 0 && dirty_ns_ <= floor) || (catching_up_ && catching_.now_ns() < floor);
+    if (stamp <= floor || needed) return Placing::late;
     for (std::size_t i = 0; i < kept; ++i) drop_snapshot(0);
     drop_before(floor);
   }
@@ -81,12 +86,76 @@ History::Placing History::insert(const Measurement& measurement) {
 
 void History::advance(const ImuStep& step, VerdictSink& sink) {
   steps_[steps_done_ % steps_.size()] = step;
-  repeat_until(steps_done_ + 1, sink);
+  const std::uint64_t target = steps_done_ + 1;
+  go_back();
+  repeat_until(target, sink);
+  if (!catching_up_) return;
+  ++catching_for_;
+  const bool forget = target - caught_up_step_ + 1 >= steps_.size();
+  const std::uint64_t most = setup_->config.replay_steps_per_sample;
+  catch_up(forget || catching_for_ >= kMostCatching ? target : most, sink);
+}
+
+std::size_t History::snapshot_before(TimeNs stamp_ns) const {
+  std::size_t at = snapshot_count_ - 1;
+  while (at > 0 && snapshot(at).core.now_ns() >= stamp_ns) --at;
+  return at;
+}
+
+TimeNs History::oldest_ns() const {
+  const TimeNs oldest = snapshot(0).core.now_ns();
+  return catching_up_ ? std::min(oldest, catching_.now_ns()) : oldest;
+}
+
+void History::go_back() {
+  if (dirty_ns_ == 0) return;
+  // insert() has seen to it that there is a snapshot before it.
+  const TimeNs late_ns = dirty_ns_;
+  dirty_ns_ = 0;
+  const std::size_t at = snapshot_before(late_ns);
+  const std::uint64_t repeated = steps_done_ - snapshot(at).after_step;
+  const bool dear = repeated > setup_->config.replay_steps_per_sample;
+  fine_until_step_ = steps_done_ + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
+  if (catching_up_ && late_ns > catching_.now_ns()) {
+    // The second will meet it on its way; the first takes it in meanwhile where that is cheap.
+    if (dear || snapshot(at).after_step <= caught_up_step_) return;
+  } else if (catching_up_ || dear) {
+    if (!catching_up_) catching_for_ = 0;
+    catching_up_ = true;
+    catching_ = snapshot(at).core;
+    caught_up_step_ = snapshot(at).after_step;
+    return;
+  }
+  repeated_steps_ += repeated;
+  snapshot_count_ = at + 1;
+  core_ = snapshot(at).core;
+  steps_done_ = snapshot(at).after_step;
+}
+
+void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
+  for (std::uint64_t i = 0; i < steps && caught_up_step_ < steps_done_; ++i) {
+    run(catching_, steps_[caught_up_step_ % steps_.size()], sink);
+    ++caught_up_step_;
+    ++repeated_steps_;
+    const auto begin = snapshot_order_.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(snapshot_count_);
+    const auto passed = std::lower_bound(
+        begin, end, caught_up_step_,
+        [this](std::uint16_t one, std::uint64_t step) { return snapshots_[one].after_step < step; });
+    if (passed != end && snapshots_[*passed].after_step == caught_up_step_)
+      snapshots_[*passed].core = catching_;
+  }
+  if (caught_up_step_ < steps_done_) return;
+  core_ = catching_;
+  catching_up_ = false;
 }
 
 void History::settle(VerdictSink& sink) {
   if (!started_) return;
-  if (dirty_ns_ != 0) repeat_until(steps_done_, sink);
+  const std::uint64_t target = steps_done_;
+  go_back();
+  repeat_until(target, sink);
+  if (catching_up_) catch_up(target, sink);
   Judgement unplaced;
   unplaced.kind = VerdictKind::from_the_future;
   std::size_t kept = first_after(core_.now_ns());
@@ -102,43 +171,32 @@ void History::settle(VerdictSink& sink) {
 }
 
 void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
-  if (dirty_ns_ != 0) {
-    // Back to the newest snapshot before the earliest of the late events. insert() has seen to it that there
-    // is one.
-    while (snapshot_count_ > 1 && snapshot(snapshot_count_ - 1).core.now_ns() >= dirty_ns_) --snapshot_count_;
-    const Snapshot& from = snapshot(snapshot_count_ - 1);
-    repeated_steps_ += steps_done_ - from.after_step;
-    fine_until_step_ = target + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
-    core_ = from.core;
-    steps_done_ = from.after_step;
-    dirty_ns_ = 0;
-  }
   const TimeNs newest_ns =
       target == steps_done_ ? core_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
   while (steps_done_ < target) {
-    run(steps_[steps_done_ % steps_.size()], sink);
+    run(core_, steps_[steps_done_ % steps_.size()], sink);
     ++steps_done_;
     if (save_due(newest_ns)) save();
     // A snapshot from which some step since is no longer held is of no use.
     while (snapshot_count_ > 1 && steps_done_ - snapshot(0).after_step >= steps_.size()) {
       drop_snapshot(0);
-      drop_before(snapshot(0).core.now_ns());
+      drop_before(oldest_ns());
     }
   }
   thin_snapshots(newest_ns);
 }
 
-void History::run(const ImuStep& step, VerdictSink& sink) {
+void History::run(Core& core, const ImuStep& step, VerdictSink& sink) {
   for (std::size_t rank = first_after(step.from_ns); rank < event_count_; ++rank) {
     Measurement& one = event(rank);
     if (one.stamp_ns > step.to_ns) break;
-    core_.advance(step, one.stamp_ns);
-    const Judgement judgement = core_.apply(one);
+    core.advance(step, one.stamp_ns);
+    const Judgement judgement = core.apply(one);
     if (!one.judged && !one.command) sink.judged(one, judgement);
     one.judged = true;
   }
-  core_.advance(step, step.to_ns);
-  core_.finish(step);
+  core.advance(step, step.to_ns);
+  core.finish(step);
 }
 
 bool History::save_due(TimeNs newest_ns) const {
@@ -157,7 +215,7 @@ void History::save() {
   slot.after_step = steps_done_;
   slot.core = core_;
   ++snapshot_count_;
-  drop_before(snapshot(0).core.now_ns());
+  drop_before(oldest_ns());
 }
 
 void History::thin_snapshots(TimeNs newest_ns) {
@@ -196,6 +254,7 @@ void History::forget_past(VerdictSink& sink, VerdictKind verdict) {
   steps_done_ = 0;
   fine_until_step_ = 0;
   dirty_ns_ = 0;
+  catching_up_ = false;
 }
 
 void History::begin(TimeNs now_ns) {
@@ -212,6 +271,7 @@ void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSin
 }
 
 void History::rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink) {
+  if (catching_up_) catch_up(steps_done_, sink);
   forget_past(sink, VerdictKind::late);
   core_.rebase(now_ns, unobserved_s);
   save();

@@ -24,6 +24,11 @@ class VerdictSink {
 /// Snapshots stand snapshot_interval_s apart; while late events come, the younger ones closer, by an eighth
 /// of their age: most measurements are late by tens of milliseconds, and then little more than that is
 /// repeated. Where snapshots stand changes the work and never the result.
+///
+/// An event that asks for more than replay_steps_per_sample steps is not made up for within one inertial
+/// sample: a second navigator starts from the snapshot and takes that many steps with each sample, while the
+/// first goes on without the event. As soon as the second has caught up it takes the first one's place. Then
+/// the state is that function of the sorted events again.
 class History {
  public:
   enum class Placing : std::uint8_t { taken, late, duplicate, from_the_future, not_started };
@@ -37,7 +42,7 @@ class History {
   Placing insert(const Measurement& measurement);
   /// One inertial interval, with all the repetition that late events ask for.
   void advance(const ImuStep& step, VerdictSink& sink);
-  /// Lets late events act now instead of with the next step; those after the present instant are given up.
+  /// Lets late events act now instead of with the next steps; those after the present instant are given up.
   void settle(VerdictSink& sink);
   /// Lets the present instant be this one, with no past.
   void begin(TimeNs now_ns);
@@ -48,6 +53,8 @@ class History {
 
   /// Steps done again because of late events, since construction.
   [[nodiscard]] std::uint64_t repeated_steps() const { return repeated_steps_; }
+  /// A late event is still being made up for.
+  [[nodiscard]] bool catching_up() const { return catching_up_; }
 
  private:
   struct Snapshot {
@@ -57,9 +64,17 @@ class History {
 
   /// Events that have not acted yet get this verdict.
   void forget_past(VerdictSink& sink, VerdictKind verdict);
-  /// Goes back if it must, and on to the given number of steps.
+  /// Goes back to before the earliest event that came late, or lets the second navigator do it.
+  void go_back();
+  /// On to the given number of steps.
   void repeat_until(std::uint64_t target, VerdictSink& sink);
-  void run(const ImuStep& step, VerdictSink& sink);
+  void run(Core& core, const ImuStep& step, VerdictSink& sink);
+  /// At most so many steps of the second navigator.
+  void catch_up(std::uint64_t steps, VerdictSink& sink);
+  /// The newest snapshot before an instant.
+  [[nodiscard]] std::size_t snapshot_before(TimeNs stamp_ns) const;
+  /// The oldest instant from which steps may still be repeated.
+  [[nodiscard]] TimeNs oldest_ns() const;
   /// Whether a snapshot is due, `newest_ns` being the end of the newest step.
   [[nodiscard]] bool save_due(TimeNs newest_ns) const;
   void save();
@@ -88,6 +103,11 @@ class History {
   std::size_t event_count_ = 0;
   std::uint64_t repeated_steps_ = 0;
   std::uint64_t fine_until_step_ = 0;  ///< snapshots stand close as long as late events keep coming
+  // The second navigator. Snapshots up to caught_up_step_ are its own, those behind it the first one's.
+  bool catching_up_ = false;
+  Core catching_;
+  std::uint64_t caught_up_step_ = 0;
+  int catching_for_ = 0;  ///< inertial samples
 };
 
 }  // namespace fathom::estimation

@@ -44,7 +44,10 @@ bool ImuIntake::read(const ImuSample& sample) {
 ImuIntake::Result ImuIntake::take(const ImuSample& sample) {
   const ImuConfig& imu = setup_->config.imu;
   Result result;
-  if (!read(sample)) return result;
+  if (!read(sample)) {
+    fault_ = ImuFault::not_finite;
+    return result;
+  }
   const TimeNs now = sample.header.stamp_ns;
   const auto settle = [&] {
     last_ns_ = now;
@@ -52,6 +55,7 @@ ImuIntake::Result ImuIntake::take(const ImuSample& sample) {
     last_rate_ = rate_;
     last_force_ = force_;
     refused_in_a_row_ = 0;
+    fault_ = ImuFault::none;
   };
   if (!started_) {
     started_ = true;
@@ -66,6 +70,7 @@ ImuIntake::Result ImuIntake::take(const ImuSample& sample) {
     refused_in_a_row_ = follows ? refused_in_a_row_ + 1 : 1;
     refused_ns_ = now;
     if (refused_in_a_row_ < kNewAxis) {
+      fault_ = ImuFault::stale;
       result.refusal = now == last_ns_  ? VerdictKind::duplicate
                        : now < last_ns_ ? VerdictKind::late
                                         : VerdictKind::from_the_future;
@@ -101,6 +106,7 @@ ImuIntake::Result ImuIntake::take(const ImuSample& sample) {
   in.dtheta_before_rad = has_before_ ? Vector3d(dt * mean_rate_before_) : in.dtheta_rad;
   in.dv_before_m_s = has_before_ ? Vector3d(dt * mean_force_before_) : in.dv_m_s;
   if (dt > imu.max_gap_s) step.gap_s = dt;
+  step.fault = fault_;
   mean_rate_before_ = in.dtheta_rad / dt;
   mean_force_before_ = in.dv_m_s / dt;
   has_before_ = true;

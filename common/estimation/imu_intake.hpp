@@ -43,6 +43,7 @@ class ImuIntake {
   Eigen::Vector3d mean_rate_before_ = Eigen::Vector3d::Zero();  ///< over the last interval
   Eigen::Vector3d mean_force_before_ = Eigen::Vector3d::Zero();
   bool has_before_ = false;
+  ImuFault fault_ = ImuFault::none;  ///< since the last sample that was taken
   TimeNs refused_ns_ = 0;
   int refused_in_a_row_ = 0;
 };

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace fathom::estimation {
 namespace {
@@ -39,110 +38,6 @@ void fill_attitude(const Core& core, NavState& out) {
   const double sign = q.w < 0.0 ? -1.0 : 1.0;
   out.q_NB = {sign * q.w, sign * q.x, sign * q.y, sign * q.z};
   out.rpy_rad = geo::arr(geo::to_rpy(q));
-}
-
-void set_text(std::array<char, 128>& target, const char* text) {
-  target.fill('\0');
-  std::strncpy(target.data(), text, target.size() - 1);
-}
-
-const char* advice(const StartConditions& c, const Core& core, const AlignmentConfig& config,
-                   const Vector3d& sigma) {
-  switch (core.phase()) {
-    case AlignmentPhase::aligned:
-    case AlignmentPhase::none:
-      return "";
-    case AlignmentPhase::fine:
-      if (sigma.z() > config.aligned_heading_sigma_rad)
-        return "Turn by 90 degrees or more and change speed: the heading is not yet known well enough.";
-      return "Hold on: roll and pitch are settling.";
-    default:
-      break;
-  }
-  if (config.mode == StartMode::given || config.mode == StartMode::air_drop)
-    return "Waiting for the state that it is to start from.";
-  if (config.mode == StartMode::in_motion) return "Move straight with a GPS fix until the course is steady.";
-  if (!c.slow) return "Stop the vehicle, or let it run straight with GPS.";
-  if (!c.quiet) return "Keep the vehicle quiet: it moves too much to be levelled.";
-  if (!c.window_full) return "Keep the vehicle quiet.";
-  if (!c.position) return "A position is missing: wait for a GPS fix or set one.";
-  if (!c.heading) return "A heading is missing: check the compass or give one.";
-  return "The gyro is not good enough to find north: give a heading.";
-}
-
-const char* drop_advice(const DropAlignment& drop) {
-  using C = StabilityCondition;
-  switch (drop.phase()) {
-    case AlignmentPhase::aligned:
-      return "";
-    case AlignmentPhase::coarse:
-    case AlignmentPhase::fine:
-      return drop.consistent() ? "Hold on: roll and pitch are being refined."
-                               : "Log, depth and inertial unit contradict each other: run straight.";
-    case AlignmentPhase::averaging:
-      return "Hold course, depth and speed.";
-    default:
-      break;
-  }
-  if (!drop.wet()) return "Waiting for the water: the depth sensor reports none yet.";
-  const StabilityGate& gate = drop.gate();
-  const auto met = [&gate](C condition) { return gate.watched(condition).met(); };
-  switch (drop.missing()) {
-    case StabilityReset::no_depth:
-      return "The depth is missing: everything begins anew when it is back.";
-    case StabilityReset::no_speed:
-      return "The propulsor speed is missing: everything begins anew when it is back.";
-    default:
-      break;
-  }
-  if (!met(C::depth)) return "Go to the set depth and hold it within the limit.";
-  if (!met(C::roll)) return "Hold roll near zero.";
-  if (!met(C::pitch) || !met(C::force_x)) return "Level off: hold pitch near zero.";
-  if (!met(C::rate_z)) return "Run straight: it turns too fast.";
-  if (!met(C::rate_y) || !met(C::gravity)) return "Hold the pitch steady.";
-  if (!met(C::speed_slope)) return "Hold the speed steady.";
-  switch (gate.last_reset()) {
-    case StabilityReset::spread:
-      return "Hold on: the last window was too restless.";
-    case StabilityReset::disagreement:
-      return "Hold on: the last window contradicted the fine solution.";
-    case StabilityReset::gap:
-    case StabilityReset::repeated:
-    case StabilityReset::stale:
-    case StabilityReset::not_finite:
-      return "Hold on: inertial samples were missing or bad, and the window began anew.";
-    default:
-      return "Hold on.";
-  }
-}
-
-void add_condition(AlignmentStatus& out, const char* name, double value, double limit, bool met,
-                   double held_s = 0.0, double needed_s = 0.0) {
-  if (out.condition_count >= AlignmentStatus::kMaxConditions) return;
-  AlignmentCondition& one = out.conditions[out.condition_count++];
-  one.name = name;
-  one.value = value;
-  one.limit = limit;
-  one.met = met;
-  one.held_s = held_s;
-  one.needed_s = needed_s;
-}
-
-/// Each condition of the run, then how far the averages and the fine solution are.
-void fill_drop(const DropAlignment& drop, AlignmentStatus& out) {
-  for (std::size_t i = 0; i < kStabilityConditions; ++i) {
-    const auto condition = static_cast<StabilityCondition>(i);
-    const StabilityGate::Watched& one = drop.gate().watched(condition);
-    add_condition(out, to_string(condition).data(), one.value, one.limit, one.met(), one.held_s,
-                  one.needed_s);
-  }
-  const Vector3d sigma = drop.rpy_sigma_rad();
-  const double limit = drop.config().aligned_tilt_sigma_rad;
-  const double hold = drop.config().aligned_hold_s;
-  add_condition(out, "roll_sigma_rad", sigma.x(), limit, sigma.x() <= limit, drop.held_s(), hold);
-  add_condition(out, "pitch_sigma_rad", sigma.y(), limit, sigma.y() <= limit, drop.held_s(), hold);
-  out.time_to_aligned_s = drop.time_to_aligned_s();
-  set_text(out.advice, drop_advice(drop));
 }
 
 }  // namespace
@@ -216,52 +111,6 @@ void fill(const Setup& setup, const Core& core, NavDetail& out) {
       one.value = core.state().x[static_cast<std::size_t>(i)];
     }
   }
-}
-
-void fill(const Setup& setup, const Core& core, AlignmentStatus& out) {
-  const AlignmentConfig& config = setup.config.alignment;
-  out.phase = core.phase();
-  out.in_phase_s = to_seconds(core.now_ns() - core.phase_since_ns());
-  out.condition_count = 0;
-  const Vector3d sigma = core.rpy_sigma_rad();
-  out.rpy_sigma_rad = geo::arr(sigma);
-  out.time_to_aligned_s = kUnknown;
-  if (core.dropping()) {
-    fill_drop(core.drop(), out);
-    return;
-  }
-  const StartConditions c = core.conditions();
-  if (core.navigating()) {
-    const double held =
-        core.aligned_hold_since_ns() == 0 ? 0.0 : to_seconds(core.now_ns() - core.aligned_hold_since_ns());
-    const auto sigma_condition = [&](const char* name, double value, double limit) {
-      add_condition(out, name, value, limit, value <= limit, held, config.aligned_hold_s);
-    };
-    sigma_condition("roll_sigma_rad", sigma.x(), config.aligned_tilt_sigma_rad);
-    sigma_condition("pitch_sigma_rad", sigma.y(), config.aligned_tilt_sigma_rad);
-    sigma_condition("yaw_sigma_rad", sigma.z(), config.aligned_heading_sigma_rad);
-    if (core.phase() == AlignmentPhase::aligned) {
-      out.time_to_aligned_s = 0.0;
-    } else if (core.aligned_hold_since_ns() != 0) {
-      out.time_to_aligned_s = std::max(0.0, config.aligned_hold_s - held);
-    }
-  } else if (config.mode != StartMode::given && config.mode != StartMode::air_drop) {
-    const RestWindow& window = core.window();
-    const double held = window.duration_s();
-    const auto rest_condition = [&](const char* name, double value, double limit, bool met) {
-      add_condition(out, name, value, limit, met, held, config.averaging_s);
-    };
-    rest_condition("rate_spread_rad_s", window.rate_spread_rad_s(), config.rate_spread_rad_s,
-                   window.rate_spread_rad_s() <= config.rate_spread_rad_s);
-    rest_condition("force_spread_m_s2", window.force_spread_m_s2(), config.force_spread_m_s2,
-                   window.force_spread_m_s2() <= config.force_spread_m_s2);
-    rest_condition("gps_speed_m_s", core.gps_speed_m_s(), config.max_speed_m_s, c.slow);
-    add_condition(out, "heading_known", c.heading ? 1.0 : 0.0, 1.0, c.heading);
-    add_condition(out, "position_known", c.position ? 1.0 : 0.0, 1.0, c.position);
-    if (c.quiet && c.slow && c.heading && c.position)
-      out.time_to_aligned_s = std::max(0.0, config.averaging_s - held) + config.aligned_hold_s;
-  }
-  set_text(out.advice, advice(c, core, config, sigma));
 }
 
 Verdict verdict_of(const SampleHeader& header, SourceKind source, const Judgement& judgement) {

@@ -19,7 +19,7 @@ void ForecastWatch::add(const Forecast& forecast, const Instant& now) {
   const auto count = std::min<std::size_t>(forecast.limit_count, Forecast::kMaxLimits);
   for (std::size_t i = 0; i < count; ++i) {
     const ForecastLimit& limit = forecast.limits[i];
-    if (limit.name != config_.limit || config_.limit.empty()) continue;
+    if (limit.name != config_.limit || config_.limit.empty() || !limit.without.empty()) continue;
     const bool gap = !fresh(now);
     heard_ = true;
     heard_ns_ = now.monotonic_ns;

@@ -117,6 +117,15 @@ struct UsblConfig : SensorCommon {
   double outlier_m = 40.0;                  ///< multipath
   double minimum_depth_m = 1.0;             ///< of the transponder; shallower it is not heard
   std::array<double, 3> ship_N_m{0, 0, 5};  ///< transceiver: north, east of the start, down from the surface
+  std::array<double, 3> ship_velocity_N_m_s{0, 0, 0};
+  std::array<double, 3> ship_rpy_rad{0, 0, 0};
+  /// What is sent: the place; components along N or along the ship; range and direction along the ship; or
+  /// range and direction of a beacon in the ship's place along the vehicle, which carries the transceiver.
+  enum class Output { geodetic, ned, vessel, range_bearing, inverted };
+  Output output = Output::geodetic;
+  double ship_sigma_m = 0.0;            ///< of the ship's place as it is sent, each axis
+  double angle_sigma_rad = 0.005;       ///< of a direction, across it
+  double misalignment_sigma_rad = 0.0;  ///< of the transceiver's axes, each, drawn once a run
 };
 
 struct PropulsionConfig : SensorCommon {

@@ -52,44 +52,6 @@ HeadingSample HeadingModel::sample(const TruthPoint& point) {
   return out;
 }
 
-UsblModel::UsblModel(const UsblConfig& config, const Scenario& scenario, std::uint64_t seed)
-    : config_(config), random_(seed, "usbl"), surface_altitude_m_(scenario.environment.surface_altitude_m) {
-  const geo::Geodetic ship =
-      geo::moved_by({scenario.start.latitude_rad, scenario.start.longitude_rad, surface_altitude_m_},
-                    geo::vec(config.ship_N_m));
-  ship_latitude_rad_ = ship.latitude_rad;
-  ship_longitude_rad_ = ship.longitude_rad;
-  ship_altitude_m_ = ship.altitude_m;
-}
-
-std::optional<UsblSample> UsblModel::sample(const TruthPoint& point) {
-  const TruthPoint transponder = at_lever(point, geo::vec(config_.lever_B_m));
-  const geo::Geodetic at{transponder.latitude_rad, transponder.longitude_rad, transponder.altitude_m};
-  const double range_m =
-      geo::difference_N({ship_latitude_rad_, ship_longitude_rad_, ship_altitude_m_}, at).norm();
-  const double sigma = std::hypot(config_.floor_m, config_.range_fraction * range_m);
-  Vector3d error{random_.normal(sigma), random_.normal(sigma), random_.normal(sigma)};
-  const double bearing = random_.uniform(0.0, 6.283185307179586);
-  if (random_.chance(config_.outlier_probability)) {
-    error += config_.outlier_m * Vector3d(std::cos(bearing), std::sin(bearing), 0.0);
-  }
-  if (transponder.depth_m < config_.minimum_depth_m) return std::nullopt;
-  const geo::Geodetic fix = geo::moved_by(at, error);
-  UsblSample out;
-  out.frame = UsblFrame::geodetic;
-  out.transponder = "B01";
-  out.latitude_rad = fix.latitude_rad;
-  out.longitude_rad = fix.longitude_rad;
-  out.depth_m = surface_altitude_m_ - fix.altitude_m;
-  out.sigma_m = sigma;
-  out.travel_time_s = range_m / 1500.0;
-  return out;
-}
-
-double UsblModel::latency_s() {
-  return random_.uniform(config_.latency_s, std::max(config_.latency_s, config_.maximum_latency_s));
-}
-
 PropulsionModel::PropulsionModel(const PropulsionConfig& config, std::uint64_t seed)
     : config_(config), random_(seed, "propulsion"), scale_(random_.normal(config.scale_sigma)) {}
 

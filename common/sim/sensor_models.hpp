@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "geo/wgs84.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
 #include "samples/depth.hpp"
@@ -116,7 +117,7 @@ class HeadingModel {
   double bias_rad_;
 };
 
-/// Fixes of the vehicle's transponder from a ship that lies at a fixed place, as geodetic positions.
+/// Acoustic fixes between the vehicle and a ship that lies still or keeps its course.
 class UsblModel {
  public:
   UsblModel(const UsblConfig& config, const Scenario& scenario, std::uint64_t seed);
@@ -126,12 +127,14 @@ class UsblModel {
   double latency_s();
 
  private:
+  void relative(UsblSample& out, const TruthPoint& transponder, const geo::Geodetic& ship,
+                const geo::Geodetic& heard, double sigma_m);
+
   UsblConfig config_;
   Random random_;
-  double ship_latitude_rad_ = 0.0;
-  double ship_longitude_rad_ = 0.0;
-  double ship_altitude_m_ = 0.0;
+  geo::Geodetic start_;  ///< of the ship's transceiver
   double surface_altitude_m_ = 0.0;
+  Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();  ///< from the transceiver's true axes
 };
 
 class PropulsionModel {

@@ -203,7 +203,7 @@ estimation::EngineConfig survey_config(const SurveyCase& one, SurveyFilter filte
   states.dvl_misalignment_sigma_rad = one.uncalibrated ? kInjectedYaw_rad : kDvlMisalignment_rad;
   states.dvl_bias_sigma_m_s = kDvlBias_m_s;
   states.current_sigma_m_s = 0.3;
-  states.current_time_constant_s = 1e7;  // it does not change here
+  states.current_time_constant_s = 0.0;  // it does not change here
   states.depth_bias_sigma_m = kDepthBias_m;
   states.surface_altitude_m = kSurface_m;
   states.surface_altitude_sigma_m = 5.0;

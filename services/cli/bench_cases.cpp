@@ -1,12 +1,14 @@
 #include "cli/bench_cases.hpp"
 
-#include <optional>
+#include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "cli/bench_floor.hpp"
 #include "cli/bench_hydro.hpp"
+#include "cli/bench_updates.hpp"
 #include "cli/bench_vehicle.hpp"
 #include "cli/command.hpp"
-#include "estimation/aiding/registry.hpp"
 #include "estimation/core.hpp"
 
 namespace fathom::cli {
@@ -16,27 +18,6 @@ using estimation::Core;
 using estimation::Setup;
 
 constexpr int kPredictions = 400;
-constexpr int kUpdates = 40;
-
-/// A navigator that has been under way for a while, with the covariance that this makes: everything is
-/// correlated with everything that can be.
-Core settled(const Setup& setup, const BenchVehicle& vehicle) {
-  Core core(setup);
-  core.start(vehicle.start(), kNsPerSecond);
-  estimation::ImuStep step;
-  step.increments.dt_s = 0.01;
-  for (int k = 0; k < 3000; ++k) {
-    step.from_ns = core.now_ns();
-    step.to_ns = step.from_ns + 10'000'000;
-    step.increments.dtheta_rad = {1e-4, 2e-4, 2e-3};
-    step.increments.dv_m_s = {1e-3, -2e-3, -0.098};
-    step.increments.dtheta_before_rad = step.increments.dtheta_rad;
-    step.increments.dv_before_m_s = step.increments.dv_m_s;
-    core.advance(step, step.to_ns);
-    core.finish(step);
-  }
-  return core;
-}
 
 BenchRow predict(const std::string& configuration, int rounds) {
   const BenchVehicle vehicle(configuration, 100.0);
@@ -61,111 +42,6 @@ BenchRow predict(const std::string& configuration, int rounds) {
         core.finish(step);
       },
       [&] { floor->predict(); });
-}
-
-/// A sample with which a model of this source can do something.
-std::optional<estimation::AnySample> sample_of(SourceKind source, const geo::Geodetic& at) {
-  switch (source) {
-    case SourceKind::gps: {
-      GpsSample s;
-      s.fix = GpsFix::fix_3d;
-      s.latitude_rad = at.latitude_rad;
-      s.longitude_rad = at.longitude_rad;
-      s.altitude_m = at.altitude_m;
-      s.velocity_N_m_s = {1.7, 0.9, 0.0};
-      return s;
-    }
-    case SourceKind::dvl: {
-      DvlSample s;
-      s.velocity_D_m_s = {2.0, 0.1, 0.0};
-      return s;
-    }
-    case SourceKind::depth: {
-      DepthSample s;
-      s.depth_m = 20.0;
-      return s;
-    }
-    case SourceKind::heading: {
-      HeadingSample s;
-      s.heading_rad = 0.5;
-      return s;
-    }
-    case SourceKind::usbl: {
-      UsblSample s;
-      s.latitude_rad = at.latitude_rad;
-      s.longitude_rad = at.longitude_rad;
-      s.depth_m = 20.0;
-      s.sigma_m = 2.0;
-      return s;
-    }
-    case SourceKind::airspeed: {
-      AirspeedSample s;
-      s.airspeed_m_s = 20.0;
-      return s;
-    }
-    case SourceKind::propulsion: {
-      PropulsionSample s;
-      s.rpm = 1000.0;
-      return s;
-    }
-    default:
-      return std::nullopt;
-  }
-}
-
-/// A DVL that gives its beams and no vector.
-estimation::AnySample beams_only() {
-  DvlSample s;
-  s.beam_velocity_m_s = {1.0, -1.0, 0.0, 0.0};
-  s.beam_angle_rad = 0.5236;
-  return s;
-}
-
-/// One aiding update of each model: its innovation and H, S, and the covariance and state behind it.
-void updates(int rounds, const std::function<void(const BenchRow&)>& done) {
-  const BenchVehicle vehicle("full", 100.0);
-  const Setup setup(vehicle.config());
-  const Core base = settled(setup, vehicle);
-  estimation::ErrorFilter filter = base.filter();
-  const int states = setup.index.size();
-  for (const estimation::AidingEntry& entry : estimation::aiding_registry()) {
-    estimation::SensorConfig sensor = estimation::default_sensor(entry.source, "sensor");
-    sensor.lever_B_m = {0.4, 0.1, 0.3};
-    sensor.scale_m_s_per_rpm = 0.002;
-    const auto observe = [&](const estimation::AnySample& sample, estimation::Observation& out) {
-      const estimation::AidingState state(setup.index, base.state(), base.rate_B_rad_s(), 0.0);
-      return entry.observe({state, sensor, 0.0}, sample, out);
-    };
-    auto sample = sample_of(entry.source, base.state().nav.position);
-    if (!sample) continue;
-    estimation::Observation probe;
-    if (observe(*sample, probe) != estimation::Usable::yes && entry.source == SourceKind::dvl) {
-      sample = beams_only();
-      sensor.use_beams = true;
-      probe = {};
-      (void)observe(*sample, probe);
-    }
-    if (probe.rows == 0) continue;
-    const auto floor = dense_floor(states, probe.rows);
-    bool good = true;
-    done(compare(
-        "update_" + std::string(entry.name) + "_full", rounds, kUpdates,
-        [&] {
-          filter = base.filter();
-          floor->reset();
-        },
-        [&] {
-          estimation::Observation observation;
-          (void)observe(*sample, observation);
-          observation.list_columns(states);
-          estimation::InnovationStatistics statistics;
-          filter.statistics(observation, 1.0, statistics);
-          std::array<double, estimation::kMaxStates> x{};
-          good = filter.update(observation, statistics, x) && good;
-        },
-        [&] { floor->update(); }));
-    if (!good) throw Failure(ExitCode::runtime_failure, std::string("bench: ") + entry.name + ": refused");
-  }
 }
 
 /// A stream of samples of a whole minute through the engine, in inertial samples per second; the floor is the
@@ -206,8 +82,9 @@ BenchRow solve(const std::string& configuration, int rounds) {
   return row;
 }
 
-/// The one inertial sample behind a late fix, beside an ordinary one times the number of steps that lie
-/// between; and how many steps were repeated, beside the steps of the delay.
+/// The inertial samples behind a late fix: the dearest of them and all together, beside an ordinary one times
+/// the number of steps that lie between; how many steps were repeated, beside the steps of the delay; and
+/// over how many samples that was spread.
 void late_fix(const std::string& configuration, double rate_hz, double late_s, int rounds,
               const std::function<void(const BenchRow&)>& done) {
   BenchVehicle vehicle(configuration, rate_hz);
@@ -226,7 +103,9 @@ void late_fix(const std::string& configuration, double rate_hz, double late_s, i
   steps(static_cast<int>(8.0 * rate_hz));
   std::vector<double> costs;
   std::vector<double> ordinary;
+  std::vector<double> total;
   std::vector<double> repeated;
+  std::vector<double> samples;
   const auto next = [&] {
     vehicle.step(now);
     return time_us([&] { (void)feed(engine, now.front()); });
@@ -237,7 +116,20 @@ void late_fix(const std::string& configuration, double rate_hz, double late_s, i
     ordinary.push_back(next());
     const std::uint64_t before = engine.repeated_steps();
     engine.add(vehicle.late_fix(late_s));
-    costs.push_back(next());
+    double dearest = 0.0;
+    double sum = 0.0;
+    int taken = 0;
+    for (std::uint64_t last = before - 1; last != engine.repeated_steps();) {
+      last = engine.repeated_steps();
+      const double cost = next();
+      if (last == engine.repeated_steps()) break;  // an ordinary one again
+      dearest = std::max(dearest, cost);
+      sum += cost;
+      ++taken;
+    }
+    costs.push_back(dearest);
+    total.push_back(sum);
+    samples.push_back(taken);
     repeated.push_back(static_cast<double>(engine.repeated_steps() - before));
     while (engine.next_verdict(verdict)) {
     }
@@ -246,15 +138,19 @@ void late_fix(const std::string& configuration, double rate_hz, double late_s, i
   std::snprintf(name.data(), name.size(), "late_fix_%gs_%s_%ghz", late_s, configuration.c_str(), rate_hz);
   const double count = late_s * rate_hz;
   const double floor = median(ordinary) * count;
-  done({name.data(), "us", median(costs), floor, median(costs) / floor});
-  done({std::string(name.data()) + "_steps", "steps", median(repeated), count, median(repeated) / count});
+  const std::string all(name.data());
+  done({all, "us", median(costs), floor, median(costs) / floor});
+  done({all + "_total", "us", median(total), floor, median(total) / floor});
+  done({all + "_steps", "steps", median(repeated), count, median(repeated) / count});
+  const double least = std::ceil(count / vehicle.config().replay_steps_per_sample);
+  done({all + "_samples", "samples", median(samples), least, median(samples) / least});
 }
 
 }  // namespace
 
 void run_bench(int rounds, const std::function<void(const BenchRow&)>& done) {
   for (const char* configuration : {"gps_ins15", "hybrid25", "full"}) done(predict(configuration, rounds));
-  updates(rounds, done);
+  bench_updates(rounds, done);
   bench_hydro(rounds, done);
   const int few = std::max(1, rounds / 20);
   for (const char* configuration : {"gps_ins15", "standard", "hybrid25", "full"})

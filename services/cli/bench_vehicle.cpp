@@ -104,6 +104,24 @@ void BenchVehicle::step(std::vector<Sample>& out) {
   ++step_;
 }
 
+estimation::Core settled(const estimation::Setup& setup, const BenchVehicle& vehicle) {
+  estimation::Core core(setup);
+  core.start(vehicle.start(), kNsPerSecond);
+  estimation::ImuStep step;
+  step.increments.dt_s = 0.01;
+  for (int k = 0; k < 3000; ++k) {
+    step.from_ns = core.now_ns();
+    step.to_ns = step.from_ns + 10'000'000;
+    step.increments.dtheta_rad = {1e-4, 2e-4, 2e-3};
+    step.increments.dv_m_s = {1e-3, -2e-3, -0.098};
+    step.increments.dtheta_before_rad = step.increments.dtheta_rad;
+    step.increments.dv_before_m_s = step.increments.dv_m_s;
+    core.advance(step, step.to_ns);
+    core.finish(step);
+  }
+  return core;
+}
+
 UsblSample BenchVehicle::late_fix(double late_s) const {
   UsblSample usbl;
   usbl.header = header("usbl0", now_ns_ - from_seconds(late_s));

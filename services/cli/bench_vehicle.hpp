@@ -3,6 +3,7 @@
 #include <variant>
 #include <vector>
 
+#include "estimation/core.hpp"
 #include "estimation/fusion_engine.hpp"
 
 namespace fathom::cli {
@@ -36,6 +37,10 @@ class BenchVehicle {
   std::array<double, 3> rate_B_rad_s_{};
   std::array<double, 3> force_B_m_s2_{};
 };
+
+/// A navigator that has been under way for a while, with the covariance that this makes: everything is
+/// correlated with everything that can be.
+[[nodiscard]] estimation::Core settled(const estimation::Setup& setup, const BenchVehicle& vehicle);
 
 /// Hands one sample to the engine.
 inline bool feed(estimation::FusionEngine& engine, const BenchVehicle::Sample& sample) {

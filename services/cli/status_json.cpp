@@ -62,6 +62,7 @@ json alignment(const StatusView& view) {
   return {{"phase", to_string(status.phase)},
           {"in_phase_s", number(status.in_phase_s)},
           {"time_to_aligned_s", number(status.time_to_aligned_s)},
+          {"rpy_sigma_deg", vector3(status.rpy_sigma_rad, kDegree)},
           {"conditions", conditions},
           {"advice", status.advice.data()}};
 }

@@ -85,6 +85,30 @@ class Line {
   std::string out_;
 };
 
+/// A condition's name without its unit, and the unit that people read.
+struct Shown {
+  std::string_view name;
+  std::string_view unit_name;
+  double unit;
+};
+
+Shown shown_of(std::string_view name) {
+  struct Unit {
+    std::string_view suffix;
+    std::string_view name;
+    double size;
+  };
+  static constexpr std::array<Unit, 5> kUnits{{{"_rad_s", " deg/s", kDegree},
+                                               {"_rad", " deg", kDegree},
+                                               {"_m_s2", " m/s2", 1.0},
+                                               {"_m_s", " m/s", 1.0},
+                                               {"_m", " m", 1.0}}};
+  for (const Unit& one : kUnits)
+    if (name.ends_with(one.suffix))
+      return {name.substr(0, name.size() - one.suffix.size()), one.name, one.size};
+  return {name, "", 1.0};
+}
+
 Style style_of(Presence presence) {
   if (presence == Presence::present) return Style::good;
   return presence == Presence::missing ? Style::bad : Style::warn;
@@ -170,6 +194,7 @@ class Table {
       return;
     }
     const AlignmentStatus& status = view_.alignment->sample;
+    const auto& sigma = status.rpy_sigma_rad;
     const bool aligned = status.phase == AlignmentPhase::aligned;
     Line line = row("alignment");
     line.add(to_string(status.phase), aligned ? Style::good : Style::warn);
@@ -178,15 +203,26 @@ class Table {
       line.add(", aligned in about " + number("%.0f", status.time_to_aligned_s) + " s");
     }
     put(line);
+    if (known(sigma[0])) {
+      put(row("  1 sigma")
+              .add("roll " + number("%.2f", sigma[0] / kDegree) + "  pitch " +
+                   number("%.2f", sigma[1] / kDegree) + "  yaw " + number("%.2f", sigma[2] / kDegree) +
+                   " deg"));
+    }
     if (aligned) return;
     const auto count = std::min<std::size_t>(status.condition_count, AlignmentStatus::kMaxConditions);
     for (std::size_t i = 0; i < count; ++i) {
       const AlignmentCondition& condition = status.conditions[i];
-      put(row("")
-              .add(condition.met ? "met     " : "waiting ", condition.met ? Style::good : Style::warn)
-              .add(condition.name.str() + " " + number("%.4g", condition.value) + " (limit " +
-                   number("%.4g", condition.limit) + "), held " + number("%.1f", condition.held_s) + " of " +
-                   number("%.1f", condition.needed_s) + " s"));
+      const Shown shown = shown_of(condition.name.view());
+      Line one = row("");
+      one.add(condition.met ? "met     " : "waiting ", condition.met ? Style::good : Style::warn);
+      one.add(std::string(shown.name) + " " + number("%.3g", condition.value / shown.unit) + " (limit " +
+              number("%.3g", condition.limit / shown.unit) + std::string(shown.unit_name) + ")");
+      if (condition.needed_s > 0.0) {
+        one.add(", held " + number("%.1f", condition.held_s) + " of " + number("%.1f", condition.needed_s) +
+                " s");
+      }
+      put(one);
     }
     if (status.advice[0] != '\0') put(row("").add(status.advice.data()));
   }

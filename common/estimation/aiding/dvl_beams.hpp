@@ -42,25 +42,15 @@ class DvlBeams {
   [[nodiscard]] Vector4 predicted() const { return along_D_ * velocity_.predicted(); }  // (AID-BEAM-1)
   void jacobian(Jacobian& h) const {
     // (AID-BEAM-2)
-    Projection rows{h, along_D_};
+    ProjectedRows<4> rows{h, along_D_};
     velocity_.jacobian(rows);
   }
   [[nodiscard]] Vector4 noise() const { return Vector4::Constant(beam_share_ * velocity_.noise().x()); }
 
  private:
-  using Matrix43 = Eigen::Matrix<double, 4, 3>;
-  struct Projection {
-    Jacobian& h;
-    const Matrix43& along_D;
-    template <class Derived>
-    void block(Group group, const Eigen::MatrixBase<Derived>& values) {
-      h.block(group, along_D * values);
-    }
-  };
-
   DvlVelocity velocity_;
   const DvlSample& sample_;
-  Matrix43 along_D_;
+  Eigen::Matrix<double, 4, 3> along_D_;
   double beam_share_ = 0.0;
 };
 

@@ -13,7 +13,22 @@ namespace fathom::estimation {
   return sample.heading_rad + variation;
 }
 
-/// Heading of the vehicle with the compass's deviation curve A to E (AID-HDG-1..2).
+/// Whether a start may take its heading from this sensor.
+[[nodiscard]] inline bool heading_wanted(const AlignmentConfig& alignment, const SensorConfig& sensor) {
+  if (alignment.heading_source == HeadingSource::two_antenna) return sensor.two_antenna;
+  return alignment.heading_source != HeadingSource::compass || !sensor.two_antenna;
+}
+
+/// What a heading at the start may be wrong by: a compass as configured for all of them, two antennas as they
+/// say themselves.
+[[nodiscard]] inline double heading_sigma(const AlignmentConfig& alignment, const SensorConfig& sensor,
+                                          const HeadingSample& sample) {
+  return sensor.two_antenna ? sigma_of(sensor.sigma[0], sample.sigma_rad, sensor.use_sample_sigma)
+                            : alignment.compass_sigma_rad;
+}
+
+/// Heading of the vehicle with the compass's deviation curve A to E (AID-HDG-1..2). The baseline between two
+/// antennas has none.
 class Heading {
  public:
   static constexpr const char* kName = "heading";
@@ -34,6 +49,7 @@ class Heading {
   [[nodiscard]] Vector3 predicted() const {
     // (AID-HDG-1)
     const double psi = rpy_.z();
+    if (sensor_.two_antenna) return {psi, 0.0, 0.0};
     return {psi + s_.value(Group::heading_bias, 0) + s_.value(Group::heading_deviation, 0) * std::sin(psi) +
                 s_.value(Group::heading_deviation, 1) * std::cos(psi) +
                 s_.value(Group::heading_deviation, 2) * std::sin(2.0 * psi) +
@@ -45,14 +61,16 @@ class Heading {
     const double psi = rpy_.z();
     const double sine = std::sin(psi);
     const double cosine = std::cos(psi);
-    const double slope = 1.0 + s_.value(Group::heading_deviation, 0) * cosine -
-                         s_.value(Group::heading_deviation, 1) * sine +
-                         2.0 * s_.value(Group::heading_deviation, 2) * std::cos(2.0 * psi) -
-                         2.0 * s_.value(Group::heading_deviation, 3) * std::sin(2.0 * psi);
+    const double curve = sensor_.two_antenna ? 0.0 : 1.0;
+    const double slope = 1.0 + curve * (s_.value(Group::heading_deviation, 0) * cosine -
+                                        s_.value(Group::heading_deviation, 1) * sine +
+                                        2.0 * s_.value(Group::heading_deviation, 2) * std::cos(2.0 * psi) -
+                                        2.0 * s_.value(Group::heading_deviation, 3) * std::sin(2.0 * psi));
     const double tilt = std::tan(rpy_.y());
     h.set(0, Group::attitude, 0, -slope * cosine * tilt);
     h.set(0, Group::attitude, 1, -slope * sine * tilt);
     h.set(0, Group::attitude, 2, -slope);
+    if (sensor_.two_antenna) return;
     h.set(0, Group::heading_bias, 0, -1.0);
     h.set(0, Group::heading_deviation, 0, -sine);
     h.set(0, Group::heading_deviation, 1, -cosine);

@@ -47,7 +47,13 @@ struct AidingState {
 };
 
 /// What a model can do with a sample.
-enum class Usable : std::uint8_t { yes, out_of_range, unknown_frame, not_estimated };
+enum class Usable : std::uint8_t {
+  yes,
+  out_of_range,
+  unknown_frame,
+  not_estimated,
+  other_model,  ///< the sample is for another model of its source: says nothing against it
+};
 
 using Vector3 = Eigen::Vector3d;
 using Matrix3 = Eigen::Matrix3d;
@@ -75,6 +81,17 @@ class Jacobian {
   const StateIndex& index_;
   Observation& observation_;
   int first_row_;
+};
+
+/// Takes the three rows of a vector model block by block and passes on what is seen along `along`.
+template <int Rows>
+struct ProjectedRows {
+  Jacobian& h;
+  const Eigen::Matrix<double, Rows, 3>& along;
+  template <class Derived>
+  void block(Group group, const Eigen::MatrixBase<Derived>& values) {
+    h.block(group, along * values);
+  }
 };
 
 /// Appends the components of a model that are known to an observation. A model offers

@@ -12,6 +12,8 @@
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/speed_log.hpp"
 #include "estimation/aiding/usbl_position.hpp"
+#include "estimation/aiding/usbl_range_bearing.hpp"
+#include "estimation/aiding/usbl_vector.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -40,14 +42,14 @@ Usable gps_velocity(const AidingInput& in, const AnySample& any, Observation& ou
 
 Usable dvl_velocity(const AidingInput& in, const AnySample& any, Observation& out) {
   const auto& sample = std::get<DvlSample>(any);
-  if (DvlBeams::present(in.sensor, sample)) return Usable::not_estimated;
+  if (DvlBeams::present(in.sensor, sample)) return Usable::other_model;
   const Usable usable = DvlVelocity::usable(in.state, sample);
   return usable == Usable::yes ? append(DvlVelocity(in.state, in.sensor, sample), in, out) : usable;
 }
 
 Usable dvl_beams(const AidingInput& in, const AnySample& any, Observation& out) {
   const auto& sample = std::get<DvlSample>(any);
-  if (!DvlBeams::present(in.sensor, sample)) return Usable::not_estimated;
+  if (!DvlBeams::present(in.sensor, sample)) return Usable::other_model;
   const Usable usable = DvlBeams::usable(in.state, sample);
   if (usable != Usable::yes) return usable;
   out.each_alone = true;
@@ -69,9 +71,28 @@ Usable heading(const AidingInput& in, const AnySample& any, Observation& out) {
 
 Usable usbl_position(const AidingInput& in, const AnySample& any, Observation& out) {
   const auto& sample = std::get<UsblSample>(any);
+  if (sample.frame != UsblFrame::geodetic) return Usable::other_model;
   const Usable usable = UsblPosition::usable(sample);
   return usable == Usable::yes
              ? append(UsblPosition(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
+             : usable;
+}
+
+Usable usbl_vector(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<UsblSample>(any);
+  if (sample.frame == UsblFrame::geodetic || UsblRangeBearing::present(sample)) return Usable::other_model;
+  const Usable usable = UsblVector::usable(in.sensor, sample);
+  return usable == Usable::yes
+             ? append(UsblVector(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
+             : usable;
+}
+
+Usable usbl_range_bearing(const AidingInput& in, const AnySample& any, Observation& out) {
+  const auto& sample = std::get<UsblSample>(any);
+  if (sample.frame == UsblFrame::geodetic || !UsblRangeBearing::present(sample)) return Usable::other_model;
+  const Usable usable = UsblRangeBearing::usable(in.sensor, sample);
+  return usable == Usable::yes
+             ? append(UsblRangeBearing(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
              : usable;
 }
 
@@ -114,7 +135,7 @@ Usable model_velocity(const AidingInput& in, const AnySample& any, Observation& 
                                : usable;
 }
 
-constexpr std::array<AidingEntry, 12> kRegistry{{
+constexpr std::array<AidingEntry, 14> kRegistry{{
     {SourceKind::gps, GpsPosition::kName, gps_position},
     {SourceKind::gps, GpsVelocity::kName, gps_velocity},
     {SourceKind::dvl, DvlVelocity::kName, dvl_velocity},
@@ -122,6 +143,8 @@ constexpr std::array<AidingEntry, 12> kRegistry{{
     {SourceKind::depth, Depth::kName, depth},
     {SourceKind::heading, Heading::kName, heading},
     {SourceKind::usbl, UsblPosition::kName, usbl_position},
+    {SourceKind::usbl, UsblVector::kName, usbl_vector},
+    {SourceKind::usbl, UsblRangeBearing::kName, usbl_range_bearing},
     {SourceKind::airspeed, Airspeed::kName, airspeed},
     {SourceKind::airspeed, FlowAngles::kName, flow_angles},
     {SourceKind::airspeed, BaroAltitude::kName, baro_altitude},

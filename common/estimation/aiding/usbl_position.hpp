@@ -7,7 +7,7 @@ namespace fathom::estimation {
 
 /// Absolute acoustic fix of the vehicle's transponder: NED metres relative to the estimated position of the
 /// IMU (AID-USBL-1..2). Where the transceiver's place is configured, its axes may be misaligned: the fix is
-/// turned about that place. A fix relative to a transceiver whose own position is not known cannot be placed.
+/// turned about that place.
 class UsblPosition {
  public:
   static constexpr const char* kName = "usbl_position";
@@ -29,7 +29,6 @@ class UsblPosition {
   }
 
   [[nodiscard]] static Usable usable(const UsblSample& sample) {
-    if (sample.frame != UsblFrame::geodetic) return Usable::unknown_frame;
     const bool placed = std::abs(sample.latitude_rad) <= 1.5707963267948966 &&
                         std::abs(sample.longitude_rad) <= 6.2831853071795865;
     const bool deep = !known(sample.depth_m) || (sample.depth_m > -50.0 && sample.depth_m < 12000.0);

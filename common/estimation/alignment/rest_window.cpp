@@ -38,7 +38,14 @@ void RestWindow::add(double dt_s, const Eigen::Vector3d& rate_B_rad_s, const Eig
   turn_time_ += duration_s_ * turn;
 }
 
-void RestWindow::add_heading(double heading_rad) {
+void RestWindow::add_heading(double heading_rad, double sigma_rad, bool two_antenna) {
+  if (two_antenna_ && !two_antenna) return;
+  if (two_antenna && !two_antenna_) {
+    heading_sine_ = heading_cosine_ = heading_sigma_rad_ = 0.0;
+    headings_ = 0;
+    two_antenna_ = true;
+  }
+  heading_sigma_rad_ = std::max(heading_sigma_rad_, sigma_rad);
   const double start = heading_rad - geo::to_rpy(q_start_now_).z();
   heading_sine_ += std::sin(start);
   heading_cosine_ += std::cos(start);

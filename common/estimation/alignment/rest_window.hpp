@@ -22,14 +22,17 @@ class RestWindow {
   void reset() { *this = RestWindow(); }
   /// One inertial interval: mean rate and specific force along B over dt_s.
   void add(double dt_s, const Eigen::Vector3d& rate_B_rad_s, const Eigen::Vector3d& force_B_m_s2);
-  /// True heading measured at the end of the last interval added.
-  void add_heading(double heading_rad);
+  /// True heading measured at the end of the last interval added, and what it may be wrong by all through the
+  /// window. As soon as two antennas speak the compass is left out.
+  void add_heading(double heading_rad, double sigma_rad, bool two_antenna);
 
   [[nodiscard]] double duration_s() const { return duration_s_; }
   /// Largest standard deviation of any axis within the window.
   [[nodiscard]] double rate_spread_rad_s() const;
   [[nodiscard]] double force_spread_m_s2() const;
   [[nodiscard]] int headings() const { return headings_; }
+  /// Of heading_start_rad().
+  [[nodiscard]] double heading_sigma_rad() const { return heading_sigma_rad_; }
   /// Mean of the headings, each taken back to the start of the window by the gyro. Needs headings() > 0.
   [[nodiscard]] double heading_start_rad() const;
   [[nodiscard]] RestResult result() const;
@@ -49,6 +52,8 @@ class RestWindow {
   double time_square_ = 0.0;
   Eigen::Vector3d turn_time_ = Eigen::Vector3d::Zero();  ///< of rotation times time
   int headings_ = 0;
+  bool two_antenna_ = false;
+  double heading_sigma_rad_ = 0.0;
   double heading_sine_ = 0.0;
   double heading_cosine_ = 0.0;
 };

@@ -11,6 +11,8 @@ namespace fathom::estimation {
 struct UnderWay {
   TimeNs heading_ns = 0;
   double heading_rad = kUnknown;  ///< true, of the body
+  double heading_sigma_rad = kUnknown;
+  bool two_antenna = false;  ///< the heading is that of two GPS antennas
   TimeNs dvl_ns = 0;
   Eigen::Vector3d dvl_velocity_B_m_s = Eigen::Vector3d::Zero();  ///< over ground
   TimeNs usbl_ns = 0;

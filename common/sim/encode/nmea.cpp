@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "codec/nmea_sentence.hpp"
+#include "geo/so3.hpp"
 
 namespace fathom::sim::encode {
 namespace {
@@ -107,6 +108,27 @@ double turn_deg(double angle_rad) {
   return angle_deg < 0.0 ? angle_deg + 360.0 : angle_deg;
 }
 
+/// What a topside sends of its ship beside the fixes: GGA of the place, HDT of the heading, as far as known.
+std::string ship_pose(const UsblSample& sample, TimeNs utc_ns) {
+  std::string out;
+  if (known(sample.station_latitude_rad) && known(sample.station_longitude_rad)) {
+    out += nmea_sentence("GPGGA," + time_text(civil_to_millisecond(utc_ns)) + "," +
+                         angle_text(sample.station_latitude_rad, 2, "NS") + "," +
+                         angle_text(sample.station_longitude_rad, 3, "EW") + ",1,10,1.0,0.0,M,0.0,M,,");
+  }
+  if (known(sample.station_rpy_rad[2])) {
+    out += nmea_sentence("HEHDT," + number(turn_deg(sample.station_rpy_rad[2]), 3) + ",T");
+  }
+  return out;
+}
+
+/// Components of a fix in the levelled axes that PSIMSSB has for a vessel.
+std::array<double, 3> levelled(const UsblSample& sample) {
+  const auto& rpy = sample.station_rpy_rad;
+  if (sample.frame != UsblFrame::vessel_frd || !known(rpy[0]) || !known(rpy[1])) return sample.relative_m;
+  return geo::arr(geo::to_matrix(geo::from_rpy({rpy[0], rpy[1], 0.0})) * geo::vec(sample.relative_m));
+}
+
 }  // namespace
 
 std::string nmea_sentence(std::string_view body) {
@@ -170,7 +192,7 @@ std::string nmea_fins(const FinsSample& sample, std::string_view talker) {
 
 std::string psimssb(const UsblSample& sample, TimeNs utc_ns) {
   const bool geodetic = sample.frame == UsblFrame::geodetic;
-  const std::array<double, 3>& r = sample.relative_m;
+  const std::array<double, 3> r = levelled(sample);
   const bool replied = geodetic ? known(sample.latitude_rad) && known(sample.longitude_rad)
                                 : known(r[0]) && known(r[1]) && known(r[2]);
   std::string position = ",,";
@@ -183,7 +205,8 @@ std::string psimssb(const UsblSample& sample, TimeNs utc_ns) {
         number(vessel ? r[1] : r[0], 3) + "," + number(vessel ? r[0] : r[1], 3) + "," + number(r[2], 3);
   }
   const char* axes = geodetic ? "R,G" : sample.frame == UsblFrame::vessel_frd ? "C,H" : "C,N";
-  return nmea_sentence("PSIMSSB," + time_text(civil_to_millisecond(utc_ns)) + "," + sample.transponder.str() +
+  return ship_pose(sample, utc_ns) +
+         nmea_sentence("PSIMSSB," + time_text(civil_to_millisecond(utc_ns)) + "," + sample.transponder.str() +
                        (replied ? ",A,," : ",V,NRy,") + axes + ",M," + position + "," +
                        number(replied ? sample.sigma_m : kUnknown, 3) + ",T," +
                        number(sample.travel_time_s, 6) + ",");

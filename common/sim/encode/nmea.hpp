@@ -32,7 +32,8 @@ namespace fathom::sim::encode {
 [[nodiscard]] std::string nmea_fins(const FinsSample& sample, std::string_view talker = "II");
 
 /// $PSIMSSB: C,H for vessel axes, C,N for north-east-down, R,G for geodetic. A sample without position is
-/// sent as a transponder that did not reply. `utc_ns` is when the fix was valid.
+/// sent as a transponder that did not reply. `utc_ns` is when the fix was valid. A station that is known goes
+/// ahead as GGA and HDT, as a topside merges them. Range and direction have no place in it.
 [[nodiscard]] std::string psimssb(const UsblSample& sample, TimeNs utc_ns);
 
 }  // namespace fathom::sim::encode

@@ -69,6 +69,7 @@ void describe(Line& line, const HeadingSample& s) {
 void describe(Line& line, const UsblSample& s) {
   line.word("usbl").integer(static_cast<int>(s.frame)).word(s.transponder.view()).real(s.latitude_rad);
   line.real(s.longitude_rad).real(s.depth_m).reals(s.relative_m).real(s.sigma_m).real(s.travel_time_s);
+  line.real(s.station_latitude_rad).real(s.station_longitude_rad).reals(s.station_rpy_rad);
 }
 
 void describe(Line& line, const PropulsionSample& s) {

@@ -58,8 +58,8 @@ void fields(Is<HeadingSample> auto& s, auto visit) {
   visit(header, a, b, c, d, e);
 }
 void fields(Is<UsblSample> auto& s, auto visit) {
-  auto& [header, a, b, c, d, e, f, g, h] = s;
-  visit(header, a, b, c, d, e, f, g, h);
+  auto& [header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = s;
+  visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
 }
 void fields(Is<AirspeedSample> auto& s, auto visit) {
   auto& [header, a, b, c] = s;
@@ -163,7 +163,7 @@ constexpr unsigned last_of<North>() {
 }
 template <>
 constexpr unsigned last_of<UsblFrame>() {
-  return static_cast<unsigned>(UsblFrame::vessel_frd);
+  return static_cast<unsigned>(UsblFrame::vehicle_frd);
 }
 template <>
 constexpr unsigned last_of<NavMode>() {

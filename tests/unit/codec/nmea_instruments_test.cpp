@@ -221,6 +221,37 @@ TEST(Psimssb, OtherCoordinatesAndOtherSentencesCarryNoSample) {
   EXPECT_EQ(run.totals.frames_ignored, 4U);
 }
 
+TEST(Psimssb, TheShipOfTheStreamGoesIntoItsRelativeFixes) {
+  const std::string ship = sentence("GPGGA,180554.00,4000.0000000,N,00130.0000000,E,1,10,1.0,3.0,M,0.0,M,,") +
+                           sentence("HEHDT,90.0,T");
+  const std::string vessel = sentence("PSIMSSB,180554.432,M44,A,,C,H,M,3.0,40.0,34.0,0.5,T,0.05,");
+  const auto decoded = [](const std::string& text) {
+    std::vector<UsblSample> out;
+    for (const auto& one : decode_text("psimssb", text).samples)
+      out.push_back(std::get<UsblSample>(one.sample));
+    return out;
+  };
+  const auto placed = decoded(ship + vessel);
+  ASSERT_EQ(placed.size(), 1U);
+  EXPECT_NEAR(placed[0].station_latitude_rad, 0.69813170, 1e-8);
+  EXPECT_NEAR(placed[0].station_longitude_rad, 0.02617994, 1e-8);
+  EXPECT_NEAR(placed[0].station_rpy_rad[2], 1.57079633, 1e-8);
+  EXPECT_EQ(placed[0].station_rpy_rad[0], 0.0);
+  // Of another time, without fix, or of nobody.
+  const std::string late = sentence("PSIMSSB,180557.432,M44,A,,C,H,M,3.0,40.0,34.0,0.5,T,0.05,");
+  EXPECT_FALSE(known(decoded(ship + late).at(0).station_latitude_rad));
+  const std::string lost = sentence("GPGGA,180554.00,,,,,0,00,,,M,,M,,");
+  EXPECT_FALSE(known(decoded(ship + lost + vessel).at(0).station_latitude_rad));
+  EXPECT_FALSE(known(decoded(vessel).at(0).station_rpy_rad[2]));
+  // A heading that is not renewed is not believed for ever.
+  EXPECT_FALSE(known(decoded(ship + vessel + vessel + vessel + vessel).at(3).station_rpy_rad[2]));
+  // Midnight lies between the two.
+  const std::string midnight =
+      sentence("GPGGA,235959.50,4000.0000000,N,00130.0000000,E,1,10,1.0,3.0,M,0.0,M,,") +
+      sentence("PSIMSSB,000000.400,M44,A,,C,N,M,3.0,40.0,34.0,0.5,T,0.05,");
+  EXPECT_TRUE(known(decoded(midnight).at(0).station_latitude_rad));
+}
+
 TEST(Psimssb, RefusesMalformedFixes) {
   EXPECT_EQ(refused("PSIMSSB,180554.432,M44,X,,C,N,M,3.0,40.0,34.0,0.5,T,0.05,"), RejectReason::field);
   EXPECT_EQ(refused("PSIMSSB,180554.432,M44,A,,C,N,M,3.0,4O.0,34.0,0.5,T,0.05,"), RejectReason::field);

@@ -77,6 +77,19 @@ Dataset sample_data() {
     usbl.longitude_rad = -2.1;
     usbl.depth_m = 40.0;
     usbl.sigma_m = 1.5;
+    if (i % 2 == 1) {
+      usbl.frame = UsblFrame::vessel_frd;
+      usbl.latitude_rad = usbl.longitude_rad = usbl.depth_m = kUnknown;
+      usbl.relative_m = {10.0 + i, -20.0, 30.0};
+      usbl.range_m = 37.0 + i;
+      usbl.bearing_rad = 0.2 * i;
+      usbl.depression_rad = 0.9;
+      usbl.sigma_rad = 0.01;
+      usbl.station_latitude_rad = 0.61;
+      usbl.station_longitude_rad = -2.11;
+      usbl.station_depth_m = 4.0;
+      usbl.station_rpy_rad = {0.01, -0.02, 1.3};
+    }
     data.airspeed.push_back({header(stamp), 20.0, 300.0, kUnknown});
     data.propulsion.push_back({header(stamp), 1500.0 + i});
     data.fins.push_back({header(stamp), 0.01 * i, -0.01 * i});
@@ -136,6 +149,17 @@ void expect_round_trip(bool gzip) {
     EXPECT_EQ(back.heading[i].north, data.heading[i].north);
     EXPECT_EQ(back.usbl[i].header.received_ns, data.usbl[i].header.received_ns);
     expect_same(back.usbl[i].sigma_m, data.usbl[i].sigma_m);
+    EXPECT_EQ(back.usbl[i].frame, data.usbl[i].frame);
+    expect_same(back.usbl[i].depth_m, data.usbl[i].depth_m);
+    expect_same(back.usbl[i].relative_m, data.usbl[i].relative_m);
+    expect_same(back.usbl[i].range_m, data.usbl[i].range_m);
+    expect_same(back.usbl[i].bearing_rad, data.usbl[i].bearing_rad);
+    expect_same(back.usbl[i].depression_rad, data.usbl[i].depression_rad);
+    expect_same(back.usbl[i].sigma_rad, data.usbl[i].sigma_rad);
+    expect_same(back.usbl[i].station_latitude_rad, data.usbl[i].station_latitude_rad);
+    expect_same(back.usbl[i].station_longitude_rad, data.usbl[i].station_longitude_rad);
+    expect_same(back.usbl[i].station_depth_m, data.usbl[i].station_depth_m);
+    expect_same(back.usbl[i].station_rpy_rad, data.usbl[i].station_rpy_rad);
     expect_same(back.airspeed.at(i).baro_altitude_m, data.airspeed[i].baro_altitude_m);
     expect_same(back.propulsion.at(i).rpm, data.propulsion[i].rpm);
     expect_same(back.fins.at(i).stern_rad, data.fins[i].stern_rad);

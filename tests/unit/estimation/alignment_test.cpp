@@ -64,6 +64,74 @@ TEST(Alignment, WithoutHeadingItLevelsAndAsksForOne) {
   EXPECT_FALSE(known(nav.latitude_rad));
 }
 
+/// The survey with a heading from two antennas beside the compass, 3 degrees apart from it.
+SurveyRun with_two_antennas(const SurveyRun::Options& options, double sigma_rad) {
+  SurveyRun run(options);
+  test::Normal normal(11);
+  std::vector<test::Sample> both;
+  for (const test::Sample& sample : run.samples) {
+    both.push_back(sample);
+    const auto* compass = std::get_if<HeadingSample>(&sample);
+    if (compass == nullptr) continue;
+    const auto k = (compass->header.stamp_ns - SurveyRun::kEpochNs) / 10'000'000;
+    HeadingSample antennas = *compass;
+    antennas.header.sensor = "gps_heading0";
+    antennas.heading_rad =
+        geo::wrap_two_pi(run.truth[static_cast<std::size_t>(k)].rpy_rad[2] + 0.3 + normal(sigma_rad));
+    antennas.sigma_rad = sigma_rad;
+    both.emplace_back(antennas);
+    auto& spoiled = std::get<HeadingSample>(both[both.size() - 2]);
+    spoiled.heading_rad = geo::wrap_two_pi(spoiled.heading_rad + 0.05);
+  }
+  run.samples = std::move(both);
+  return run;
+}
+
+EngineConfig two_antenna_config(HeadingSource source) {
+  EngineConfig config = SurveyRun::config();
+  auto antennas = default_sensor(SourceKind::heading, "gps_heading0");
+  antennas.two_antenna = true;
+  antennas.sigma = {0.002, 0.002, 0.002};
+  antennas.mounting_rpy_rad = {0.0, 0.0, 0.3};  // the front antenna is to starboard of the rear one
+  config.sensors.push_back(antennas);
+  config.alignment.heading_source = source;
+  return config;
+}
+
+TEST(Alignment, TwoAntennasStartItAtRestAsWellAsTheySay) {
+  const SurveyRun run = with_two_antennas({.duration_s = 19.0}, 0.004);
+  for (const HeadingSource source : {HeadingSource::automatic, HeadingSource::two_antenna}) {
+    FusionEngine engine(two_antenna_config(source));
+    AlignmentStatus status;
+    for (const test::Sample& sample : run.samples) {
+      test::feed(engine, sample);
+      engine.fill(status);
+      if (status.phase >= AlignmentPhase::fine) break;
+    }
+    ASSERT_GE(status.phase, AlignmentPhase::fine);
+    const NavState& nav = engine.nav_state();
+    const auto k = static_cast<std::size_t>((nav.header.stamp_ns - SurveyRun::kEpochNs) / 10'000'000);
+    // The compass is 0.05 rad and more out, and would have been taken for 0.026.
+    EXPECT_LT(std::abs(geo::wrap_pi(nav.rpy_rad[2] - run.truth[k].rpy_rad[2])), 0.006);
+    EXPECT_NEAR(status.rpy_sigma_rad[2], 0.004, 0.001);
+  }
+}
+
+TEST(Alignment, ACompassIsNotTakenForTwoAntennas) {
+  const SurveyRun run = with_two_antennas({.duration_s = 19.0}, 0.004);
+  EngineConfig config = two_antenna_config(HeadingSource::two_antenna);
+  config.sensors.pop_back();
+  FusionEngine engine(config);
+  feed_until(engine, run, 18.0);
+  EXPECT_EQ(engine.nav_state().mode, NavMode::aligning);
+  // And the other way round.
+  FusionEngine compass(two_antenna_config(HeadingSource::compass));
+  feed_until(compass, run, 18.0);
+  AlignmentStatus status;
+  compass.fill(status);
+  EXPECT_GE(status.phase, AlignmentPhase::fine);
+}
+
 TEST(Alignment, WithoutPositionItAsksForOneAndTakesAnOrder) {
   const SurveyRun run({.duration_s = 19.0});
   FusionEngine engine(SurveyRun::config());
@@ -202,6 +270,7 @@ TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   // Root mean square is less than what holds 95 %.
   EXPECT_GT(forecast.limits[3].time_expected_s, forecast.limits[3].time_to_limit_s);
   EXPECT_EQ(engine.forecast_horizontal_95_m(0.0), forecast.horizontal_95_m);
+  EXPECT_TRUE(std::isnan(engine.forecast_horizontal_95_m(std::numeric_limits<double>::infinity())));
   const double at_limit = engine.forecast_horizontal_95_m(forecast.limits[0].time_to_limit_s);
   EXPECT_NEAR(at_limit, 20.0, 0.5);
   EXPECT_EQ(forecast.limits[0].name, Name("horizontal_20m"));

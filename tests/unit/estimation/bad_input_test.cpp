@@ -173,7 +173,7 @@ TEST_F(BadInput, AidingSamples) {
   usbl.header.sensor = "usbl0";
   usbl.frame = UsblFrame::vessel_frd;
   usbl.relative_m = {10.0, 0.0, 5.0};
-  EXPECT_EQ(judge(usbl), VerdictKind::unknown_frame);
+  EXPECT_EQ(judge(usbl), VerdictKind::unknown_frame);  // relative to a ship of which nothing is known
 
   AirspeedSample air;
   air.header = dvl_.header;
@@ -182,6 +182,59 @@ TEST_F(BadInput, AidingSamples) {
   EXPECT_EQ(judge(air), VerdictKind::source_disabled);  // not in the configuration
   EXPECT_TRUE(finite());
   EXPECT_LT(std::abs(engine_.nav_state().latitude_rad - latitude) * 6.4e6, 5.0);
+}
+
+TEST_F(BadInput, RelativeAcousticFixes) {
+  const NavState nav = engine_.nav_state();
+  UsblSample good;
+  good.header = dvl_.header;
+  good.header.sensor = "usbl0";
+  good.frame = UsblFrame::vessel_frd;
+  good.station_latitude_rad = nav.latitude_rad;
+  good.station_longitude_rad = nav.longitude_rad;
+  good.station_depth_m = nav.depth_m - 30.0;
+  good.station_rpy_rad = {0.02, -0.01, 1.0};
+  good.range_m = 30.0;
+  good.bearing_rad = 2.0;
+  good.depression_rad = 1.5;
+  EXPECT_EQ(judge(good), VerdictKind::used);
+  EXPECT_EQ(last_.dimensions, 3U);
+  UsblSample usbl = good;
+  for (const double range_m : {0.0, -30.0, kInfinity, 1e7}) {
+    usbl.range_m = range_m;
+    EXPECT_EQ(judge(usbl), VerdictKind::out_of_range) << range_m;
+  }
+  usbl = good;
+  for (const double bearing_rad : {7.0, -7.0, kInfinity}) {
+    usbl.bearing_rad = bearing_rad;
+    EXPECT_EQ(judge(usbl), VerdictKind::out_of_range) << bearing_rad;
+  }
+  usbl = good;
+  usbl.depression_rad = 1.6;
+  EXPECT_EQ(judge(usbl), VerdictKind::out_of_range);
+  usbl = good;
+  usbl.station_latitude_rad = kNaN;
+  EXPECT_EQ(judge(usbl), VerdictKind::unknown_frame);
+  usbl.station_latitude_rad = 2.0;
+  EXPECT_EQ(judge(usbl), VerdictKind::out_of_range);
+  usbl = good;
+  usbl.station_depth_m = 1e6;
+  EXPECT_EQ(judge(usbl), VerdictKind::out_of_range);
+  usbl = good;
+  usbl.station_rpy_rad[2] = kNaN;  // along the ship, but how does she lie?
+  EXPECT_EQ(judge(usbl), VerdictKind::unknown_frame);
+  usbl.frame = UsblFrame::ned;  // along north that does not matter
+  EXPECT_NE(judge(usbl), VerdictKind::unknown_frame);
+  usbl = good;
+  usbl.range_m = usbl.bearing_rad = usbl.depression_rad = kNaN;  // nothing at all
+  EXPECT_EQ(judge(usbl), VerdictKind::out_of_range);
+  usbl.relative_m = {1e7, 0.0, 0.0};
+  EXPECT_EQ(judge(usbl), VerdictKind::out_of_range);
+  usbl = good;
+  usbl.bearing_rad = usbl.depression_rad = kNaN;  // a range alone is used
+  EXPECT_EQ(judge(usbl), VerdictKind::used);
+  EXPECT_EQ(last_.dimensions, 1U);
+  EXPECT_TRUE(finite());
 }
 
 TEST_F(BadInput, PlacesInTime) {

@@ -53,7 +53,8 @@ FilterState perturbed(const FilterState& state, const StateIndex& index, int whi
 }
 
 /// A sample of each kind with every field known.
-AnySample sample_of(SourceKind source, const FilterState& state, Normal& normal) {
+AnySample sample_of(const AidingEntry& entry, const FilterState& state, Normal& normal) {
+  const SourceKind source = entry.source;
   const geo::Geodetic near = geo::moved_by(state.nav.position, normal.vector(5.0));
   switch (source) {
     case SourceKind::gps: {
@@ -85,9 +86,29 @@ AnySample sample_of(SourceKind source, const FilterState& state, Normal& normal)
     }
     case SourceKind::usbl: {
       UsblSample s;
-      s.latitude_rad = near.latitude_rad;
-      s.longitude_rad = near.longitude_rad;
-      s.depth_m = 15.0;
+      if (entry.name == std::string("usbl_position")) {
+        s.latitude_rad = near.latitude_rad;
+        s.longitude_rad = near.longitude_rad;
+        s.depth_m = 15.0;
+        return s;
+      }
+      const double which = normal.uniform(0.0, 3.0);
+      s.frame = which < 1.0 ? UsblFrame::ned : which < 2.0 ? UsblFrame::vessel_frd : UsblFrame::vehicle_frd;
+      // The station is where it was configured, or where the sample says.
+      if (normal(1.0) > 0.0) {
+        const geo::Geodetic ship = geo::moved_by(state.nav.position, normal.vector(20.0));
+        s.station_latitude_rad = ship.latitude_rad;
+        s.station_longitude_rad = ship.longitude_rad;
+        s.station_depth_m = 18.0 - ship.altitude_m;
+      }
+      s.station_rpy_rad = geo::arr(normal.vector(0.5));
+      if (entry.name == std::string("usbl_vector")) {
+        s.relative_m = geo::arr(normal.vector(20.0));
+        return s;
+      }
+      s.range_m = 30.0;
+      if (normal(1.0) > -1.0) s.bearing_rad = normal.uniform(0.0, 6.28);
+      if (normal(1.0) > -1.0 || !known(s.bearing_rad)) s.depression_rad = normal.uniform(-1.5, 1.5);
       return s;
     }
     case SourceKind::airspeed: {
@@ -172,16 +193,20 @@ TEST_P(Jacobians, EqualCentralDifferencesOnTheManifold) {
     sensor.mounting_rpy_rad =
         entry.source == SourceKind::dvl ? geo::arr(normal.vector(0.5)) : std::array<double, 3>{0.0, 0.0, 0.3};
     FilterState state = random_state(normal, index);
-    const geo::Geodetic transceiver = geo::moved_by(state.nav.position, normal.vector(200.0));
+    if (entry.source == SourceKind::usbl) state.nav.position.altitude_m = normal.uniform(-500.0, 0.0);
+    // Near enough for the slopes of a direction to stand out.
+    const bool polar = entry.name == std::string("usbl_range_bearing");
+    const geo::Geodetic transceiver = geo::moved_by(state.nav.position, normal.vector(polar ? 20.0 : 200.0));
     sensor.transceiver_known = true;
     sensor.transceiver_latitude_rad = transceiver.latitude_rad;
     sensor.transceiver_longitude_rad = transceiver.longitude_rad;
     sensor.transceiver_depth_m = 18.0 - transceiver.altitude_m;
     // An aircraft flies.
     if (!under_water) state.nav.v_N_m_s += state.nav.v_N_m_s.normalized() * 20.0;
+    sensor.two_antenna = entry.source == SourceKind::heading && trial % 4 == 0;
     const Vector3d rate = normal.vector(0.2);
     const Vector3d force = normal.vector(3.0) - Vector3d(0.0, 0.0, 9.8);
-    const AnySample sample = sample_of(entry.source, state, normal);
+    const AnySample sample = sample_of(entry, state, normal);
     largest =
         std::max(largest, expect_central_differences(index, state, entry.name, [&](const FilterState& one) {
                    return rows(entry, index, one, rate, force, sensor, sample);

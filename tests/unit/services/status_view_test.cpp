@@ -1,5 +1,6 @@
 #include "cli/status_view.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -90,6 +91,37 @@ TEST(StatusView, TheTableNamesEverythingAndKeepsToItsWidth) {
       EXPECT_LE(line.size(), static_cast<std::size_t>(width));
   }
   EXPECT_NE(joined(view, 120, true).find("\x1b[32m"), std::string::npos);
+}
+
+TEST(StatusView, TheAlignmentUnderWayShowsEachConditionAndWhatWouldHelp) {
+  StatusView view = healthy_view();
+  view.alignment = Heard<AlignmentStatus>{{}, 0.1};
+  AlignmentStatus& status = view.alignment->sample;
+  status.phase = AlignmentPhase::waiting;
+  status.in_phase_s = 12.4;
+  status.rpy_sigma_rad = {0.0873, 0.0436, 0.01745};
+  status.time_to_aligned_s = 3.2;
+  status.condition_count = 4;
+  status.conditions[0] = {"roll_rad", 0.0349, 0.2618, 2.5, 3.0, false};
+  status.conditions[1] = {"rate_y_rad_s", 0.0175, 0.0524, 1.4, 1.0, true};
+  status.conditions[2] = {"depth_error_m", -14.0, 10.0, 0.0, 1.0, false};
+  status.conditions[3] = {"heading_known", 1.0, 1.0, 0.0, 0.0, true};
+  const std::string advice = "Hold depth within 10 m of the set 80 m.";
+  std::copy(advice.begin(), advice.end(), status.advice.begin());
+  const std::string text = joined(view, 120, false);
+  for (const char* words : {"waiting for 12 s, aligned in about 3 s", "roll 5.00  pitch 2.50  yaw 1.00 deg",
+                            "waiting roll 2 (limit 15 deg), held 2.5 of 3.0 s",
+                            "met     rate_y 1 (limit 3 deg/s), held 1.4 of 1.0 s",
+                            "waiting depth_error -14 (limit 10 m), held 0.0 of 1.0 s",
+                            "met     heading_known 1 (limit 1)\n", advice.c_str()}) {
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+  }
+  const auto json = nlohmann::json::parse(json_line(view));
+  EXPECT_NEAR(json["alignment"]["rpy_sigma_deg"][0].get<double>(), 5.0, 0.01);
+  EXPECT_EQ(json["alignment"]["conditions"][2]["value"], -14.0);
+  EXPECT_EQ(json["alignment"]["advice"], advice);
+  status.phase = AlignmentPhase::aligned;
+  EXPECT_EQ(joined(view, 120, false).find("depth_error"), std::string::npos);
 }
 
 TEST(StatusView, AlarmsOverAndUnacknowledgedComeLast) {

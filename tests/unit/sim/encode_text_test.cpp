@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geo/so3.hpp"
 #include "sim/encode/depth.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/ubx.hpp"
@@ -168,6 +169,19 @@ TEST(EncodePsimssb, EveryFrameAndNoReply) {
     EXPECT_NEAR(got.travel_time_s, sent.travel_time_s, 1e-6);
     EXPECT_EQ(run.samples[0].time.time_of_day_ns, 86'399 * kNsPerSecond + 500 * kNsPerMillisecond);
   }
+  // A ship that is known goes ahead; the vessel's axes are sent levelled.
+  sent.frame = UsblFrame::vessel_frd;
+  sent.station_latitude_rad = 36.4 * kDegree;
+  sent.station_longitude_rad = 127.4 * kDegree;
+  sent.station_rpy_rad = {0.1, -0.05, 2.0};
+  const auto ship = only<UsblSample>(decode_whole("psimssb", bytes_of(psimssb(sent, instant()))));
+  EXPECT_NEAR((ship.station_latitude_rad - sent.station_latitude_rad) * kEarthRadius_m, 0.0, 1e-3);
+  EXPECT_NEAR(ship.station_rpy_rad[2], 2.0, 1e-5);
+  const auto along_north = [](const UsblSample& s) {
+    return Eigen::Vector3d(geo::to_matrix(geo::from_rpy(geo::vec(s.station_rpy_rad))) *
+                           geo::vec(s.relative_m));
+  };
+  EXPECT_LT((along_north(ship) - along_north(sent)).norm(), 2e-3);
   sent.frame = UsblFrame::geodetic;
   sent.latitude_rad = 36.4 * kDegree;
   sent.longitude_rad = -127.4 * kDegree;

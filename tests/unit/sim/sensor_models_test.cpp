@@ -252,6 +252,40 @@ TEST(UsblModel, ErrorGrowsWithRangeAndShallowTransponderIsSilent) {
   EXPECT_FALSE(usbl.sample(shallow).has_value());
 }
 
+TEST(UsblModel, WhatItSendsOfAMovingShipPutsTheTransponderWhereItIs) {
+  UsblConfig config;
+  config.range_fraction = config.floor_m = config.angle_sigma_rad = 0.0;
+  config.ship_N_m = {100.0, -40.0, 5.0};
+  config.ship_velocity_N_m_s = {2.0, 1.0, 0.0};
+  config.ship_rpy_rad = {0.1, -0.05, 1.2};
+  config.lever_B_m = {0.5, 0.0, -0.3};
+  Scenario scenario = test::auv_scenario();
+  scenario.start.latitude_rad = 0.7;
+  scenario.start.longitude_rad = 0.1;
+  TruthPoint at = level_point();
+  at.t_s = 30.0;
+  const UsblSample place = UsblModel(config, scenario, 1).sample(at).value();
+  const geo::Geodetic transponder{place.latitude_rad, place.longitude_rad, -place.depth_m};
+  using Output = UsblConfig::Output;
+  for (const Output output : {Output::ned, Output::vessel, Output::range_bearing, Output::inverted}) {
+    config.output = output;
+    const UsblSample s = UsblModel(config, scenario, 1).sample(at).value();
+    Eigen::Vector3d path = geo::vec(s.relative_m);
+    if (known(s.range_m)) {
+      path = s.range_m * Eigen::Vector3d(std::cos(s.depression_rad) * std::cos(s.bearing_rad),
+                                         std::cos(s.depression_rad) * std::sin(s.bearing_rad),
+                                         std::sin(s.depression_rad));
+    }
+    if (s.frame == UsblFrame::vessel_frd)
+      path = geo::to_matrix(geo::from_rpy(geo::vec(s.station_rpy_rad))) * path;
+    if (s.frame == UsblFrame::vehicle_frd) path = -(at.q_NB * path);
+    const geo::Geodetic ship{s.station_latitude_rad, s.station_longitude_rad, -s.station_depth_m};
+    EXPECT_LT((geo::difference_N(ship, transponder) - path).norm(), 1e-3) << static_cast<int>(output);
+    EXPECT_NEAR(s.station_latitude_rad, geo::moved_by({0.7, 0.1, 0.0}, {160.0, -10.0, 5.0}).latitude_rad,
+                1e-10);
+  }
+}
+
 TEST(DepthModel, ReadsZeroInTheAir) {
   DepthConfig config;
   config.sigma_m = 0.0;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "estimation/aiding/usbl_station.hpp"
+
+namespace fathom::estimation {
+
+/// Relative acoustic fix by its components along the transceiver's axes (AID-USBLR-1..2), each standing
+/// alone.
+class UsblVector {
+ public:
+  static constexpr const char* kName = "usbl_vector";
+
+  UsblVector(const AidingState& s, const SensorConfig& sensor, const UsblSample& sample,
+             double surface_altitude_m)
+      : sensor_(sensor), sample_(sample), path_(s, sensor, sample, surface_altitude_m) {}
+
+  [[nodiscard]] static Usable usable(const SensorConfig& sensor, const UsblSample& sample) {
+    for (const double component : sample.relative_m)
+      if (known(component) && !(std::abs(component) <= kMostUsblRange_m)) return Usable::out_of_range;
+    return UsblStation::usable(sensor, sample);
+  }
+  [[nodiscard]] int dimension() const { return 3; }
+  [[nodiscard]] Vector3 measured() const { return geo::vec(sample_.relative_m); }
+  [[nodiscard]] Vector3 predicted() const { return path_.path_A_m(); }  // (AID-USBLR-1)
+  void jacobian(Jacobian& h) const { path_.jacobian(h); }
+  [[nodiscard]] Vector3 noise() const {
+    const double share_m = sensor_.proportional_sigma * path_.path_A_m().norm();
+    Vector3 sigma;
+    for (std::size_t i = 0; i < 3; ++i)
+      sigma(static_cast<int>(i)) =
+          sigma_of(std::hypot(sensor_.sigma[i], share_m), sample_.sigma_m, sensor_.use_sample_sigma);
+    return sigma;
+  }
+
+ private:
+  const SensorConfig& sensor_;
+  const UsblSample& sample_;
+  UsblPath path_;
+};
+
+}  // namespace fathom::estimation
