@@ -252,7 +252,7 @@ TEST(Alignment, TheTurnWithTheEarthIsNoUnrest) {
 TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   const SurveyRun run({.duration_s = 60.0});
   EngineConfig config = SurveyRun::config();
-  config.forecast_limits = {{"horizontal_20m", 20.0}, {"horizontal_100km", 1e5}, {"heading_half", 0.5}};
+  config.forecast_limits = {{"horizontal_90cm", 0.9}, {"horizontal_100km", 1e5}, {"heading_half", 0.5}};
   FusionEngine engine(config);
   feed_until(engine, run, 60.0);
   Forecast forecast;
@@ -272,8 +272,8 @@ TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   EXPECT_EQ(engine.forecast_horizontal_95_m(0.0), forecast.horizontal_95_m);
   EXPECT_TRUE(std::isnan(engine.forecast_horizontal_95_m(std::numeric_limits<double>::infinity())));
   const double at_limit = engine.forecast_horizontal_95_m(forecast.limits[0].time_to_limit_s);
-  EXPECT_NEAR(at_limit, 20.0, 0.5);
-  EXPECT_EQ(forecast.limits[0].name, Name("horizontal_20m"));
+  EXPECT_NEAR(at_limit, 0.9, 0.02);
+  EXPECT_EQ(forecast.limits[0].name, Name("horizontal_90cm"));
   EXPECT_GT(forecast.limits[0].time_to_limit_s, 10.0);
   EXPECT_TRUE(std::isinf(forecast.limits[1].time_to_limit_s));
   EXPECT_TRUE(std::isinf(forecast.limits[2].time_to_limit_s));
