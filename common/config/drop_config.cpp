@@ -35,7 +35,11 @@ void describe(Schema<StabilityConfig>& s) {
   limit("speed_slope_m_s2", &C::speed_slope_m_s2, "m/s^2", 1.0, "speed_slope_hold_s", &C::speed_slope_hold_s,
         "change of the speed log");
   s.field("force_spread_m_s2", &C::force_spread_m_s2,
-          "largest standard deviation of the forces along x and y within the window, vibration aside")
+          "largest standard deviation of the force along x within the window, vibration aside")
+      .unit("m/s^2")
+      .range(1e-4, 100);
+  s.field("flow_spread_m_s2", &C::flow_spread_m_s2,
+          "likewise of the force along y, by the window and the seconds before it")
       .unit("m/s^2")
       .range(1e-4, 100);
   s.field("spread_low_pass_s", &C::spread_low_pass_s, "time constant before the spread")

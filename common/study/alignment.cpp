@@ -144,6 +144,9 @@ DropConfig config_of(std::string_view method, sim::Random& random) {
   config.form = method == "printed" ? DropConfig::Form::printed : DropConfig::Form::robust;
   config.fine = config.early = method == "fine";
   config.aligned_hold_s = 0.5;
+  // As the data sheets say: 1 mg, and 1.5 arc minutes of gravity.
+  config.accel_sigma_m_s2 = 0.0107;
+  config.flow_sigma_m_s = 0.07;
   config.slip_per_turn_m *= 1.0 + random.normal(0.1);
   config.trim_m2_s2 *= 1.0 + random.normal(0.1);
   config.speed_lag_s *= 1.0 + random.normal(0.2);

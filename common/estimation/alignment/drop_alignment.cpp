@@ -15,12 +15,16 @@ using Eigen::Vector3d;
 constexpr double kSlope_s = 1.0;  // time constant of the slope of the speed
 constexpr double kSlip_s = 0.1;   // interval of the slip model as a measurement
 constexpr double kSlipNoise_m_s = 0.05;
+constexpr double kSlipDoubt = 0.3;  // share of the slip in a turn
 constexpr double kConsistency_s = 4.0;
 constexpr double kConsistent = 2.0;  // limit of the mean normalised innovation squared
 constexpr double kLimitSigma = 7.0;  // a single measurement further off is not taken
 constexpr double kAgree_sigma = 4.0;
 constexpr double kLeastSpeed_m_s = 3.0;
 constexpr double kCoarseShown_s = 0.1;  // so that every reader sees each phase
+constexpr double kLostShown_s = 1.0;    // less than any window takes
+constexpr double kLagDoubt = 0.2;
+constexpr double kLagTime_s = 0.5;
 constexpr double kSlopeStart_m_s2 = 5.0;
 constexpr double kSlopeNoise_m_s2 = 0.02;   // a second, of the thrust
 constexpr double kSlopePerTurn_m_s2 = 2.0;  // weight and drag along x change with the pitch
@@ -89,6 +93,13 @@ void DropAlignment::lose() {
   enter(AlignmentPhase::lost);
 }
 
+void DropAlignment::widen(double angle_rad, double velocity_m_s, double depth_m) {
+  config_.tilt_sigma_rad = std::hypot(config_.tilt_sigma_rad, angle_rad);
+  config_.heading_sigma_rad = std::hypot(config_.heading_sigma_rad, angle_rad);
+  covariance_.diagonal().array() += angle_rad * angle_rad;
+  if (filtering_) filter_.widen(angle_rad, velocity_m_s, depth_m);
+}
+
 Vector3d DropAlignment::slip(const Vector3d& rate) const {
   // (TILT-5)
   const double u = std::max(measured_speed_m_s_, kLeastSpeed_m_s);
@@ -129,6 +140,7 @@ void DropAlignment::start_filter(const Matrix3d& attitude) {
   p(TiltFilter::kHeaveBias, TiltFilter::kHeaveBias) = flow;
   filter_.start(q_NB_, c * slip(slip_rate_), depth_m_, p);
   filtering_ = true;
+  behind_m_s_ = config_.speed_lag_s * speed_.slope_m_s2();
   filtering_since_s_ = time_s_;
   next_slip_s_ = time_s_ + kSlip_s;
   turned_ = geo::Quaternion();
@@ -199,16 +211,21 @@ Vector3d DropAlignment::add(const DropStep& step) {
       bias(TiltFilter::kLogBias, config_.speed_bias_sigma_m_s, config_.speed_bias_tau_s);
       bias(TiltFilter::kSideBias, config_.flow_sigma_m_s, config_.flow_tau_s);
       bias(TiltFilter::kHeaveBias, config_.flow_sigma_m_s, config_.flow_tau_s);
+      const double before_m_s = filter_.forward_m_s();  // (TILT-6)
       filter_.predict(step.dt_s, rate_NB_B_, step.force_B_m_s2, pull, noise, keep);
+      behind_m_s_ += filter_.forward_m_s() - before_m_s;
+      behind_m_s_ *= config_.speed_lag_s > 0.0 ? std::exp(-step.dt_s / config_.speed_lag_s) : 0.0;
     } else {
       q_NB_ = geo::normalized(q_NB_ * geo::exp(step.dt_s * rate_NB_B_));
     }
   }
   if (filtering_ && time_s_ >= next_slip_s_ && fresh(speed_at_s_)) {
-    next_slip_s_ += kSlip_s;
+    next_slip_s_ = std::max(next_slip_s_ + kSlip_s, time_s_);  // what a gap has skipped is not made up for
     const Vector3d model = slip(slip_rate_);
-    const TiltFilter::Row rows[] = {filter_.side_row(model.y(), kSlipNoise_m_s),
-                                    filter_.heave_row(model.z(), kSlipNoise_m_s)};
+    // The model is that of a steady turn: the faster it turns, the less it knows.
+    const Vector3d doubt = kSlipDoubt * config_.slip_per_turn_m * slip_rate_;
+    const TiltFilter::Row rows[] = {filter_.side_row(model.y(), std::hypot(kSlipNoise_m_s, doubt.z())),
+                                    filter_.heave_row(model.z(), std::hypot(kSlipNoise_m_s, doubt.y()))};
     turned += take(rows, 2);
     recentre();
   }
@@ -238,7 +255,7 @@ Vector3d DropAlignment::add(const DropStep& step) {
       turned += finish_window();
     } else if (late) {
       enter(AlignmentPhase::timed_out);
-    } else {
+    } else if (phase_ != AlignmentPhase::lost || in_phase_s() >= kLostShown_s) {
       enter(found == StabilityGate::Phase::averaging ? AlignmentPhase::averaging : AlignmentPhase::waiting);
     }
   }
@@ -268,17 +285,24 @@ Vector3d DropAlignment::add_rpm(double rpm) {
     speed_.add(dt_s, speed, config_.speed_sigma_m_s, config_.surge_tau_s, rate_NB_B_.y());
   }
   if (!filtering_ || speed < kLeastSpeed_m_s) return Vector3d::Zero();
-  const double now_m_s = speed + config_.speed_lag_s * speed_.slope_m_s2();
-  const TiltFilter::Row row = filter_.speed_row(now_m_s, config_.speed_sigma_m_s);
+  // The lag is known to a share only, and what is wrong with it is wrong for a while: readings that come
+  // often count less each.
+  const double lag = kLagDoubt * behind_m_s_;
+  const double often = std::max(1.0, kLagTime_s / std::max(dt_s, 1e-3));
+  const double sigma = std::sqrt(config_.speed_sigma_m_s * config_.speed_sigma_m_s + often * lag * lag);
+  const TiltFilter::Row row = filter_.speed_row(speed + behind_m_s_, sigma);
   return take(&row, 1);
 }
 
 Vector2d DropAlignment::coarse_sigma(const StabilityWindow& window) const {
-  // Accelerometers; the flow that pushed the vehicle during the window; the slope of the speed.
-  const double accel = config_.accel_sigma_m_s2 / g_m_s2_;
-  const double flow = kFlowShare * window.force_spread_m_s2.y() / g_m_s2_;
-  const double slope = speed_.slope_sigma_m_s2() / g_m_s2_;
-  return {std::hypot(accel, flow), std::hypot(accel, slope)};
+  // (ALN-12) Accelerometers; the flow that pushed the vehicle during the window; the slope of the speed.
+  const double noise = gate_.jitter_m2_s4() / std::max(window.samples, 1);
+  const double accel = std::sqrt(config_.accel_sigma_m_s2 * config_.accel_sigma_m_s2 + noise);
+  const double flow = kFlowShare * window.flow_spread_m_s2;
+  // The printed form takes the whole slope for pitch, and knows that it does.
+  const double neglected = config_.form == DropConfig::Form::printed ? window.speed_slope_m_s2 : 0.0;
+  const double slope = std::hypot(speed_.slope_sigma_m_s2(), neglected);
+  return Vector2d(std::hypot(accel, flow), std::hypot(accel, slope)) / g_m_s2_;
 }
 
 Vector3d DropAlignment::finish_window() {

@@ -45,12 +45,14 @@ class DropAlignment {
   void start(const geo::Quaternion& q_NB);
   /// One inertial interval. Returns the rotation about N by which the attitude was corrected at its end.
   Eigen::Vector3d add(const DropStep& step);
-  /// The interval could not be measured: everything begins anew from the attitude as it is.
-  void interrupt(StabilityReset reason) { gate_.reset(reason); }
+  /// The interval could not be measured: timers and window begin anew from the attitude as it is.
+  void interrupt(StabilityReset reason) { gate_.fail(reason); }
+  /// What may have happened meanwhile, along each axis.
+  void widen(double angle_sigma_rad, double velocity_sigma_m_s, double depth_sigma_m);
   /// Depth below the surface and propulsor speed, valid now. Return the correction likewise.
   Eigen::Vector3d add_depth(double depth_m);
   Eigen::Vector3d add_rpm(double rpm);
-  /// The attitude cannot be trusted any more.
+  /// The attitude cannot be trusted any more: begins anew from it, and says so for a second.
   void lose();
 
   [[nodiscard]] AlignmentPhase phase() const { return phase_; }
@@ -112,6 +114,7 @@ class DropAlignment {
   double depth_m_ = 0.0;
   double speed_at_s_ = -1.0;
   double measured_speed_m_s_ = 0.0;
+  double behind_m_s_ = 0.0;  ///< by which the propulsor is behind the speed
   SpeedTrack speed_;
   // The heading was known at the release, whatever is found out about the tilt there.
   geo::Quaternion q_release_;

@@ -23,7 +23,8 @@ struct StabilityConfig {
   double gravity_hold_s = 1.0;
   double speed_slope_m_s2 = 0.25;  ///< of the speed log's rate of change
   double speed_slope_hold_s = 1.0;
-  double force_spread_m_s2 = 0.09;  ///< standard deviation of f_x and f_y within the window, vibration aside
+  double force_spread_m_s2 = 0.09;  ///< standard deviation of f_x within the window, vibration aside
+  double flow_spread_m_s2 = 0.075;  ///< likewise of f_y, by the window and the seconds before it
   double spread_low_pass_s = 0.1;   ///< time constant before the spread
   double low_pass_s = 0.3;          ///< time constant before the gates; 0: none
   double window_s = 1.0;            ///< of averaging

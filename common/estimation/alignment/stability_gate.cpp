@@ -9,7 +9,10 @@ namespace {
 // Sums of sample intervals meet a hold time to rounding.
 constexpr double kRounding_s = 1e-6;
 constexpr double kWider = 1.2;
-constexpr double kJitter_s = 0.5;  // memory of the noise that vibration makes
+constexpr double kJitter_s = 0.5;          // memory of the noise that vibration makes
+constexpr double kFlow_s = 4.0;            // memory of the side force that the flow makes
+constexpr double kSlow_s = 1.0;            // slower changes of it are not the flow
+constexpr double kManoeuvre_rad_s = 0.05;  // nor what happens while it turns faster
 
 constexpr std::size_t at(StabilityCondition condition) {
   return static_cast<std::size_t>(condition);
@@ -95,6 +98,16 @@ void StabilityGate::reset(StabilityReset reason) {
   last_reset_ = reason;
 }
 
+void StabilityGate::fail(StabilityReset reason) {
+  // What was missing from the beginning has set nothing back.
+  const bool ran =
+      std::any_of(watched_.begin(), watched_.end(), [](const Watched& w) { return w.held_s > 0.0; });
+  reset(reason);
+  if (!ran && reason != last_fault_) return;
+  last_fault_ = reason;
+  since_fault_s_ = 0.0;
+}
+
 StabilityReset StabilityGate::fault(const StabilityInput& in) const {
   if (!in.rate_B_rad_s.allFinite() || !in.force_B_m_s2.allFinite() || !std::isfinite(in.roll_rad) ||
       !std::isfinite(in.pitch_rad) || !std::isfinite(in.dt_s) || !std::isfinite(in.speed_slope_m_s2))
@@ -114,6 +127,10 @@ void StabilityGate::watch(StabilityCondition condition, double value, double dt_
   one.held_s = std::abs(value) <= one.limit ? one.held_s + dt_s : 0.0;
 }
 
+double StabilityGate::vibration() const {
+  return jitter_ * light_share_;
+}
+
 void StabilityGate::smooth(const StabilityInput& in) {
   if (!in.rate_B_rad_s.allFinite() || !in.force_B_m_s2.allFinite()) {
     primed_ = has_before_ = false;
@@ -131,8 +148,32 @@ void StabilityGate::smooth(const StabilityInput& in) {
   raw_force_ = in.force_B_m_s2;
   rate_ += (1.0 - keep(config_.low_pass_s)) * (raw_rate_ - rate_);
   force_ += (1.0 - keep(config_.low_pass_s)) * (raw_force_ - force_);
-  light_force_ += (1.0 - keep(config_.spread_low_pass_s)) * (raw_force_ - light_force_);
+  smooth_side(in, keep(config_.spread_low_pass_s), keep(kSlow_s), chained ? keep(kFlow_s) : 1.0);
   primed_ = has_before_ = true;
+}
+
+void StabilityGate::smooth_side(const StabilityInput& in, double light, double slow, double flow) {
+  // White noise of this share of its variance is left in what was low-passed lightly.
+  light_share_ = (1.0 - light) / (1.0 + light);
+  light_forward_ += (1.0 - light) * (raw_force_.x() - light_forward_);
+  if (!std::isfinite(in.speed_m_s)) {
+    has_side_ = false;
+    flow_ = flow_weight_ = 0.0;
+    return;
+  }
+  // What turning explains is no flow.
+  const double side = raw_force_.y() - raw_rate_.z() * in.speed_m_s;
+  if (!has_side_) light_side_ = slow_side_ = side;
+  has_side_ = true;
+  light_side_ += (1.0 - light) * (side - light_side_);
+  slow_side_ += (1.0 - slow) * (light_side_ - slow_side_);
+  if (rate_.cwiseAbs().maxCoeff() > kManoeuvre_rad_s) {
+    slow_side_ = light_side_;
+    return;
+  }
+  const double fast = light_side_ - slow_side_;
+  flow_weight_ += (1.0 - flow) * (1.0 - flow_weight_);
+  flow_ += (1.0 - flow) * (fast * fast - vibration() - flow_);
 }
 
 StabilityGate::Phase StabilityGate::add(const StabilityInput& in) {
@@ -141,9 +182,10 @@ StabilityGate::Phase StabilityGate::add(const StabilityInput& in) {
   smooth(in);
   if (phase_ == Phase::full) reset(last_reset_);
   if (reason != StabilityReset::none) {
-    reset(reason);
+    fail(reason);
     return phase_;
   }
+  since_fault_s_ += in.dt_s;
   watch(StabilityCondition::roll, in.roll_rad, in.dt_s);
   watch(StabilityCondition::pitch, in.pitch_rad, in.dt_s);
   watch(StabilityCondition::depth, in.depth_error_m, in.dt_s);
@@ -173,9 +215,10 @@ StabilityGate::Phase StabilityGate::add(const StabilityInput& in) {
 }
 
 void StabilityGate::average(const StabilityInput& in) {
+  const Eigen::Vector2d light(light_forward_, light_side_);
   if (samples_ == 0) {
     sum_ = StabilityWindow();
-    first_force_ = light_force_;
+    first_light_ = light;
     excess_.setZero();
     excess_square_.setZero();
   }
@@ -187,7 +230,7 @@ void StabilityGate::average(const StabilityInput& in) {
   sum_.force_B_m_s2 += in.force_B_m_s2;
   sum_.speed_m_s += in.speed_m_s;
   sum_.speed_slope_m_s2 += in.speed_slope_m_s2;
-  const Eigen::Vector3d excess = light_force_ - first_force_;
+  const Eigen::Vector2d excess = light - first_light_;
   excess_ += excess;
   excess_square_ += excess.cwiseAbs2();
   if (averaged_s_ < config_.window_s - kRounding_s) return;
@@ -198,8 +241,15 @@ void StabilityGate::average(const StabilityInput& in) {
   window_.force_B_m_s2 = sum_.force_B_m_s2 / n;
   window_.speed_m_s = sum_.speed_m_s / n;
   window_.speed_slope_m_s2 = sum_.speed_slope_m_s2 / n;
-  window_.force_spread_m_s2 = (excess_square_ / n - (excess_ / n).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-  if (window_.force_spread_m_s2.head<2>().maxCoeff() > config_.force_spread_m_s2) {
+  window_.samples = samples_;
+  const Eigen::Vector2d variance =
+      ((excess_square_ / n - (excess_ / n).cwiseAbs2()).array() - vibration()).max(0.0);
+  window_.forward_spread_m_s2 = std::sqrt(variance.x());
+  // A window may be quiet by luck; what the flow does to its mean is told by the seconds before it, too.
+  const double before = flow_weight_ > 0.0 ? std::max(flow_ / flow_weight_, 0.0) : variance.y();
+  window_.flow_spread_m_s2 = std::sqrt(0.5 * (before + variance.y()));
+  if (window_.forward_spread_m_s2 > config_.force_spread_m_s2 ||
+      window_.flow_spread_m_s2 > config_.flow_spread_m_s2) {
     // The vehicle still runs straight: the next window may begin at once.
     phase_ = Phase::waiting;
     averaged_s_ = 0.0;

@@ -60,9 +60,11 @@ struct StabilityWindow {
   double pitch_rad = 0.0;
   Eigen::Vector3d rate_B_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();
-  Eigen::Vector3d force_spread_m_s2 = Eigen::Vector3d::Zero();  ///< standard deviation, vibration aside
   double speed_m_s = 0.0;
   double speed_slope_m_s2 = 0.0;
+  double forward_spread_m_s2 = 0.0;  ///< standard deviation of the forward force, vibration aside
+  double flow_spread_m_s2 = 0.0;     ///< likewise of the side force, within and in the seconds before
+  int samples = 0;
 };
 
 /// Decides, sample by sample, when the vehicle has been steady for long enough and averages the window after
@@ -86,12 +88,17 @@ class StabilityGate {
   Phase add(const StabilityInput& input);
   /// Sets all timers and the window back.
   void reset(StabilityReset reason);
+  /// Likewise, because of bad or missing measurements.
+  void fail(StabilityReset reason);
 
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] const Watched& watched(StabilityCondition condition) const {
     return watched_[static_cast<std::size_t>(condition)];
   }
   [[nodiscard]] StabilityReset last_reset() const { return last_reset_; }
+  /// The last bad or missing measurement that set everything back, none before the first; how long ago.
+  [[nodiscard]] StabilityReset last_fault() const { return last_fault_; }
+  [[nodiscard]] double since_fault_s() const { return since_fault_s_; }
   [[nodiscard]] double averaged_s() const { return averaged_s_; }
   /// Until a window could be full if all conditions held from now on.
   [[nodiscard]] double time_to_full_s() const;
@@ -104,26 +111,38 @@ class StabilityGate {
   [[nodiscard]] StabilityReset fault(const StabilityInput& input) const;
   void watch(StabilityCondition condition, double value, double dt_s);
   void smooth(const StabilityInput& input);
+  void smooth_side(const StabilityInput& input, double light, double slow, double flow);
   void average(const StabilityInput& input);
+  /// Variance that vibration leaves in the low-passed force.
+  [[nodiscard]] double vibration() const;
 
   StabilityConfig config_;
   Phase phase_ = Phase::waiting;
   std::array<Watched, kStabilityConditions> watched_{};
   StabilityReset last_reset_ = StabilityReset::none;
+  StabilityReset last_fault_ = StabilityReset::none;
+  double since_fault_s_ = 0.0;
   bool primed_ = false;  ///< the low-pass has a value
   bool has_before_ = false;
   Eigen::Vector3d raw_rate_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d raw_force_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d light_force_ = Eigen::Vector3d::Zero();  ///< low-passed for the spread
+  // Low-passed for the spread: the forward force, and the side force beyond what turning explains.
+  double light_share_ = 0.0;
+  double light_forward_ = 0.0;
+  double light_side_ = 0.0;
+  double slow_side_ = 0.0;
+  bool has_side_ = false;
+  double flow_ = 0.0;  ///< mean square of the side force's fast part, by the weight
+  double flow_weight_ = 0.0;
   double jitter_ = 0.0;
   double averaged_s_ = 0.0;
   int samples_ = 0;
   StabilityWindow sum_;
-  Eigen::Vector3d first_force_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d excess_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d excess_square_ = Eigen::Vector3d::Zero();
+  Eigen::Vector2d first_light_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d excess_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d excess_square_ = Eigen::Vector2d::Zero();
   StabilityWindow window_;
 };
 

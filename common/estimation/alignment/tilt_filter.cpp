@@ -109,6 +109,12 @@ TiltFilter::Result TiltFilter::update(const Row* rows, int count, double limit_s
   return out;
 }
 
+void TiltFilter::widen(double angle_sigma_rad, double velocity_sigma_m_s, double depth_sigma_m) {
+  p_.diagonal().segment<3>(kPhi).array() += angle_sigma_rad * angle_sigma_rad;
+  p_.diagonal().segment<3>(kVelocity).array() += velocity_sigma_m_s * velocity_sigma_m_s;
+  p_(kDepth, kDepth) += depth_sigma_m * depth_sigma_m;
+}
+
 void TiltFilter::turn_heading(double angle_rad) {
   const geo::Quaternion turn = geo::exp({0.0, 0.0, angle_rad});
   const Matrix3d c = geo::to_matrix(turn);

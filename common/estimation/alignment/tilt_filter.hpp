@@ -58,11 +58,16 @@ class TiltFilter {
   /// Takes rows of one instant, all linearised there. A row beyond `limit_sigma` is refused.
   Result update(const Row* rows, int count, double limit_sigma);
 
+  /// After an interval without measurements: more doubt along each axis, rad, m/s, and of the depth, m.
+  void widen(double angle_sigma_rad, double velocity_sigma_m_s, double depth_sigma_m);
+
   /// Turns everything that is along N about the vertical. The errors of this filter do not care.
   void turn_heading(double angle_rad);
 
   [[nodiscard]] const geo::Quaternion& q_NB() const { return q_NB_; }
   [[nodiscard]] const Eigen::Vector3d& v_N_m_s() const { return v_N_; }
+  /// Along B x.
+  [[nodiscard]] double forward_m_s() const { return geo::to_matrix(q_NB_).col(0).dot(v_N_); }
   [[nodiscard]] double depth_m() const { return depth_m_; }
   [[nodiscard]] const Vector& bias() const { return bias_; }  ///< the first seven are 0
   [[nodiscard]] const Matrix& covariance() const { return p_; }
