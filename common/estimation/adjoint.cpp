@@ -45,6 +45,25 @@ UpdateRecord::UpdateRecord(const Observation& observation, const InnovationStati
   gain = (weight * gain).eval();
 }
 
+DriftRecord::DriftRecord(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) {
+  Index n = 0;
+  for (int i = 0; i < kNavStates; ++i)
+    if (variance[static_cast<std::size_t>(i)] > 0.0) states[static_cast<std::size_t>(n++)] = i;
+  const auto state = [&](Index i) { return states[static_cast<std::size_t>(i)]; };
+  Block before(n, n);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < n; ++j) before(i, j) = widened(state(i), state(j));
+    before(i, i) -= variance[static_cast<std::size_t>(state(i))];
+  }
+  // Metres beside radians: scaled, so that the inverse keeps its digits.
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kNavStates, 1> scale =
+      before.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Block scaled = scale.asDiagonal() * before * scale.asDiagonal();
+  known = scale.asDiagonal() * Eigen::LDLT<Block>(scaled).solve(Block::Identity(n, n)) * scale.asDiagonal();
+  stretch = known;
+  for (Index j = 0; j < n; ++j) stretch.col(j) *= variance[static_cast<std::size_t>(state(j))];
+}
+
 Adjoint::Adjoint(int states) : lambda_(Vector::Zero(states)), curvature_(Matrix::Zero(states, states)) {}
 
 void Adjoint::back_through(const Transition& step) {
@@ -86,6 +105,29 @@ void Adjoint::back_through(const UpdateRecord& update) {
   Matrix change(size(), size());
   change.noalias() = update.h.transpose() * t;
   curvature_ += change + change.transpose();
+}
+
+void Adjoint::back_through(const DriftRecord& drift) {
+  // (SMOOTH-5): with M = I + P^-1 D on the states with room, lambda <- M lambda, Lambda <- M Lambda M' - P^-1
+  // D P^-1.
+  const Index n = drift.known.rows();
+  const auto state = [&](Index i) { return drift.states[static_cast<std::size_t>(i)]; };
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kNavStates, 1> own(n);
+  for (Index i = 0; i < n; ++i) own(i) = lambda_(state(i));
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kNavStates, 1> more = drift.stretch * own;
+  for (Index i = 0; i < n; ++i) lambda_(state(i)) += more(i);
+
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kNavStates, kMaxStates> rows(n, size());
+  for (Index i = 0; i < n; ++i) rows.row(i) = curvature_.row(state(i));
+  rows = (drift.stretch * rows).eval();
+  for (Index i = 0; i < n; ++i) curvature_.row(state(i)) += rows.row(i);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kNavStates> columns(size(), n);
+  for (Index i = 0; i < n; ++i) columns.col(i) = curvature_.col(state(i));
+  columns = (columns * drift.stretch.transpose()).eval();
+  for (Index i = 0; i < n; ++i) curvature_.col(state(i)) += columns.col(i);
+  const DriftRecord::Block made = drift.stretch * drift.known;
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) curvature_(state(i), state(j)) -= 0.5 * (made(i, j) + made(j, i));
 }
 
 void Adjoint::back_through_forgotten(int state) {

@@ -32,6 +32,18 @@ struct UpdateRecord {
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Observation::kMaxRows, 1> weighted_innovation;  ///< S^-1 z
 };
 
+/// Room that was made for navigation states which had drifted, for the way back.
+struct DriftRecord {
+  DriftRecord() = default;
+  /// `widened`: with the room already in it.
+  DriftRecord(const ErrorFilter& widened, const std::array<double, kNavStates>& variance);
+
+  using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kNavStates, kNavStates>;
+  std::array<int, kNavStates> states{};  ///< that got room; as many as the matrices have rows
+  Block known;                           ///< P^-1 of them before
+  Block stretch;                         ///< known times the room
+};
+
 /// What all later measurements say about the present error, as the gradient `lambda` and the curvature
 /// `Lambda` of their likelihood: the smoothed error is -P lambda, its covariance P - P Lambda P (SMOOTH-1).
 /// Goes backwards in time. Equal to a Rauch-Tung-Striebel smoother, without inverting a covariance.
@@ -47,6 +59,7 @@ class Adjoint {
   /// From after to before what the filter did.
   void back_through(const Transition& step);      // (SMOOTH-2)
   void back_through(const UpdateRecord& update);  // (SMOOTH-3)
+  void back_through(const DriftRecord& drift);    // (SMOOTH-5)
   void back_through_forgotten(int state);         // (SMOOTH-4)
   /// Before a new start of the filter: the future knows nothing of what was before it.
   void cut();

@@ -145,8 +145,9 @@ class Core {
                          unsigned refused);
   bool believe(Sensor::Rejections& past, const SensorConfig& config, const Observation& observation,
                int first, int end) const;
+  /// Variance that these rows ask for, added to `variance`.
   void make_room(SourceKind source, const Sensor& sensor, const Observation& observation, unsigned rows,
-                 double factor);
+                 double factor, std::array<double, kNavStates>& variance) const;
   void mark_used(const Measurement& measurement, bool with_position);
 
   // core_constraints.cpp

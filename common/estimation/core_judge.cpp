@@ -130,7 +130,9 @@ Judgement Core::judge(const Measurement& measurement) {
     const unsigned believed = believed_rows(sensor, rules, whole, result.refused);
     for (double room = 1.0; (believed & result.refused) != 0 && room < kMostRoom; room *= 4.0) {
       // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
-      make_room(measurement.source, sensor, whole, believed, room);
+      std::array<double, kNavStates> variance{};
+      make_room(measurement.source, sensor, whole, believed, room, variance);
+      filter_.widen_drifted(variance);
       observation = whole;
       result = gate(filter_, rules, limits, observation, statistics);
     }

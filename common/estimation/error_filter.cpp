@@ -68,6 +68,11 @@ void ErrorFilter::reset(const std::array<double, kMaxStates>& sigma) {
   }
 }
 
+void ErrorFilter::widen_drifted(const std::array<double, kNavStates>& variance) {
+  for (int i = 0; i < kNavStates; ++i) widen(i, variance[static_cast<std::size_t>(i)]);
+  if (tape_ != nullptr) tape_->drifted(*this, variance);
+}
+
 void ErrorFilter::forget(int state, double sigma) {
   if (tape_ != nullptr) tape_->forgot(state);
   for (int j = 0; j < n_; ++j) set(state, j, 0.0);

@@ -54,8 +54,10 @@ class ErrorFilter {
   void reset(const std::array<double, kMaxStates>& sigma);
   /// Forgets what is known about one state.
   void forget(int state, double sigma);
-  /// Adds variance to one state.
+  /// Adds variance to one state: something unknown happened to it now.
   void widen(int state, double variance) { p_[at(state, state)] += variance; }
+  /// Adds variance to the navigation states: they have drifted further than P knew, before now.
+  void widen_drifted(const std::array<double, kNavStates>& variance);
 
   /// Tells `tape`, which must outlive the filter's work, all that follows; nullptr for silence. Copies of the
   /// filter tell the same tape.
@@ -97,6 +99,8 @@ class FilterTape {
   /// A measurement has been taken in; `statistics` are those of before.
   virtual void updated(const Observation& observation, const InnovationStatistics& statistics) = 0;
   virtual void forgot(int state) = 0;
+  /// ErrorFilter::widen_drifted() has been done with `variance`.
+  virtual void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) = 0;
   virtual void restarted() = 0;
 
  protected:

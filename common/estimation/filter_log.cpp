@@ -9,6 +9,8 @@ void FilterLog::back_through(std::size_t end, std::size_t begin, Adjoint& adjoin
       adjoint.back_through(*step);
     } else if (const auto* update = std::get_if<UpdateRecord>(&entry)) {
       adjoint.back_through(*update);
+    } else if (const auto* drift = std::get_if<DriftRecord>(&entry)) {
+      adjoint.back_through(*drift);
     } else if (const auto* forgotten = std::get_if<Forgotten>(&entry)) {
       adjoint.back_through_forgotten(forgotten->state);
     } else {

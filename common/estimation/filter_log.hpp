@@ -25,6 +25,9 @@ class FilterLog final : public FilterTape {
     entries_.emplace_back(UpdateRecord(observation, statistics, states_));
   }
   void forgot(int state) override { entries_.emplace_back(Forgotten{state}); }
+  void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) override {
+    entries_.emplace_back(DriftRecord(widened, variance));
+  }
   void restarted() override { entries_.emplace_back(Restart{}); }
 
  private:
@@ -34,7 +37,7 @@ class FilterLog final : public FilterTape {
   struct Restart {};
 
   int states_;
-  std::vector<std::variant<Transition, UpdateRecord, Forgotten, Restart>> entries_;
+  std::vector<std::variant<Transition, UpdateRecord, DriftRecord, Forgotten, Restart>> entries_;
 };
 
 }  // namespace fathom::estimation

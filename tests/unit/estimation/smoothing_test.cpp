@@ -341,5 +341,66 @@ TEST_F(BatchTest, IsTheSolutionOfAllEquationsAtOnce) {
   EXPECT_GT(most, 1.0);
 }
 
+// A drift that P did not know, found by a fix behind the room that was made for it (SMOOTH-5).
+TEST(SmoothingDrift, WhatIsFoundBehindTheRoomHoldsBeforeIt) {
+  const OneAxis axis;
+  ErrorFilter filter(15);
+  filter.set(0, 0, 1.0);
+  filter.set(3, 3, 0.01);
+  FilterLog log(15);
+  filter.record_to(&log);
+  const ErrorFilter start = filter;
+  for (int k = 0; k < 10; ++k) filter.propagate(OneAxis::step(1.0), axis.noise);
+  const ErrorFilter before = filter;
+  const std::size_t drifted = log.size();
+  std::array<double, kNavStates> room{};
+  room[0] = 1e4;
+  filter.widen_drifted(room);
+  EXPECT_EQ(filter(0, 0), before(0, 0) + 1e4);
+
+  constexpr double kDrift_m = 100.0;  // a sigma there is 1.4 m
+  constexpr double kNoise_m = 0.5;
+  Observation observation;
+  observation.rows = 1;
+  observation.innovation[0] = kDrift_m;
+  observation.sigma[0] = kNoise_m;
+  observation.h[0][0] = 1.0;
+  observation.list_columns(15);
+  InnovationStatistics statistics;
+  filter.statistics(observation, 1.0, statistics);
+  std::array<double, kMaxStates> found{};
+  ASSERT_TRUE(filter.update(observation, statistics, found));
+  EXPECT_NEAR(found[0], kDrift_m, 0.01);
+
+  Adjoint adjoint(15);
+  log.back_through(log.size(), drifted, adjoint);
+  std::array<double, kMaxStates> x{};
+  adjoint.smoothed_error(before, x);
+  EXPECT_NEAR(x[0], found[0], 1e-9 * kDrift_m);
+  EXPECT_NEAR(x[3], before(3, 0) / before(0, 0) * found[0], 1e-9 * kDrift_m);
+  const std::array<int, 2> states{0, 3};
+  ErrorFilter smoothed = before;
+  adjoint.smooth_covariance(states, smoothed);
+  EXPECT_NEAR(smoothed(0, 0), filter(0, 0), 1e-6 * filter(0, 0));
+  EXPECT_LT(smoothed(3, 3), before(3, 3));
+
+  // All the way back it is a velocity that was wrong all along.
+  log.back_through(drifted, 0, adjoint);
+  adjoint.smoothed_error(start, x);
+  EXPECT_NEAR(x[0] + 10.0 * x[3], found[0], 1e-6 * kDrift_m);
+  EXPECT_NEAR(x[3] / x[0], 10.0 * 0.01 / 1.0, 1e-6);
+
+  // As noise it would have stayed where it was found.
+  Adjoint noise(15);
+  FilterLog other(15);
+  ErrorFilter again = before;
+  again.record_to(&other);
+  again.widen(0, 1e4);
+  ASSERT_TRUE(again.update(observation, statistics, found));
+  other.back_through(other.size(), 0, noise);
+  noise.smoothed_error(before, x);
+  EXPECT_LT(std::abs(x[0]), 0.1 * kDrift_m);
+}
+
 }  // namespace
 }  // namespace fathom::estimation
