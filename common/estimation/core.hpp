@@ -183,9 +183,9 @@ class Core {
                   InnovationStatistics& statistics) const;
   bool believe(Sensor::Rejections& past, const SensorConfig& config, const Observation& observation,
                int first, int end) const;
-  /// Variance that these rows ask for, added to `room`.
+  /// Variance that these rows ask for, added to `variance`.
   void make_room(SourceKind source, const Sensor& sensor, const Observation& observation, unsigned rows,
-                 double factor, std::array<double, kNavStates>& room) const;
+                 double factor, std::array<double, kNavStates>& variance) const;
   void mark_used(const Measurement& measurement, bool with_position);
 
   // core_constraints.cpp

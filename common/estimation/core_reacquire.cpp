@@ -169,7 +169,7 @@ bool Core::believe(Sensor::Rejections& past, const SensorConfig& config, const O
 }
 
 void Core::make_room(SourceKind source, const Sensor& sensor, const Observation& observation, unsigned rows,
-                     double factor, std::array<double, kNavStates>& room) const {
+                     double factor, std::array<double, kNavStates>& variance) const {
   const double unheard_s =
       std::max(sensor.used_ns == 0 ? kLeastUnheard_s : since(sensor.used_ns), kLeastUnheard_s);
   for (int row = 0; row < observation.rows; ++row) {
@@ -190,13 +190,13 @@ void Core::make_room(SourceKind source, const Sensor& sensor, const Observation&
     for (int i = least; i < 3; ++i) weight += weights[i] * weights[i];
     if (weight == 0.0) continue;
     for (int i = least; i < 3; ++i)
-      room[static_cast<std::size_t>(first + i)] += squared * weights[i] * weights[i] / (weight * weight);
+      variance[static_cast<std::size_t>(first + i)] += squared * weights[i] * weights[i] / (weight * weight);
     // A velocity goes wrong by a level that is wrong: left as sure as it was, that would lead astray again.
     const bool over_ground = source == SourceKind::gps || source == SourceKind::dvl;
     if (first == 3 && over_ground && factor == 1.0) {
       const double tilt = observation.innovation[r] / (kGravity_m_s2 * unheard_s);
-      room[6] += tilt * tilt;
-      room[7] += tilt * tilt;
+      variance[6] += tilt * tilt;
+      variance[7] += tilt * tilt;
     }
   }
 }

@@ -1,4 +1,5 @@
 #include <cstring>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -208,17 +209,22 @@ Ending end_of(FusionEngine& engine, const ShortRun& run, const std::vector<int>&
   return out;
 }
 
+/// The step at which each measurement is due by its own stamp.
+std::vector<int> own_steps(const ShortRun& run) {
+  std::vector<int> out;
+  for (const test::Sample& sample : run.aiding)
+    out.push_back(static_cast<int>((test::header(sample).stamp_ns - SurveyRun::kEpochNs) /
+                                   from_seconds(ShortRun::kStep_s)));
+  return out;
+}
+
 TEST(Order, TenThousandPermutationsGiveTheSameBits) {
   const ShortRun run;
   FusionEngine engine(ShortRun::config());
   const std::size_t count = run.aiding.size();
-  std::vector<int> after(count);
+  std::vector<int> after = own_steps(run);
   std::vector<std::size_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    after[i] = static_cast<int>((test::header(run.aiding[i]).stamp_ns - SurveyRun::kEpochNs) /
-                                from_seconds(ShortRun::kStep_s));
-    order[i] = i;
-  }
+  std::iota(order.begin(), order.end(), std::size_t{0});
   const std::vector<int> earliest = after;
   const Ending expected = end_of(engine, run, after, order);
   ASSERT_EQ(expected.verdicts, count);
@@ -264,13 +270,9 @@ TEST(Order, SpreadOverSamplesItGivesTheSameBits) {
   slow.replay_steps_per_sample = 3;
   FusionEngine spread(slow);
   const std::size_t count = run.aiding.size();
-  std::vector<int> after(count);
+  std::vector<int> after = own_steps(run);
   std::vector<std::size_t> order(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    after[i] = static_cast<int>((test::header(run.aiding[i]).stamp_ns - SurveyRun::kEpochNs) /
-                                from_seconds(ShortRun::kStep_s));
-    order[i] = i;
-  }
+  std::iota(order.begin(), order.end(), std::size_t{0});
   const std::vector<int> earliest = after;
   const Ending expected = end_of(engine, run, after, order);
   test::Normal random(2025);

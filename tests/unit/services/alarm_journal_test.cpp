@@ -1,5 +1,6 @@
 #include "monitor/alarm_journal.hpp"
 
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -174,17 +175,25 @@ TEST_F(AlarmJournalTest, TailsOfGarbageAndOfZerosAreClosedToo) {
 }
 
 TEST_F(AlarmJournalTest, SurvivesBeingKilledAtAnyMoment) {
-  for (int kill_after_us = 200; kill_after_us < 6000; kill_after_us += 400) {
+  for (int lines_before = 0; lines_before < 15; ++lines_before) {
+    std::array<int, 2> told{};
+    ASSERT_EQ(pipe(told.data()), 0);
     const pid_t child = fork();
     if (child == 0) {
       AlarmJournal journal(path);
       if (!journal.open(kNow)) _exit(1);
-      for (int i = 0; i < 100'000; ++i)
+      for (int i = 0; i < 100'000; ++i) {
         journal.append(alarm("Number " + std::to_string(i)), JournalEvent::raised, kNow);
+        if (write(told[1], "", 1) != 1) _exit(1);
+      }
       _exit(0);
     }
-    usleep(static_cast<useconds_t>(kill_after_us));
+    close(told[1]);
+    // Each line is told of: the kill meets the child wherever it is in one of the next.
+    char byte = 0;
+    for (int i = 0; i < lines_before; ++i) ASSERT_EQ(read(told[0], &byte, 1), 1);
     kill(child, SIGKILL);
+    close(told[0]);
     int status = 0;
     waitpid(child, &status, 0);
     AlarmJournal journal(path);
