@@ -233,6 +233,10 @@ void describe(Schema<SensorConfig>& s) {
   s.field("min_depth_m", &C::min_depth_m, "propulsion: shaft speed means nothing above it")
       .unit("m")
       .range(-1000, 12'000);
+  s.field("slip_time_s", &C::slip_time_s,
+          "propulsion: for which a slip across the axis lasts; 0: noise of a sample")
+      .unit("s")
+      .range(0, 1000);
 }
 
 void describe(Schema<AlignmentConfig>& s) {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "geo/so3.hpp"
+
 namespace fathom::estimation {
 
 using Eigen::Index;
@@ -19,6 +21,15 @@ Transition transition(const NavTransition& step, const ProcessNoise& noise) {
   if (noise.drift != nullptr)
     for (const std::uint8_t state : noise.drift->decaying())
       out.keep[state] = noise.drift->kept(state, step.dt_s());
+  return out;
+}
+
+Transition turning(const Eigen::Vector3d& change_N_m_s) {
+  // (KF-5)
+  Transition out;
+  out.a.block<3, 3>(3, 6) = geo::skew(change_N_m_s);
+  out.b.resize(Eigen::NoChange, 0);
+  out.keep.fill(1.0);
   return out;
 }
 

@@ -16,6 +16,9 @@ struct Transition {
 /// Of what ErrorFilter::propagate() does with the same arguments.
 [[nodiscard]] Transition transition(const NavTransition& step, const ProcessNoise& noise);
 
+/// Of ErrorFilter::turn_with_attitude().
+[[nodiscard]] Transition turning(const Eigen::Vector3d& change_N_m_s);
+
 /// What an update leaves behind for the way back.
 struct UpdateRecord {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Observation::kMaxRows,

@@ -178,7 +178,7 @@ class Core {
   /// Refused fixes agree with each other and with the motion for long enough.
   bool believe_fix(Sensor::Candidate& candidate, const SensorConfig& config,
                    const Observation& observation) const;
-  /// Weighs the position down until it moves no further than allowed; whether it had to.
+  /// Weighs the fix down until the position moves no further than allowed; whether it had to.
   bool bound_step(const SensorConfig& config, Observation& observation,
                   InnovationStatistics& statistics) const;
   bool believe(Sensor::Rejections& past, const SensorConfig& config, const Observation& observation,
@@ -186,6 +186,8 @@ class Core {
   /// Variance that these rows ask for, added to `variance`.
   void make_room(SourceKind source, const Sensor& sensor, const Observation& observation, unsigned rows,
                  double factor, std::array<double, kNavStates>& variance) const;
+  /// What is measured along the vehicle's own axes: over ground while a DVL does, else through the water.
+  [[nodiscard]] Eigen::Vector3d velocity_of_log() const;
   void mark_used(const Measurement& measurement, bool with_position);
 
   // core_constraints.cpp

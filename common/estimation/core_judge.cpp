@@ -11,6 +11,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMostRoom = 1e6;
+/// Beyond it a velocity along the vehicle must not be taken for a heading.
+constexpr double kDoubtfulHeading_rad = 0.1;
 
 VerdictKind verdict_of(Usable usable) {
   switch (usable) {
@@ -97,8 +99,12 @@ Judgement Core::judge(const Measurement& measurement) {
       foretold && consider_model(state, std::get<PropulsionSample>(measurement.sample));
   // A model that is not believed leaves the shaft speed to the speed log, where one is configured.
   const bool modelled = foretold && (believed_model || config.scale_m_s_per_rpm == 0.0);
-  const AidingInput input{state, config, setup_->config.states.surface_altitude_m,
-                          &setup_->config.vehicle_model, modelled ? &water_ : nullptr};
+  const AidingInput input{.state = state,
+                          .sensor = config,
+                          .surface_altitude_m = setup_->config.states.surface_altitude_m,
+                          .vehicle_model = &setup_->config.vehicle_model,
+                          .water = modelled ? &water_ : nullptr,
+                          .unused_s = since(sensor.used_ns)};
   Observation observation;
   bool with_position = false;
   Usable first_refusal = Usable::yes;
@@ -116,8 +122,8 @@ Judgement Core::judge(const Measurement& measurement) {
   if (drives && measurement.source == SourceKind::fins) {
     // They serve the model alone: its doubt is theirs.
     out.model = ModelVelocity::kName;
-    out.kind = water_.doubt() <= setup_->config.vehicle_model.doubt_limit ? VerdictKind::used
-                                                                          : VerdictKind::rejected;
+    const bool believed = water_.worst_doubt() <= setup_->config.vehicle_model.doubt_limit;
+    out.kind = believed ? VerdictKind::used : VerdictKind::rejected;
     return out;
   }
   if (observation.rows == 0) {
@@ -172,7 +178,11 @@ Judgement Core::judge(const Measurement& measurement) {
     out.kind = VerdictKind::rejected;
     return out;
   }
+  const Vector3d before = velocity_of_log();
   remove_error(x, setup_->index.size(), state_);
+  // (KF-5)
+  if (!measures_position(measurement.source) && filter_(8, 8) > kDoubtfulHeading_rad * kDoubtfulHeading_rad)
+    filter_.turn_with_attitude(velocity_of_log() - before);
   if (stepped) {
     ++reset_counter_;
     last_reset_N_m_ = -Vector3d(x[0], x[1], x[2]);
@@ -201,6 +211,12 @@ bool Core::frozen(const Measurement& measurement, const SensorConfig& config, Se
     return false;
   }
   return (prediction - sensor.first_prediction).norm() > config.frozen_change;
+}
+
+Vector3d Core::velocity_of_log() const {
+  if (since(dvl_used_ns_) <= setup_->config.velocity_timeout_s) return state_.nav.v_N_m_s;
+  const AidingState state = aiding_state();
+  return state_.nav.v_N_m_s - Vector3d(state.value(Group::current, 0), state.value(Group::current, 1), 0.0);
 }
 
 void Core::mark_used(const Measurement& measurement, bool with_position) {

@@ -50,18 +50,18 @@ bool Core::consider_model(const AidingState& state, const PropulsionSample& samp
     observation.list_columns(setup_->index.size());
     InnovationStatistics statistics;
     filter_.statistics(observation, 1.0, statistics);
-    double normalised = 0.0;
-    for (int i = 0; i < observation.rows; ++i) {
+    Eigen::Vector2d normalised;
+    for (int i = 0; i < 2; ++i) {
       const auto r = static_cast<std::size_t>(i);
       const double lasting = observation.sigma[r];
       const double variance =
           statistics.s[r * Observation::kMaxRows + r] - lasting * lasting + model.sigma(i) * model.sigma(i);
-      normalised += observation.innovation[r] * observation.innovation[r] / variance / observation.rows;
+      normalised(i) = observation.innovation[r] * observation.innovation[r] / variance;
     }
     water_.compare(normalised, config.memory_s);
   }
   const bool tried = vouched || water_.compared_s() >= config.trial_s;
-  return tried && water_.doubt() <= config.doubt_limit;
+  return tried && water_.worst_doubt() <= config.doubt_limit;
 }
 
 }  // namespace fathom::estimation

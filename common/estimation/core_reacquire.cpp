@@ -138,8 +138,8 @@ bool Core::bound_step(const SensorConfig& config, Observation& observation,
     const Eigen::Vector2d step = ph.transpose() * s.llt().solve(z);
     if (!(step.norm() > most_m)) break;
     bounded = true;
-    for (int row = 0; row < observation.rows; ++row)
-      if (measures(observation, row, 0)) observation.sigma[static_cast<std::size_t>(row)] *= kWeighDown;
+    // All of the fix: after an outage its velocity, too, moves the position, by what they have in common.
+    for (std::size_t row = 0; row < rows; ++row) observation.sigma[row] *= kWeighDown;
     filter_.statistics(observation, 1.0, statistics);
   }
   return bounded;

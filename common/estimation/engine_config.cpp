@@ -117,6 +117,7 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "beam_azimuth_rad", sensor.beam_azimuth_rad, -kAngle, kAngle);
   check.in(at + "scale_m_s_per_rpm", sensor.scale_m_s_per_rpm, -10, 10);
   check.in(at + "min_depth_m", sensor.min_depth_m, -1000, 12000);
+  check.in(at + "slip_time_s", sensor.slip_time_s, 0, 1000);
   check.that(sensor.kind != SourceKind::imu, at + "kind: imu: expected an aiding sensor");
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geo/so3.hpp"
+
 namespace fathom::estimation {
 namespace {
 
@@ -71,6 +73,25 @@ void ErrorFilter::reset(const std::array<double, kMaxStates>& sigma) {
 void ErrorFilter::widen_drifted(const std::array<double, kNavStates>& variance) {
   for (int i = 0; i < kNavStates; ++i) widen(i, variance[static_cast<std::size_t>(i)]);
   if (tape_ != nullptr) tape_->drifted(*this, variance);
+}
+
+void ErrorFilter::turn_with_attitude(const Eigen::Vector3d& change_N_m_s) {
+  // (KF-5)
+  if (tape_ != nullptr) tape_->turned(change_N_m_s);
+  const Eigen::Matrix3d turn = geo::skew(change_N_m_s);
+  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxStates> rows(3, n_);
+  for (int j = 0; j < n_; ++j)
+    for (int i = 0; i < 3; ++i) {
+      rows(i, j) = (*this)(3 + i, j);
+      for (int k = 0; k < 3; ++k) rows(i, j) += turn(i, k) * (*this)(6 + k, j);
+    }
+  // Of the velocity with itself both sides turn.
+  const Eigen::Matrix3d own = rows.middleCols<3>(3) + rows.middleCols<3>(6) * turn.transpose();
+  for (int j = 0; j < n_; ++j)
+    for (int i = 0; i < 3; ++i)
+      if (j < 3 || j >= 6) set(3 + i, j, rows(i, j));
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j <= i; ++j) set(3 + i, 3 + j, 0.5 * (own(i, j) + own(j, i)));
 }
 
 void ErrorFilter::forget(int state, double sigma) {

@@ -58,6 +58,9 @@ class ErrorFilter {
   void widen(int state, double variance) { p_[at(state, state)] += variance; }
   /// Adds variance to the navigation states: they have drifted further than P knew, before now.
   void widen_drifted(const std::array<double, kNavStates>& variance);
+  /// The velocity that turns with the attitude has become longer by `change_N_m_s`: P <- T P T', T the
+  /// identity but for [change x] from the attitude to the velocity (KF-5).
+  void turn_with_attitude(const Eigen::Vector3d& change_N_m_s);
 
   /// Tells `tape`, which must outlive the filter's work, all that follows; nullptr for silence. Copies of the
   /// filter tell the same tape.
@@ -101,6 +104,8 @@ class FilterTape {
   virtual void forgot(int state) = 0;
   /// ErrorFilter::widen_drifted() has been done with `variance`.
   virtual void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) = 0;
+  /// ErrorFilter::turn_with_attitude() has been done.
+  virtual void turned(const Eigen::Vector3d& change_N_m_s) = 0;
   virtual void restarted() = 0;
 
  protected:

@@ -28,6 +28,7 @@ class FilterLog final : public FilterTape {
   void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) override {
     entries_.emplace_back(DriftRecord(widened, variance));
   }
+  void turned(const Eigen::Vector3d& change_N_m_s) override { entries_.emplace_back(turning(change_N_m_s)); }
   void restarted() override { entries_.emplace_back(Restart{}); }
 
  private:

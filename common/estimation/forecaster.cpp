@@ -114,8 +114,12 @@ void Forecaster::step(const Core& core, int lost, double dt_s) {
     // The last sample is about one second old in the forecast's eyes, whatever its rate.
     const bool modelled =
         setup_->velocity_model && setup_->config.sensors[slot].kind == SourceKind::propulsion;
-    const AidingInput input{state, setup_->config.sensors[slot], setup_->config.states.surface_altitude_m,
-                            &setup_->config.vehicle_model, modelled ? &core.water_velocity() : nullptr};
+    const AidingInput input{.state = state,
+                            .sensor = setup_->config.sensors[slot],
+                            .surface_altitude_m = setup_->config.states.surface_altitude_m,
+                            .vehicle_model = &setup_->config.vehicle_model,
+                            .water = modelled ? &core.water_velocity() : nullptr,
+                            .unused_s = dt_s};
     Observation observation;
     for (const AidingEntry& entry : aiding_registry())
       if (entry.source == setup_->config.sensors[slot].kind)

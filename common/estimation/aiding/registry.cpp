@@ -123,7 +123,7 @@ Usable speed_log(const AidingInput& in, const AnySample& any, Observation& out) 
   if (in.water != nullptr) return Usable::not_estimated;
   const auto& sample = std::get<PropulsionSample>(any);
   const Usable usable = SpeedLog::usable(in.state, in.sensor, sample, in.surface_altitude_m);
-  return usable == Usable::yes ? append(SpeedLog(in.state, in.sensor, sample), in, out) : usable;
+  return usable == Usable::yes ? append(SpeedLog(in.state, in.sensor, sample, in.unused_s), in, out) : usable;
 }
 
 Usable model_velocity(const AidingInput& in, const AnySample& any, Observation& out) {

@@ -1,20 +1,25 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "estimation/aiding/model.hpp"
 #include "samples/actuator.hpp"
 
 namespace fathom::estimation {
 
 /// Speed through the water from the propulsor's shaft speed, and the knowledge that such a vehicle moves
-/// along its own axis: along x the speed, across it zero, each with its sigma (AID-LOG-1..2). Without current
-/// states the water is taken to stand still.
+/// along its own axis: along x the speed, across it zero, each with its sigma (AID-LOG-1..3). What slips
+/// across lasts for a while. Without current states the water is taken to stand still.
 class SpeedLog {
  public:
   static constexpr const char* kName = "speed_log";
 
-  SpeedLog(const AidingState& s, const SensorConfig& sensor, const PropulsionSample& sample)
+  /// `unused_s`: since the last sample that was used.
+  SpeedLog(const AidingState& s, const SensorConfig& sensor, const PropulsionSample& sample, double unused_s)
       : s_(s),
         sensor_(sensor),
+        unused_s_(unused_s),
         speed_m_s_(sensor.scale_m_s_per_rpm * sample.rpm),
         lever_B_(geo::vec(sensor.lever_B_m)),
         through_N_(s.state.nav.v_N_m_s -
@@ -46,13 +51,19 @@ class SpeedLog {
   }
   [[nodiscard]] Vector3 noise() const {
     const double extra = sensor_.proportional_sigma * std::abs(speed_m_s_);
-    return {std::hypot(sensor_.sigma[0], extra), std::hypot(sensor_.sigma[1], extra),
-            std::hypot(sensor_.sigma[2], extra)};
+    // (AID-LOG-3)
+    const double span = std::clamp(unused_s_, kShortest_s, std::max(sensor_.slip_time_s, kShortest_s));
+    const double lasting = std::sqrt(std::max(sensor_.slip_time_s / span, 1.0));
+    return {std::hypot(sensor_.sigma[0], extra), lasting * std::hypot(sensor_.sigma[1], extra),
+            lasting * std::hypot(sensor_.sigma[2], extra)};
   }
 
  private:
+  static constexpr double kShortest_s = 1e-3;
+
   const AidingState& s_;
   const SensorConfig& sensor_;
+  double unused_s_;
   double speed_m_s_;
   Vector3 lever_B_;
   Vector3 through_N_;

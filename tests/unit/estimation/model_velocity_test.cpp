@@ -61,16 +61,17 @@ TEST(WaterVelocity, ALongStepIsTakenInParts) {
 TEST(WaterVelocity, DoubtIsTheMeanOfWhatWasCompared) {
   const hydro::VelocityModel model(test::small_vehicle());
   hydro::WaterVelocity water;
-  const auto second = [&](double normalised) {
+  const auto second = [&](double ahead, double across) {
     water.advance(model, Vector3d::Zero(), Vector3d::UnitZ(), 1.0);
-    water.compare(normalised, 60.0);
+    water.compare({ahead, across}, 60.0);
   };
   EXPECT_EQ(water.doubt(), 1.0);
-  for (int i = 0; i < 20; ++i) second(4.0);
+  for (int i = 0; i < 20; ++i) second(6.0, 2.0);
   EXPECT_NEAR(water.compared_s(), 20.0, 1e-9);
   EXPECT_NEAR(water.doubt(), 4.0, 1e-9);
-  for (int i = 0; i < 600; ++i) second(0.1);
-  EXPECT_EQ(water.doubt(), 1.0);  // never better than configured
+  EXPECT_NEAR(water.worst_doubt(), 6.0, 1e-9);
+  for (int i = 0; i < 600; ++i) second(0.1, 0.1);
+  EXPECT_EQ(water.worst_doubt(), 1.0);  // never better than configured
 }
 
 /// The survey of survey_run.hpp with shaft speed and fins, and a DVL that falls silent.

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/filter_log.hpp"
+#include "geo/so3.hpp"
 #include "support/analytic_vehicle.hpp"
 #include "support/vectors.hpp"
 
@@ -400,6 +401,51 @@ TEST(SmoothingDrift, WhatIsFoundBehindTheRoomHoldsBeforeIt) {
   other.back_through(other.size(), 0, noise);
   noise.smoothed_error(before, x);
   EXPECT_LT(std::abs(x[0]), 0.1 * kDrift_m);
+}
+
+// A covariance that is carried to a new velocity (KF-5), and the way back over it.
+TEST(SmoothingTurn, CarriesTheErrorToTheNewVelocityAndBack) {
+  test::Normal normal(5);
+  constexpr int kSize = 15;
+  MatrixXd root(kSize, kSize);
+  for (int i = 0; i < kSize; ++i)
+    for (int j = 0; j < kSize; ++j) root(i, j) = normal();
+  const MatrixXd p = root * root.transpose();
+  ErrorFilter filter(kSize);
+  for (int i = 0; i < kSize; ++i)
+    for (int j = 0; j <= i; ++j) filter.set(i, j, p(i, j));
+  const ErrorFilter before = filter;
+  FilterLog log(kSize);
+  filter.record_to(&log);
+  const Vector3d change(2.0, -1.0, 0.5);
+  filter.turn_with_attitude(change);
+
+  MatrixXd t = MatrixXd::Identity(kSize, kSize);
+  t.block<3, 3>(3, 6) = geo::skew(change);
+  const MatrixXd expected = t * p * t.transpose();
+  for (int i = 0; i < kSize; ++i)
+    for (int j = 0; j < kSize; ++j) {
+      EXPECT_NEAR(filter(i, j), expected(i, j), 1e-12 * expected.norm()) << i << j;
+      EXPECT_EQ(filter(i, j), filter(j, i));
+    }
+  // What turns with the attitude at the old velocity does so at the new one.
+  const Vector3d v(7.0, 3.0, 0.2);
+  VectorXd turned = VectorXd::Zero(kSize);
+  turned.segment<3>(6) = Vector3d(0.01, 0.02, 0.5);
+  turned.segment<3>(3) = v.cross(turned.segment<3>(6));
+  const VectorXd there = t * turned;
+  EXPECT_LT((there.segment<3>(3) - (v + change).cross(there.segment<3>(6))).norm(), 1e-12);
+
+  // A gradient of the future says of the past what it says of T times it.
+  VectorXd gradient(kSize);
+  for (int i = 0; i < kSize; ++i) gradient(i) = normal();
+  Adjoint adjoint(gradient, MatrixXd::Zero(kSize, kSize));
+  log.back_through(log.size(), 0, adjoint);
+  std::array<double, kMaxStates> x{};
+  adjoint.smoothed_error(before, x);
+  const VectorXd told = -p * t.transpose() * gradient;
+  for (int i = 0; i < kSize; ++i)
+    EXPECT_NEAR(x[static_cast<std::size_t>(i)], told(i), 1e-12 * told.norm()) << i;
 }
 
 }  // namespace
