@@ -15,7 +15,7 @@ class SpeedLog {
  public:
   static constexpr const char* kName = "speed_log";
 
-  /// `unused_s`: since the last sample that was used.
+  /// `unused_s`: since the last sample that was used, unknown before the first.
   SpeedLog(const AidingState& s, const SensorConfig& sensor, const PropulsionSample& sample, double unused_s)
       : s_(s),
         sensor_(sensor),
@@ -52,8 +52,8 @@ class SpeedLog {
   [[nodiscard]] Vector3 noise() const {
     const double extra = sensor_.proportional_sigma * std::abs(speed_m_s_);
     // (AID-LOG-3)
-    const double span = std::clamp(unused_s_, kShortest_s, std::max(sensor_.slip_time_s, kShortest_s));
-    const double lasting = std::sqrt(std::max(sensor_.slip_time_s / span, 1.0));
+    const bool again = unused_s_ < sensor_.slip_time_s;
+    const double lasting = again ? std::sqrt(sensor_.slip_time_s / std::max(unused_s_, kShortest_s)) : 1.0;
     return {std::hypot(sensor_.sigma[0], extra), lasting * std::hypot(sensor_.sigma[1], extra),
             lasting * std::hypot(sensor_.sigma[2], extra)};
   }

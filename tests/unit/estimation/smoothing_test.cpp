@@ -432,9 +432,9 @@ TEST(SmoothingTurn, CarriesTheErrorToTheNewVelocityAndBack) {
   const Vector3d v(7.0, 3.0, 0.2);
   VectorXd turned = VectorXd::Zero(kSize);
   turned.segment<3>(6) = Vector3d(0.01, 0.02, 0.5);
-  turned.segment<3>(3) = v.cross(turned.segment<3>(6));
+  turned.segment<3>(3) = geo::skew(v) * turned.segment<3>(6);
   const VectorXd there = t * turned;
-  EXPECT_LT((there.segment<3>(3) - (v + change).cross(there.segment<3>(6))).norm(), 1e-12);
+  EXPECT_LT((there.segment<3>(3) - geo::skew(v + change) * there.segment<3>(6)).norm(), 1e-12);
 
   // A gradient of the future says of the past what it says of T times it.
   VectorXd gradient(kSize);
