@@ -16,7 +16,7 @@ struct AidingInput {
   double surface_altitude_m;  ///< used where it is not estimated
   const VehicleModelConfig* vehicle_model = nullptr;
   const hydro::WaterVelocity* water = nullptr;  ///< what the vehicle model foretells, where it is switched on
-  double unused_s = kUnknown;                        ///< since the last measurement of this sensor that was used
+  double unused_s = kUnknown;                   ///< since the last measurement of this sensor that was used
 };
 
 /// One model in the list. `observe` appends its rows when the sample is usable.
