@@ -234,7 +234,7 @@ void describe(Schema<SensorConfig>& s) {
       .unit("m")
       .range(-1000, 12'000);
   s.field("slip_time_s", &C::slip_time_s,
-          "propulsion: for which a slip across the axis lasts; 0: noise of a sample")
+          "propulsion: for which slip along and across lasts; 0: noise of a sample")
       .unit("s")
       .range(0, 1000);
 }

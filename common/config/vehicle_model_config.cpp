@@ -46,8 +46,7 @@ void describe(Schema<VehicleModelConfig>& s) {
   s.field("trial_s", &C::trial_s, "of comparison before it is believed without the DVL")
       .unit("s")
       .range(0, 1e6);
-  s.field("doubt_limit", &C::doubt_limit,
-          "mean normalised squared innovation of the worse component above which it is not believed")
+  s.field("doubt_limit", &C::doubt_limit, "mean normalised squared innovation above which it is not believed")
       .range(1, 100);
 }
 

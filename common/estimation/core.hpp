@@ -199,8 +199,13 @@ class Core {
   /// True when the sample drives the model.
   bool drive_model(const Measurement& measurement);
   void foretell_velocity(const ImuStep& step);
-  /// Notes how the model did beside the DVL; false when it is not to be believed now.
-  bool consider_model(const AidingState& state, const PropulsionSample& sample);
+  struct ModelTrial {
+    bool usable = false;  ///< it has settled, and is that of where the vehicle is
+    bool believed = false;
+    bool fits = false;  ///< its gate would pass it
+  };
+  /// Notes how the model did beside the DVL.
+  ModelTrial consider_model(const AidingState& state, const PropulsionSample& sample);
 
   // core_align.cpp
   void align(const ImuStep& step);

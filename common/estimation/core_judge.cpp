@@ -95,10 +95,11 @@ Judgement Core::judge(const Measurement& measurement) {
 
   const AidingState state = aiding_state();
   const bool foretold = drives && measurement.source == SourceKind::propulsion;
-  const bool believed_model =
-      foretold && consider_model(state, std::get<PropulsionSample>(measurement.sample));
-  // A model that is not believed leaves the shaft speed to the speed log, where one is configured.
-  const bool modelled = foretold && (believed_model || config.scale_m_s_per_rpm == 0.0);
+  const ModelTrial model =
+      foretold ? consider_model(state, std::get<PropulsionSample>(measurement.sample)) : ModelTrial{};
+  // A model that proves wrong leaves the shaft speed to the speed log, where one is configured.
+  const bool wrong = model.usable && !(model.believed && model.fits);
+  const bool modelled = foretold && !(wrong && config.scale_m_s_per_rpm != 0.0);
   const AidingInput input{.state = state,
                           .sensor = config,
                           .surface_altitude_m = setup_->config.states.surface_altitude_m,
@@ -122,7 +123,7 @@ Judgement Core::judge(const Measurement& measurement) {
   if (drives && measurement.source == SourceKind::fins) {
     // They serve the model alone: its doubt is theirs.
     out.model = ModelVelocity::kName;
-    const bool believed = water_.worst_doubt() <= setup_->config.vehicle_model.doubt_limit;
+    const bool believed = water_.doubt() <= setup_->config.vehicle_model.doubt_limit;
     out.kind = believed ? VerdictKind::used : VerdictKind::rejected;
     return out;
   }
@@ -164,7 +165,7 @@ Judgement Core::judge(const Measurement& measurement) {
     if (result.pass && fix) stepped = bound_step(config, observation, statistics) || stepped;
   }
   out.dimensions = static_cast<std::uint32_t>(whole.rows);
-  if (modelled && !believed_model) out.kind = VerdictKind::rejected;
+  if (modelled && !model.believed) out.kind = VerdictKind::rejected;
   for (std::size_t i = 0; i < static_cast<std::size_t>(whole.rows); ++i) {
     out.innovation[i] = whole.innovation[i];
     out.innovation_sigma[i] = result.innovation_sigma[i];

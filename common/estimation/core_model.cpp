@@ -3,6 +3,7 @@
 
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/core.hpp"
+#include "estimation/gate.hpp"
 
 namespace fathom::estimation {
 
@@ -36,32 +37,33 @@ void Core::foretell_velocity(const ImuStep& step) {
     filter_.widen(i, (water_.doubt() - 1.0) * setup_->walk[static_cast<std::size_t>(i)] * dt_s);
 }
 
-bool Core::consider_model(const AidingState& state, const PropulsionSample& sample) {
+Core::ModelTrial Core::consider_model(const AidingState& state, const PropulsionSample& sample) {
   // (HYD-4)
   const VehicleModelConfig& config = setup_->config.vehicle_model;
   const double surface_m = setup_->config.states.surface_altitude_m;
-  if (ModelVelocity::usable(state, config, water_, sample, surface_m) != Usable::yes) return false;
+  if (ModelVelocity::usable(state, config, water_, sample, surface_m) != Usable::yes) return {};
   const ModelVelocity model(state, config, water_);
   const bool vouched = since(dvl_used_ns_) <= setup_->config.velocity_timeout_s;
+  Observation observation;
+  observe(model, setup_->index, observation);
+  if (observation.rows < model.dimension()) return {};
+  observation.list_columns(setup_->index.size());
+  InnovationStatistics statistics;
   if (vouched) {
-    Observation observation;
-    observe(model, setup_->index, observation);
-    if (observation.rows < model.dimension()) return false;
-    observation.list_columns(setup_->index.size());
-    InnovationStatistics statistics;
     filter_.statistics(observation, 1.0, statistics);
-    Eigen::Vector2d normalised;
-    for (int i = 0; i < 2; ++i) {
+    double normalised = 0.0;
+    for (int i = 0; i < observation.rows; ++i) {
       const auto r = static_cast<std::size_t>(i);
       const double lasting = observation.sigma[r];
       const double variance =
           statistics.s[r * Observation::kMaxRows + r] - lasting * lasting + model.sigma(i) * model.sigma(i);
-      normalised(i) = observation.innovation[r] * observation.innovation[r] / variance;
+      normalised += observation.innovation[r] * observation.innovation[r] / variance / observation.rows;
     }
     water_.compare(normalised, config.memory_s);
   }
   const bool tried = vouched || water_.compared_s() >= config.trial_s;
-  return tried && water_.worst_doubt() <= config.doubt_limit;
+  return {true, tried && water_.doubt() <= config.doubt_limit,
+          gate(filter_, setup_->model_gate, setup_->model_limits, observation, statistics).pass};
 }
 
 }  // namespace fathom::estimation

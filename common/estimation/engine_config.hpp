@@ -164,7 +164,7 @@ struct SensorConfig {
   std::array<double, 4> beam_azimuth_rad{-1.5707963267948966, 1.5707963267948966, 0.0, 3.141592653589793};
   double scale_m_s_per_rpm = 0.0;  ///< propulsion: water speed per shaft rpm; 0: not used
   double min_depth_m = 0.0;        ///< propulsion: shaft speed means nothing above it
-  double slip_time_s = 10.0;  ///< propulsion: for which a slip across the axis lasts; 0: noise of a sample
+  double slip_time_s = 10.0;  ///< propulsion: for which slip along and across lasts; 0: noise of a sample
 };
 
 /// A sensor with the defaults that suit its kind.
@@ -249,8 +249,7 @@ struct VehicleModelConfig {
   double settle_s = 30.0;                       ///< not used before: what was wrong at its start dies out
   double memory_s = 60.0;                       ///< over which it is compared with the DVL-aided velocity
   double trial_s = 30.0;                        ///< of comparison before it is believed without the DVL
-  double doubt_limit =
-      9.0;  ///< mean normalised squared innovation of the worse component: not believed above
+  double doubt_limit = 9.0;  ///< mean normalised squared innovation above which it is not believed
 };
 
 /// A limit that the forecast watches.

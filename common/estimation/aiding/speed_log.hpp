@@ -9,8 +9,8 @@
 namespace fathom::estimation {
 
 /// Speed through the water from the propulsor's shaft speed, and the knowledge that such a vehicle moves
-/// along its own axis: along x the speed, across it zero, each with its sigma (AID-LOG-1..3). What slips
-/// across lasts for a while. Without current states the water is taken to stand still.
+/// along its own axis: along x the speed, across it zero, each with its sigma (AID-LOG-1..3). Slip, of the
+/// propulsor as of the hull, lasts for a while. Without current states the water is taken to stand still.
 class SpeedLog {
  public:
   static constexpr const char* kName = "speed_log";
@@ -54,8 +54,8 @@ class SpeedLog {
     // (AID-LOG-3)
     const bool again = unused_s_ < sensor_.slip_time_s;
     const double lasting = again ? std::sqrt(sensor_.slip_time_s / std::max(unused_s_, kShortest_s)) : 1.0;
-    return {std::hypot(sensor_.sigma[0], extra), lasting * std::hypot(sensor_.sigma[1], extra),
-            lasting * std::hypot(sensor_.sigma[2], extra)};
+    return lasting * Vector3(std::hypot(sensor_.sigma[0], extra), std::hypot(sensor_.sigma[1], extra),
+                             std::hypot(sensor_.sigma[2], extra));
   }
 
  private:

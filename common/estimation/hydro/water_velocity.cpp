@@ -69,14 +69,14 @@ double WaterVelocity::unmeasured_s(double longest_s) const {
   return std::min(unmeasured_s_, longest_s);
 }
 
-void WaterVelocity::compare(const Eigen::Vector2d& normalised, double memory_s) {
+void WaterVelocity::compare(double normalised, double memory_s) {
   // (HYD-4)
   const double span = std::min(since_compared_s_, kLongestComparison_s);
   since_compared_s_ = 0.0;
   compared_s_ += span;
   // Young memories average plainly, old ones forget.
   const double share = std::max(span / std::min(compared_s_, memory_s), span / memory_s);
-  doubt_ += std::min(share, 1.0) * (normalised.cwiseMin(kWorst) - doubt_);
+  doubt_ += std::min(share, 1.0) * (std::min(normalised, kWorst) - doubt_);
 }
 
 }  // namespace fathom::estimation::hydro

@@ -51,13 +51,11 @@ class WaterVelocity {
   [[nodiscard]] double unmeasured_s(double longest_s) const;
   void measured() { unmeasured_s_ = 0.0; }
 
-  /// Takes note of the normalised squared innovations ahead and across, one where all is as believed, while
-  /// another instrument vouches for the velocity (HYD-4).
-  void compare(const Eigen::Vector2d& normalised, double memory_s);
+  /// Takes note of a normalised squared innovation per component, one where all is as believed, while another
+  /// instrument vouches for the velocity (HYD-4).
+  void compare(double normalised, double memory_s);
   /// Mean normalised squared innovation, at least 1: what the model's noise is to be multiplied by.
-  [[nodiscard]] double doubt() const { return std::max(doubt_.mean(), 1.0); }
-  /// That of the worse component alone: what decides whether the model is believed.
-  [[nodiscard]] double worst_doubt() const { return std::max(doubt_.maxCoeff(), 1.0); }
+  [[nodiscard]] double doubt() const { return doubt_ < 1.0 ? 1.0 : doubt_; }
   /// How long the model has been compared.
   [[nodiscard]] double compared_s() const { return compared_s_; }
 
@@ -72,7 +70,7 @@ class WaterVelocity {
   double unmeasured_s_ = 1e9;
   double since_compared_s_ = 1e9;
   double compared_s_ = 0.0;
-  Eigen::Vector2d doubt_ = Eigen::Vector2d::Ones();
+  double doubt_ = 1.0;
 };
 
 }  // namespace fathom::estimation::hydro
