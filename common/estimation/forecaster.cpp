@@ -11,15 +11,16 @@ using Eigen::Vector3d;
 
 constexpr double kGrowthSpan_s = 60.0;
 constexpr double kDeviation95 = 1.959963984540054;
+constexpr double kDeviation50 = 0.674489750196082;
 /// Less of it is no pattern yet.
 constexpr int kLeastMemory = 10;
 /// An aiding sensor is taken to give one independent measurement in each.
 constexpr double kStep_s = 1.0;
 
-/// 95 % value and root mean square.
+/// What 95 % and half of such vehicles would not exceed.
 struct Uncertainty {
   double within_95 = 0.0;
-  double rms = 0.0;
+  double median = 0.0;
 };
 struct Now {
   Uncertainty horizontal;
@@ -35,10 +36,11 @@ Now measure(const ErrorFilter& filter) {
   const double half = std::hypot(0.5 * (a - b), c);
   const double vertical = std::sqrt(std::max(filter(2, 2), 0.0));
   const double heading = std::sqrt(std::max(filter(8, 8), 0.0));
-  return {{radius_95(std::sqrt(std::max(middle + half, 0.0)), std::sqrt(std::max(middle - half, 0.0))),
-           std::sqrt(a + b)},
-          {kDeviation95 * vertical, vertical},
-          {kDeviation95 * heading, heading}};
+  const double larger = std::sqrt(std::max(middle + half, 0.0));
+  const double smaller = std::sqrt(std::max(middle - half, 0.0));
+  return {{radius_95(larger, smaller), radius_50(larger, smaller)},
+          {kDeviation95 * vertical, kDeviation50 * vertical},
+          {kDeviation95 * heading, kDeviation50 * heading}};
 }
 
 const Uncertainty& of(const Now& now, const std::string& name) {
@@ -58,6 +60,12 @@ double radius_95(double larger_sigma, double smaller_sigma) {
   if (!(larger_sigma > 0.0)) return 0.0;
   const double c = smaller_sigma / larger_sigma;
   return larger_sigma * (1.960790 + c * (0.004071 + c * (0.114276 + c * 0.371625)));
+}
+
+double radius_50(double larger_sigma, double smaller_sigma) {
+  if (!(larger_sigma > 0.0)) return 0.0;
+  const double c = smaller_sigma / larger_sigma;
+  return larger_sigma * (0.671956 + c * (0.011405 + c * (1.013712 - c * 0.523462)));
 }
 
 Forecaster::Forecaster(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {}
@@ -158,7 +166,7 @@ void Forecaster::follow(const Core& core, int lost, Forecast& out, std::uint32_t
     const Uncertainty& now = of(start, limits[i].name);
     limit.now = now.within_95;
     limit.time_to_limit_s = now.within_95 >= limit.limit ? 0.0 : kNever;
-    limit.time_expected_s = now.rms >= limit.limit ? 0.0 : kNever;
+    limit.time_expected_s = now.median >= limit.limit ? 0.0 : kNever;
   }
   Now before = start;
   bool open = true;
@@ -171,7 +179,7 @@ void Forecaster::follow(const Core& core, int lost, Forecast& out, std::uint32_t
       const Uncertainty& low = of(before, limits[i].name);
       const Uncertainty& high = of(after, limits[i].name);
       pass(limit.time_to_limit_s, limit.limit, low.within_95, high.within_95, elapsed, kStep_s);
-      pass(limit.time_expected_s, limit.limit, low.rms, high.rms, elapsed, kStep_s);
+      pass(limit.time_expected_s, limit.limit, low.median, high.median, elapsed, kStep_s);
       open = open || std::isinf(limit.time_expected_s);
     }
     before = after;

@@ -7,6 +7,8 @@ namespace fathom::estimation {
 
 /// Radius that holds 95 % of a two-dimensional normal distribution with these axes' sigmas; exact to 0.3 %.
 [[nodiscard]] double radius_95(double larger_sigma, double smaller_sigma);
+/// Likewise of the one that holds half; exact to 0.7 %.
+[[nodiscard]] double radius_50(double larger_sigma, double smaller_sigma);
 
 /// Propagates the covariance on without position fixes, along the motion of the last two minutes over again,
 /// with the other aiding that was in use a moment ago or without it (FC-1).

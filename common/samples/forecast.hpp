@@ -15,7 +15,7 @@ struct ForecastLimit {
   double now = kUnknown;              ///< present 95 % value, same unit
   double time_to_limit_s = kUnknown;  ///< of the 95 % value; +infinity when never
   Name without{};                     ///< an aiding sensor that is lost, too; "all": every one; else empty
-  double time_expected_s = kUnknown;  ///< of the root mean square; likewise
+  double time_expected_s = kUnknown;  ///< of the median: half of such vehicles have passed it by then
 };
 
 struct Forecast {

@@ -50,8 +50,8 @@ constexpr std::array<double, 3> kStartAttitude_rad{1.0 * kDegree, 1.0 * kDegree,
 constexpr double kClimb_s = 250.0;
 constexpr double kBank_s = 500.0;
 constexpr double kDutchRoll_s = 550.0;
-/// GPS goes when the Dutch roll has grown.
-constexpr double kInDutchRoll_s = 556.0;
+/// GPS goes when the Dutch roll has grown and the aircraft rolls fastest: what is then held on to is worst.
+constexpr double kInDutchRoll_s = 555.0;
 
 constexpr std::array<FlightCase, kFlightCases> kCases{{
     {.name = "climb_10s", .outage_at_s = kClimb_s, .scored_after_s = 10.0},
@@ -90,6 +90,7 @@ sim::Scenario flight_scenario() {
   s.start.speed_m_s = kSpeed_m_s;
   s.start.rpy_rad = {0.0, kAttack_rad, kHeading_rad};
   s.vehicle.kind = sim::VehicleConfig::Kind::aircraft;
+  s.vehicle.aircraft.dutch_roll_period_s = 3.0;
 
   const auto order = [&](double at_s) -> sim::MissionStep& {
     sim::MissionStep& step = s.mission.emplace_back();
@@ -119,7 +120,7 @@ sim::Scenario flight_scenario() {
   (void)turn_at(450.0);
   order(kBank_s).bank_rad = 45.0 * kDegree;
   (void)turn_at(525.0);
-  order(kDutchRoll_s).dutch_roll_rad = 8.0 * kDegree;
+  order(kDutchRoll_s).dutch_roll_rad = 35.0 * kDegree;
   order(580.0).dutch_roll_rad = 0.0;
   for (double t = 600.0; t < 760.0; t += 45.0) (void)turn_at(t);
   order(770.0).bank_rad = -25.0 * kDegree;

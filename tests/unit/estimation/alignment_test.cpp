@@ -1,6 +1,9 @@
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "estimation/alignment/rest_window.hpp"
+#include "estimation/forecaster.hpp"
 #include "support/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -249,6 +252,25 @@ TEST(Alignment, TheTurnWithTheEarthIsNoUnrest) {
   EXPECT_NEAR(swinging.result().rate_sigma_rad_s.z(), 2.0 * 0.005 / std::sqrt(2.0) / 30.0, 0.1e-3);
 }
 
+TEST(Forecast, RadiiHoldTheirShareOfANormalDistribution) {
+  for (const double c : {0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+    for (const bool median : {true, false}) {
+      const double radius = median ? radius_50(2.0, 2.0 * c) : radius_95(2.0, 2.0 * c);
+      // Of sigmas 1 and c, by the midpoint rule along the larger axis.
+      const double r = 0.5 * radius;
+      constexpr int kSlices = 20000;
+      double share = 0.0;
+      for (int i = 0; i < kSlices; ++i) {
+        const double x = (i + 0.5) / kSlices * r;
+        const double inside = c > 0.0 ? std::erf(std::sqrt(0.5 * (r * r - x * x)) / c) : 1.0;
+        share += 2.0 * r / kSlices * std::exp(-0.5 * x * x) / std::sqrt(2.0 * M_PI) * inside;
+      }
+      EXPECT_NEAR(share, median ? 0.5 : 0.95, median ? 5e-3 : 1e-3) << c;
+    }
+  }
+  EXPECT_EQ(radius_50(0.0, 0.0), 0.0);
+}
+
 TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   const SurveyRun run({.duration_s = 60.0});
   EngineConfig config = SurveyRun::config();
@@ -267,7 +289,7 @@ TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   EXPECT_LT(forecast.limits[3].time_to_limit_s, forecast.limits[0].time_to_limit_s);
   EXPECT_LT(forecast.limits[6].time_to_limit_s, forecast.limits[0].time_to_limit_s);
   EXPECT_LE(forecast.limits[3].time_to_limit_s, forecast.limits[6].time_to_limit_s);
-  // Root mean square is less than what holds 95 %.
+  // The median is less than what holds 95 %.
   EXPECT_GT(forecast.limits[3].time_expected_s, forecast.limits[3].time_to_limit_s);
   EXPECT_EQ(engine.forecast_horizontal_95_m(0.0), forecast.horizontal_95_m);
   EXPECT_TRUE(std::isnan(engine.forecast_horizontal_95_m(std::numeric_limits<double>::infinity())));
