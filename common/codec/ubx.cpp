@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "codec/bytes.hpp"
+#include "codec/ubx_interference.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -138,16 +139,23 @@ class Ubx final : public Framer {
   [[nodiscard]] Probe probe(Bytes front) const override { return probe_ubx(front); }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
-    if (frame[2] != kClassNav || frame[3] != kIdPvt) return Outcome::ignored();
     // An empty payload asks the receiver for the message.
     if (frame.size() == kOverhead) return Outcome::ignored();
+    const Bytes payload = frame.subspan(kHeader, frame.size() - kOverhead);
+    if (frame[2] != kClassNav || frame[3] != kIdPvt) {
+      const auto reason = interference_.read(frame[2], frame[3], payload);
+      return reason ? Outcome::refused(*reason) : Outcome::ignored();
+    }
     GpsSample sample;
     DeviceTime time;
-    const auto reason = read_pvt(frame.subspan(kHeader, frame.size() - kOverhead), sample, time);
-    if (reason) return Outcome::refused(*reason);
+    if (const auto reason = read_pvt(payload, sample, time)) return Outcome::refused(*reason);
+    interference_.stamp(sample);
     emit(sink, sample, time, offset, frame.size());
     return Outcome::used();
   }
+
+ private:
+  UbxInterference interference_;
 };
 
 }  // namespace

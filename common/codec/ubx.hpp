@@ -19,7 +19,8 @@ inline constexpr std::size_t kUbxMaxPayload = 4096;
 [[nodiscard]] std::pair<std::uint8_t, std::uint8_t> ubx_checksum(Bytes class_to_payload);
 
 /// u-blox UBX: NAV-PVT (92 bytes, 84 on generation 7) to GpsSample; other messages are good frames without
-/// sample. NMEA and RTCM between them are skipped.
+/// sample. What the receiver says of jamming and spoofing (ubx_interference.hpp) goes into the fixes that
+/// follow. NMEA and RTCM between them are skipped.
 ///
 /// Position and velocity are unknown unless the receiver declares the fix within its limits (gnssFixOK) and
 /// the position valid. hAcc is a radius: one axis has hAcc / sqrt(2). UTC is given only when fully resolved.

@@ -151,6 +151,8 @@ void describe(Schema<SensorConfig>& s) {
   s.field("min_fix", &C::min_fix,
           "gps: lowest quality used: 3 2D, 4 3D, 5 differential, 6 RTK float, 7 RTK fixed")
       .range(0, 7);
+  s.field("refuse_spoofed", &C::refuse_spoofed,
+          "gps: a fix of which the receiver itself affirms that it is spoofed is out of range");
   s.field("gate_probability", &C::gate_probability,
           "share of good measurements that pass the gate; 1: no gate")
       .range(0.5, 1.0);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/heading.hpp"
 #include "estimation/core.hpp"
 
@@ -27,7 +28,7 @@ void Core::enter(AlignmentPhase phase) {
 void Core::notice(const Measurement& measurement) {
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(measurement.sensor)];
   if (const auto* gps = std::get_if<GpsSample>(&measurement.sample)) {
-    if (static_cast<std::uint8_t>(gps->fix) < config.min_fix) return;
+    if (!is_fixed(config, *gps)) return;
     if (!std::isfinite(gps->latitude_rad) || !std::isfinite(gps->longitude_rad)) return;
     if (std::abs(gps->latitude_rad) > 1.5708 || std::abs(gps->longitude_rad) > 6.2832) return;
     const Vector3d v = geo::vec(gps->velocity_N_m_s);

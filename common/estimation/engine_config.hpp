@@ -135,6 +135,7 @@ struct SensorConfig {
   bool use_position = true;         ///< GPS
   bool use_velocity = true;         ///< GPS
   std::uint8_t min_fix = 4;         ///< GPS: lowest GpsFix that counts (4: fix_3d)
+  bool refuse_spoofed = true;       ///< GPS: not used while the receiver says that it is spoofed
   double gate_probability = 0.999;  ///< share of good measurements that pass; 1: no gate
   GateMode gate_mode = GateMode::whole;
   RobustKind robust = RobustKind::none;

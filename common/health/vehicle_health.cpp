@@ -45,10 +45,11 @@ void VehicleHealth::heard(SourceKind kind, const SampleHeader& header, const Ins
 void VehicleHealth::add(const GpsSample& sample, const Instant& now, const WriterId& writer) {
   if (!ours(sample.header)) return;
   heard(SourceKind::gps, sample.header, now, writer);
-  const bool believed = fixes_.add(sample, now);
-  gps_.add(sample, now, believed);
+  const bool alive = fixes_.add(sample, now);
+  const bool honest = interference_.add(sample, now);
+  gps_.add(sample, now, alive && honest);
   // It was frozen before that could be known.
-  if (!believed) gps_.doubt(sample.header.sensor, fixes_.same_since_ns(sample.header.sensor));
+  if (!alive) gps_.doubt(sample.header.sensor, fixes_.same_since_ns(sample.header.sensor));
 }
 
 void VehicleHealth::add(const DvlSample& sample, const Instant& now, const WriterId& writer) {
@@ -98,6 +99,7 @@ void VehicleHealth::evaluate(const Instant& now) {
   services_.evaluate(now);
   gps_.report(book_, now);
   fixes_.report(book_, now);
+  interference_.report(book_, now);
   stamps_.report(book_, now);
   writers_.report(book_, now, describe_);
   nav_.report(book_, now);

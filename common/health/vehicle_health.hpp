@@ -7,6 +7,7 @@
 #include "health/fix_watch.hpp"
 #include "health/gps_outage.hpp"
 #include "health/instant.hpp"
+#include "health/interference_watch.hpp"
 #include "health/nav_watch.hpp"
 #include "health/refusal_watch.hpp"
 #include "health/sensor_watch.hpp"
@@ -77,6 +78,7 @@ class VehicleHealth {
   AlarmBook book_;
   GpsOutage gps_;
   FixWatch fixes_;
+  InterferenceWatch interference_;
   StampWatch stamps_;
   WriterWatch writers_;
   NavWatch nav_;

@@ -20,6 +20,20 @@ enum class GpsFix : std::uint8_t {
   rtk_fixed = 7,
 };
 
+/// What a receiver itself says of interference, the worse the later.
+enum class GpsJamming : std::uint8_t {
+  unknown = 0,  ///< nothing said, or its detection is off
+  none = 1,
+  warning = 2,  ///< interference, and still a fix
+  critical = 3,
+};
+enum class GpsSpoofing : std::uint8_t {
+  unknown = 0,
+  none = 1,
+  indicated = 2,  ///< one sign of it
+  affirmed = 3,   ///< several: what such a receiver reports is somebody else's position
+};
+
 struct GpsSample {
   SampleHeader header;
   GpsFix fix = GpsFix::none;
@@ -34,6 +48,8 @@ struct GpsSample {
   std::array<double, 3> velocity_sigma_N_m_s{kUnknown, kUnknown, kUnknown};
   double hdop = kUnknown;
   double course_rad = kUnknown;  ///< over ground, from true north
+  GpsJamming jamming = GpsJamming::unknown;
+  GpsSpoofing spoofing = GpsSpoofing::unknown;
 };
 
 }  // namespace fathom

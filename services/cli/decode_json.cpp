@@ -24,6 +24,17 @@ std::string_view word(GpsFix fix) {
   return kWords.at(static_cast<std::size_t>(fix));
 }
 
+// Where the receiver said nothing: null, as every unknown.
+Json word(GpsJamming jamming) {
+  constexpr std::array kWords{"", "none", "warning", "critical"};
+  return jamming == GpsJamming::unknown ? Json() : Json(kWords.at(static_cast<std::size_t>(jamming)));
+}
+
+Json word(GpsSpoofing spoofing) {
+  constexpr std::array kWords{"", "none", "indicated", "affirmed"};
+  return spoofing == GpsSpoofing::unknown ? Json() : Json(kWords.at(static_cast<std::size_t>(spoofing)));
+}
+
 std::string_view word(DvlFrame frame) {
   constexpr std::array<std::string_view, 4> kWords{"beam", "instrument", "ship", "earth"};
   return kWords.at(static_cast<std::size_t>(frame));
@@ -84,6 +95,8 @@ void add(Json& line, const GpsSample& s) {
     line[std::string("sigma_v") + kAxes[i] + "_m_s"] = s.velocity_sigma_N_m_s[i];
   }
   line["course_deg"] = degrees(s.course_rad);
+  line["jamming"] = word(s.jamming);
+  line["spoofing"] = word(s.spoofing);
 }
 
 void add(Json& line, const DepthSample& s) {

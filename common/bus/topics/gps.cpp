@@ -24,6 +24,8 @@ struct Mapping<GpsSample> {
     copy(plain.velocity_sigma_N_m_s, wire.velocity_sigma_N_m_s());
     copy(plain.hdop, wire.hdop());
     copy(plain.course_rad, wire.course_rad());
+    copy_enum<GpsJamming::critical, v1::GPS_JAMMING_CRITICAL>(copy, plain.jamming, wire.jamming());
+    copy_enum<GpsSpoofing::affirmed, v1::GPS_SPOOFING_AFFIRMED>(copy, plain.spoofing, wire.spoofing());
   }
 
   static std::string key_text(const GpsSample& sample) { return vehicle_and_sensor(sample); }

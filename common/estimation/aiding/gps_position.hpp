@@ -5,6 +5,12 @@
 
 namespace fathom::estimation {
 
+/// A fix of the quality that is asked for, and not one that its own receiver disowns.
+[[nodiscard]] inline bool is_fixed(const SensorConfig& sensor, const GpsSample& sample) {
+  const bool disowned = sensor.refuse_spoofed && sample.spoofing == GpsSpoofing::affirmed;
+  return static_cast<std::uint8_t>(sample.fix) >= sensor.min_fix && !disowned;
+}
+
 /// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..2). The
 /// latency state is what remains of the fix's age after the configured latency.
 class GpsPosition {
@@ -21,7 +27,7 @@ class GpsPosition {
         latency_s_(s.value(Group::gps_latency, 0)) {}
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
-    const bool fixed = static_cast<std::uint8_t>(sample.fix) >= sensor.min_fix;
+    const bool fixed = is_fixed(sensor, sample);
     const bool placed = std::abs(sample.latitude_rad) <= 1.5707963267948966 &&
                         std::abs(sample.longitude_rad) <= 6.2831853071795865;
     const bool high = !known(sample.altitude_m) || std::abs(sample.altitude_m) < 5e4;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "estimation/aiding/model.hpp"
-#include "samples/gps.hpp"
+#include "estimation/aiding/gps_position.hpp"
 
 namespace fathom::estimation {
 
@@ -20,7 +19,7 @@ class GpsVelocity {
         latency_s_(s.value(Group::gps_latency, 0)) {}
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
-    if (static_cast<std::uint8_t>(sample.fix) < sensor.min_fix) return Usable::out_of_range;
+    if (!is_fixed(sensor, sample)) return Usable::out_of_range;
     // A receiver that claims an impossible place is not believed in its velocity either; an unknown place is
     // no claim.
     if (known(sample.latitude_rad) && !(std::abs(sample.latitude_rad) <= 1.5707963267948966))

@@ -113,6 +113,7 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
   } else if (protocol == "ubx") {
     append(stream, sim::encode::ubx_nav_pvt(gps(frame), instant(frame)));
     append(stream, sim::encode::ubx_frame(0x01, 0x35, ByteVector(20, static_cast<std::uint8_t>(frame))));
+    append(stream, sim::encode::ubx_frame(0x0A, 0x38, ByteVector(4 + 24, 1)));  // MON-RF, one block
   } else if (protocol == "paroscientific") {
     append(stream, sim::encode::paroscientific(depth, seed_options(protocol)));
   } else if (protocol == "ascii_depth") {

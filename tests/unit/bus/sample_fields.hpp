@@ -46,8 +46,8 @@ void fields(Is<DvlSample> auto& s, auto visit) {
   visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m);
 }
 void fields(Is<GpsSample> auto& s, auto visit) {
-  auto& [header, a, b, c, d, e, f, g, h, i, j, k] = s;
-  visit(header, a, b, c, d, e, f, g, h, i, j, k);
+  auto& [header, a, b, c, d, e, f, g, h, i, j, k, l, m] = s;
+  visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m);
 }
 void fields(Is<DepthSample> auto& s, auto visit) {
   auto& [header, a, b, c, d] = s;
@@ -156,6 +156,14 @@ constexpr unsigned last_of<DvlFrame>() {
 template <>
 constexpr unsigned last_of<GpsFix>() {
   return static_cast<unsigned>(GpsFix::rtk_fixed);
+}
+template <>
+constexpr unsigned last_of<GpsJamming>() {
+  return static_cast<unsigned>(GpsJamming::critical);
+}
+template <>
+constexpr unsigned last_of<GpsSpoofing>() {
+  return static_cast<unsigned>(GpsSpoofing::affirmed);
 }
 template <>
 constexpr unsigned last_of<North>() {

@@ -1,13 +1,16 @@
 #include "codec/ubx.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "codec/bytes.hpp"
+#include "codec/ubx_interference.hpp"
 #include "support/codec/decode_run.hpp"
 
 namespace fathom::codec {
@@ -216,6 +219,111 @@ TEST(Ubx, NmeaAndCorrectionsInBetweenAreSkipped) {
   EXPECT_TRUE(run.rejected.empty());
   EXPECT_EQ(run.totals.skipped_bytes, 19U + 7U);
   EXPECT_EQ(decode_whole("nmea0183", stream).samples.size(), 1U);
+}
+
+ByteVector nav_status(unsigned spoofing_state) {
+  ByteVector p(16, 0);
+  p[7] = static_cast<std::uint8_t>(spoofing_state << 3U | 0x02U);
+  return frame(0x01, 0x03, p);
+}
+ByteVector mon_hw(unsigned jamming_state, std::size_t length = 60) {
+  ByteVector p(length, 0xFF);
+  p[22] = static_cast<std::uint8_t>(0xF3U | jamming_state << 2U);
+  return frame(0x0A, 0x09, p);
+}
+ByteVector mon_rf(const std::vector<unsigned>& jamming_states) {
+  ByteVector p(4 + 24 * jamming_states.size(), 0);
+  p[1] = static_cast<std::uint8_t>(jamming_states.size());
+  for (std::size_t i = 0; i < jamming_states.size(); ++i) {
+    p[4 + 24 * i + 1] = static_cast<std::uint8_t>(jamming_states[i]);
+  }
+  return frame(0x0A, 0x38, p);
+}
+ByteVector sec_sig_1(std::uint8_t jamming_flags, std::uint8_t spoofing_flags) {
+  ByteVector p(12, 0);
+  p[0] = 1;
+  p[4] = jamming_flags;
+  p[8] = spoofing_flags;
+  return frame(0x27, 0x09, p);
+}
+ByteVector sec_sig_2(std::uint8_t flags, std::size_t bands) {
+  ByteVector p(4 + 4 * bands, 0);
+  p[0] = 2;
+  p[1] = flags;
+  p[3] = static_cast<std::uint8_t>(bands);
+  return frame(0x27, 0x09, p);
+}
+
+/// The fix that follows these messages.
+GpsSample fix_after(const std::vector<ByteVector>& messages, int fixes = 1) {
+  ByteVector stream;
+  for (const ByteVector& message : messages) stream.insert(stream.end(), message.begin(), message.end());
+  const ByteVector fix = frame(0x01, 0x07, pvt());
+  for (int i = 0; i < fixes; ++i) stream.insert(stream.end(), fix.begin(), fix.end());
+  const DecodeRun run = decode_whole("ubx", stream);
+  EXPECT_TRUE(run.rejected.empty());
+  EXPECT_EQ(run.samples.size(), static_cast<std::size_t>(fixes));
+  return run.samples.empty() ? GpsSample{} : std::get<GpsSample>(run.samples.back().sample);
+}
+
+TEST(Ubx, JammingAndSpoofingAreUnknownWhereNothingSaysThem) {
+  const GpsSample fix = fix_after({});
+  EXPECT_EQ(fix.jamming, GpsJamming::unknown);
+  EXPECT_EQ(fix.spoofing, GpsSpoofing::unknown);
+}
+
+TEST(Ubx, EveryMessageThatSpeaksOfInterferenceIsHeard) {
+  constexpr std::array kJamming{GpsJamming::unknown, GpsJamming::none, GpsJamming::warning,
+                                GpsJamming::critical};
+  constexpr std::array kSpoofing{GpsSpoofing::unknown, GpsSpoofing::none, GpsSpoofing::indicated,
+                                 GpsSpoofing::affirmed};
+  for (unsigned state = 0; state < 4; ++state) {
+    const auto on = [state](unsigned shift) { return static_cast<std::uint8_t>(state << shift | 1U); };
+    EXPECT_EQ(fix_after({nav_status(state)}).spoofing, kSpoofing.at(state));
+    EXPECT_EQ(fix_after({mon_hw(state)}).jamming, kJamming.at(state));
+    EXPECT_EQ(fix_after({mon_hw(state, 68)}).jamming, kJamming.at(state));
+    EXPECT_EQ(fix_after({mon_rf({0, state})}).jamming, kJamming.at(state));
+    EXPECT_EQ(fix_after({sec_sig_1(on(1), 0)}).jamming, kJamming.at(state));
+    EXPECT_EQ(fix_after({sec_sig_1(0, on(1))}).spoofing, kSpoofing.at(state));
+    EXPECT_EQ(fix_after({sec_sig_2(on(1), 3)}).jamming, kJamming.at(state));
+    EXPECT_EQ(fix_after({sec_sig_2(static_cast<std::uint8_t>(state << 4U | 8U), 0)}).spoofing,
+              kSpoofing.at(state));
+  }
+}
+
+TEST(Ubx, OfSeveralWordsOnInterferenceTheWorstCounts) {
+  const GpsSample fix = fix_after({mon_hw(3), mon_rf({1, 1}), nav_status(1), sec_sig_1(0x03, 0x05)});
+  EXPECT_EQ(fix.jamming, GpsJamming::critical);
+  EXPECT_EQ(fix.spoofing, GpsSpoofing::indicated);
+  EXPECT_EQ(fix_after({mon_hw(3), mon_hw(1)}).jamming, GpsJamming::none) << "a newer one replaces it";
+}
+
+TEST(Ubx, ADetectionThatIsOffSaysNothing) {
+  const GpsSample fix = fix_after({sec_sig_1(0x06, 0x06), sec_sig_2(0x36, 0)});
+  EXPECT_EQ(fix.jamming, GpsJamming::unknown);
+  EXPECT_EQ(fix.spoofing, GpsSpoofing::unknown);
+}
+
+TEST(Ubx, AWordOnInterferenceDoesNotHoldForEver) {
+  EXPECT_EQ(fix_after({mon_rf({2})}, UbxInterference::kFixesHeld).jamming, GpsJamming::warning);
+  EXPECT_EQ(fix_after({mon_rf({2})}, UbxInterference::kFixesHeld + 1).jamming, GpsJamming::unknown);
+}
+
+TEST(Ubx, DamagedWordsOnInterferenceAreRefused) {
+  const std::vector<ByteVector> damaged{
+      frame(0x01, 0x03, ByteVector(15, 0)), frame(0x0A, 0x09, ByteVector(59, 0)),
+      frame(0x0A, 0x38, ByteVector{0, 2, 0, 0}), frame(0x27, 0x09, ByteVector(13, 1)),
+      frame(0x27, 0x09, ByteVector{2, 0, 0, 9})};
+  for (const ByteVector& bytes : damaged) {
+    const DecodeRun run = decode_whole("ubx", bytes);
+    ASSERT_EQ(run.rejected.size(), 1U);
+    EXPECT_EQ(run.rejected[0].reason, RejectReason::length);
+  }
+  const DecodeRun reserved = decode_whole("ubx", sec_sig_1(0, 0x0F));  // spoofing state 7
+  ASSERT_EQ(reserved.rejected.size(), 1U);
+  EXPECT_EQ(reserved.rejected[0].reason, RejectReason::field);
+  EXPECT_TRUE(decode_whole("ubx", frame(0x27, 0x09, ByteVector(40, 9))).rejected.empty())
+      << "of a later version";
 }
 
 }  // namespace

@@ -148,6 +148,11 @@ TEST_F(BadInput, AidingSamples) {
   gps.fix = GpsFix::none;
   EXPECT_EQ(judge(gps), VerdictKind::out_of_range);
   gps = gps_;
+  gps.spoofing = GpsSpoofing::affirmed;
+  EXPECT_EQ(judge(gps), VerdictKind::out_of_range);
+  gps.spoofing = GpsSpoofing::indicated;  // a sign is no proof
+  EXPECT_NE(judge(gps), VerdictKind::out_of_range);
+  gps = gps_;
   gps.latitude_rad = kNaN;
   gps.velocity_N_m_s = {kNaN, kNaN, kNaN};
   EXPECT_EQ(judge(gps), VerdictKind::out_of_range);

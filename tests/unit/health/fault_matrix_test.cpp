@@ -206,6 +206,32 @@ TEST_F(FaultMatrix, FrozenFixWhileFusionIsDead) {
   EXPECT_EQ(vehicle.run_for(9.0), (Alarms{"gps_frozen:gps", "gps_outage"})) << "the DVL says that it moves";
 }
 
+TEST_F(FaultMatrix, AReceiverThatReportsJamming) {
+  vehicle.spoil = [](GpsSample& fix, double) { fix.jamming = GpsJamming::warning; };
+  EXPECT_EQ(vehicle.run_for(20.0), Alarms{"gps_jammed:gps"}) << "as long as there are fixes they count";
+  vehicle.spoil = [](GpsSample& fix, double) {
+    fix.jamming = GpsJamming::critical;
+    fix.fix = GpsFix::none;
+  };
+  EXPECT_EQ(vehicle.run_for(20.0), Alarms{"gps_outage"});
+  EXPECT_NE(vehicle.text("gps_jammed:gps").find("leaves it no fix"), std::string::npos);
+  vehicle.spoil = [](GpsSample& fix, double) { fix.jamming = GpsJamming::none; };
+  vehicle.run_for(20.0);
+  EXPECT_FALSE(vehicle.active("gps_jammed:gps"));
+}
+
+TEST_F(FaultMatrix, AReceiverThatReportsSpoofing) {
+  vehicle.spoil = [](GpsSample& fix, double) { fix.spoofing = GpsSpoofing::indicated; };
+  EXPECT_EQ(vehicle.run_for(20.0), Alarms{"gps_spoofed:gps"}) << "a sign is no proof: its fixes count";
+  vehicle.spoil = [](GpsSample& fix, double) { fix.spoofing = GpsSpoofing::affirmed; };
+  EXPECT_EQ(vehicle.run_for(20.0), Alarms{"gps_outage"});
+  EXPECT_EQ(vehicle.health.alarms().find("gps_spoofed:gps")->severity, Severity::critical);
+  vehicle.spoil = nullptr;
+  vehicle.run_for(20.0);
+  EXPECT_FALSE(vehicle.active("gps_spoofed:gps"));
+  EXPECT_FALSE(vehicle.active("gps_outage"));
+}
+
 TEST_F(FaultMatrix, EveryFixTwice) {
   vehicle.also = [this](const GpsSample& fix, const Instant& now) { vehicle.health.add(fix, now, kBridge); };
   EXPECT_EQ(vehicle.run_for(20.0), Alarms{"duplicate_stamps:gps"});
