@@ -54,6 +54,11 @@ void describe(Schema<SensorConfig>& s) {
           "without a sample for this long the bridge is degraded; 0: five periods, at least 2 s")
       .unit("s")
       .range(0, 86'400);
+  s.field(
+       "first_sample_s", &SensorConfig::first_sample_s,
+       "its first sample may take this long, e.g. where water switches the instrument on; 0: stale_after_s")
+      .unit("s")
+      .range(0, 86'400);
   s.check([](const SensorConfig& c) -> Violation {
     if (c.name.empty()) return {"name", "at least one character"};
     if (codec::find_protocol(c.protocol) == nullptr) return {"protocol", "one of " + protocol_list()};

@@ -23,6 +23,7 @@ struct SensorConfig {
   double rate_hz = 0.0;  ///< expected; below half of it the bridge is degraded
   double stale_after_s =
       0.0;  ///< without a sample for this long it is degraded; 0: five periods, at least 2 s
+  double first_sample_s = 0.0;  ///< the first one may take this long, e.g. where water switches it on
 };
 
 /// How an instrument's axes lie in the vehicle.

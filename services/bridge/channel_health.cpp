@@ -23,9 +23,10 @@ std::string format(const char* pattern, Values... values) {
 
 }  // namespace
 
-ChannelHealth::ChannelHealth(double rate_hz, double stale_after_s, TimeNs now_ns)
+ChannelHealth::ChannelHealth(double rate_hz, double stale_after_s, double first_sample_s, TimeNs now_ns)
     : rate_hz_(rate_hz),
       stale_after_s_(stale_after_s),
+      first_sample_s_(first_sample_s),
       window_s_(rate_hz > 0.0 ? std::max(5.0, 10.0 / rate_hz) : 60.0),
       start_ns_(now_ns) {}
 
@@ -37,6 +38,8 @@ double ChannelHealth::rate_hz() const {
 }
 
 std::optional<std::string> ChannelHealth::judge(const ChannelTotals& totals, TimeNs now_ns) {
+  // The silence before the first sample is no part of its rate.
+  if (!marks_.empty() && marks_.back().samples == 0 && totals.samples > 0) marks_.clear();
   marks_.push_back({now_ns, totals.bytes, totals.waste_bytes, totals.samples});
   while (marks_.size() > 2 &&
          (to_seconds(now_ns - marks_.front().at_ns) > window_s_ || marks_.size() > kMostMarks)) {
@@ -44,9 +47,11 @@ std::optional<std::string> ChannelHealth::judge(const ChannelTotals& totals, Tim
   }
   const double silent_s = to_seconds(now_ns - totals.last_sample_ns.value_or(start_ns_));
   const bool just_started = !totals.last_sample_ns && silent_s < stale_after_s_;
+  const bool not_yet_due = !totals.last_sample_ns && silent_s < first_sample_s_;
   if (totals.state == runtime::SourceState::finished) return totals.detail;
   if (totals.state == runtime::SourceState::lost || totals.state == runtime::SourceState::silent) {
     if (just_started) return std::nullopt;
+    if (not_yet_due && totals.state == runtime::SourceState::silent) return std::nullopt;
     return totals.detail;
   }
 
@@ -62,6 +67,7 @@ std::optional<std::string> ChannelHealth::judge(const ChannelTotals& totals, Tim
   if ((slow || stale) && waste > kBabbleFraction * bytes) {
     return format("garbage: %.0f of the last %.0f bytes belong to no good frame", waste, bytes);
   }
+  if (not_yet_due) return std::nullopt;
   if (stale) return format("no usable sample for %.1f s", silent_s);
   if (slow) return format("slow: %.2f Hz instead of %.2f Hz", rate_hz(), rate_hz_);
   return std::nullopt;

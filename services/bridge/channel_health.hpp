@@ -24,8 +24,8 @@ struct ChannelTotals {
 class ChannelHealth {
  public:
   /// `rate_hz` 0: any rate is right. `now_ns`: monotonic time of the start; until stale_after_s later a
-  /// missing sample is no problem yet.
-  ChannelHealth(double rate_hz, double stale_after_s, TimeNs now_ns);
+  /// missing sample is no problem yet, nor until first_sample_s where that is longer and the source is open.
+  ChannelHealth(double rate_hz, double stale_after_s, double first_sample_s, TimeNs now_ns);
 
   /// What is wrong, in words for the service's status; nothing when all is well. Call about once a second.
   [[nodiscard]] std::optional<std::string> judge(const ChannelTotals& totals, TimeNs now_ns);
@@ -42,6 +42,7 @@ class ChannelHealth {
   };
   double rate_hz_;
   double stale_after_s_;
+  double first_sample_s_;
   double window_s_;
   TimeNs start_ns_;
   std::deque<Mark> marks_;

@@ -45,7 +45,7 @@ struct SensorChannel::Impl : codec::Sink {
         outlet(outlet_in),
         tracker(plan.sensor.time),
         health(plan.intermittent ? 0.0 : plan.sensor.rate_hz, config::stale_after_s(plan.sensor),
-               clock.monotonic_ns()),
+               plan.sensor.first_sample_s, clock.monotonic_ns()),
         source(
             plan.sensor.source, clock,
             [this](std::span<const std::uint8_t> bytes, const Arrival& at) { on_bytes(bytes, at); },
@@ -251,7 +251,9 @@ std::optional<std::string> SensorChannel::judge() {
 }
 
 bool SensorChannel::has_started() const {
-  if (impl_->plan.intermittent && impl_->source.status().state == SourceState::connected) return true;
+  const bool may_wait = impl_->plan.intermittent || impl_->plan.sensor.first_sample_s > 0.0;
+  const SourceState state = impl_->source.status().state;
+  if (may_wait && (state == SourceState::connected || state == SourceState::silent)) return true;
   const std::lock_guard lock(impl_->mutex);
   return impl_->counters.samples > 0;
 }

@@ -65,7 +65,7 @@ class SensorChannel {
   [[nodiscard]] ChannelCounters counters() const;
   /// What is wrong, in words; nothing when all is well. Call about once a second, from one thread.
   [[nodiscard]] std::optional<std::string> judge();
-  /// It has delivered; an intermittent instrument is ready as soon as it is connected.
+  /// It has delivered; one that need not speak at once is ready as soon as it is connected.
   [[nodiscard]] bool has_started() const;
   [[nodiscard]] double rate_hz() const;
 

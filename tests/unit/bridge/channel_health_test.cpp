@@ -12,7 +12,8 @@ using runtime::SourceState;
 // An instrument that is asked once a second.
 class Instrument {
  public:
-  Instrument(double rate_hz, double stale_s) : health_(rate_hz, stale_s, 0) {
+  Instrument(double rate_hz, double stale_s, double first_sample_s = 0.0)
+      : health_(rate_hz, stale_s, first_sample_s, 0) {
     totals_.state = SourceState::connected;
   }
   std::optional<std::string> second(std::uint64_t samples, std::uint64_t waste = 0) {
@@ -50,6 +51,29 @@ TEST(ChannelHealth, SlowIsSaidAfterAWindow) {
 TEST(ChannelHealth, AnInstrumentEveryFiveSecondsIsNotSlow) {
   Instrument usbl(0.2, 60.0);
   for (int i = 0; i < 200; ++i) EXPECT_FALSE(usbl.second(i % 5 == 0 ? 1 : 0)) << i;
+}
+
+TEST(ChannelHealth, AnInstrumentThatWaterSwitchesOnMayBeSilentBefore) {
+  Instrument depth(10.0, 2.0, 30.0);
+  for (int i = 0; i < 29; ++i) EXPECT_FALSE(depth.second(0)) << i;
+  EXPECT_EQ(depth.second(0), "no usable sample for 30.0 s");
+  EXPECT_FALSE(depth.second(10));
+  EXPECT_FALSE(depth.second(0));
+  EXPECT_FALSE(depth.second(0));
+  EXPECT_EQ(depth.second(0), "no usable sample for 3.0 s") << "once it has spoken it must go on";
+}
+
+TEST(ChannelHealth, BeforeItsFirstSampleGarbageAndALostSourceAreSaid) {
+  Instrument babbling(10.0, 2.0, 30.0);
+  std::optional<std::string> said;
+  for (int i = 0; i < 5; ++i) said = babbling.second(0, 500);
+  ASSERT_TRUE(said);
+  EXPECT_EQ(said->find("garbage"), 0U) << *said;
+  Instrument lost(10.0, 2.0, 30.0);
+  lost.totals().state = SourceState::lost;
+  lost.totals().detail = "serial port /dev/ttyS9: No such file or directory";
+  for (int i = 0; i < 3; ++i) said = lost.second(0);
+  EXPECT_EQ(said, lost.totals().detail);
 }
 
 TEST(ChannelHealth, StaleAndBackAgain) {
