@@ -22,6 +22,13 @@ float percentile(std::vector<float> values, double share) {
 
 }  // namespace
 
+double Observation::aligned_after_s() const {
+  if (aligned_ns == 0) return kUnknown;
+  TimeNs began = truth_began_ns != 0 ? truth_began_ns : began_ns;
+  if (first_nav_ns != 0) began = std::min(began, first_nav_ns);  // a recording's reference may begin later
+  return to_seconds(aligned_ns - began);
+}
+
 struct Observer::Readers {
   Readers(Observer& self, bus::Participant& participant)
       : truth(participant, [&self](const Truth& row, const bus::SampleInfo&) { self.on_truth(row); }),
@@ -35,8 +42,8 @@ struct Observer::Readers {
                   [&self](const AlignmentStatus& status, const bus::SampleInfo&) {
                     const std::lock_guard lock(self.mutex_);
                     self.seen_.alignment = status;
-                    if (status.phase == AlignmentPhase::aligned && !known(self.seen_.aligned_after_s)) {
-                      self.seen_.aligned_after_s = self.since_began_s(status.header.stamp_ns);
+                    if (status.phase == AlignmentPhase::aligned && self.seen_.aligned_ns == 0) {
+                      self.seen_.aligned_ns = status.header.stamp_ns;
                     }
                   }),
         verdict(
@@ -94,6 +101,7 @@ void Observer::on_nav(const NavState& state) {
 
 void Observer::on_truth(const Truth& row) {
   const std::lock_guard lock(mutex_);
+  if (seen_.truth_began_ns == 0) seen_.truth_began_ns = row.header.stamp_ns;
   truth_.add(row);
   // A navigation state is scored once the truth has passed it; one that the truth leaves out is dropped.
   while (!to_score_.empty() && to_score_.front().header.stamp_ns <= row.header.stamp_ns) {

@@ -49,7 +49,8 @@ struct Observation {
   std::optional<NavState> nav;
   std::optional<MonitorStatus> monitor;
   std::optional<AlignmentStatus> alignment;
-  double aligned_after_s = kUnknown;
+  TimeNs truth_began_ns = 0;  ///< the first row of the truth: 0 until there is one
+  TimeNs aligned_ns = 0;      ///< stamp of the first status that said aligned: 0 until there is one
   std::map<std::string, ServiceRecord> services;
   std::map<std::string, std::array<std::uint64_t, kVerdictKinds>> verdicts;
   std::map<std::string, Alarm> alarms;  ///< every alarm seen, in its last state
@@ -60,6 +61,10 @@ struct Observation {
   double latency_p50_us =
       kUnknown;  ///< arrival of the inertial sample at its bridge -> navigation state received
   double latency_p99_us = kUnknown;
+
+  /// From the vehicle's beginning to aligned; unknown while it is not. What the services take to start before
+  /// the first instrument speaks is not the vehicle's.
+  [[nodiscard]] double aligned_after_s() const;
 };
 
 /// Listens to the whole vehicle network, as a guidance program and a referee with the truth would.

@@ -127,9 +127,9 @@ std::vector<Finding> judge(const Observation& seen, const Demands& demands) {
                  text("navigation state at %.1f Hz, inertial sensor at %.0f Hz", rate, demands.nav_rate_hz)});
   if (demands.alignment_expected) {
     const double limit = known(demands.limits.aligned_within_s) ? demands.limits.aligned_within_s : 1e9;
-    out.push_back({seen.aligned_after_s <= limit, known(seen.aligned_after_s)
-                                                      ? text("aligned after %.1f s", seen.aligned_after_s)
-                                                      : std::string("alignment was not reached")});
+    const double after_s = seen.aligned_after_s();
+    out.push_back({after_s <= limit, known(after_s) ? text("aligned after %.1f s", after_s)
+                                                    : std::string("alignment was not reached")});
   }
   judge_accuracy(seen, demands, out);
   judge_outages(seen, demands, out);
@@ -183,7 +183,7 @@ std::string report_json(const std::string& scenario, double duration_s, const Ob
       {"gps_outages", outages},
       {"alignment",
        {{"phase", to_string(seen.alignment ? seen.alignment->phase : AlignmentPhase::none)},
-        {"aligned_after_s", number(seen.aligned_after_s)}}},
+        {"aligned_after_s", number(seen.aligned_after_s())}}},
       {"latency_us", {{"p50", number(seen.latency_p50_us)}, {"p99", number(seen.latency_p99_us)}}},
       {"services", services},
       {"restarts", demands.restarts},
