@@ -143,17 +143,17 @@ TEST(Delivery, ASlowReaderHoldsNobodyUp) {
     return writer.matched_readers() == 2 && slow_reader.matched_writers() == 1 &&
            quick_reader.matched_writers() == 1;
   }));
-  auto longest = std::chrono::steady_clock::duration::zero();
+  int held_up = 0;
   NavState state;
   for (int i = 0; i < 2000; ++i) {
     state.header.sequence = static_cast<std::uint64_t>(i);
     const auto start = std::chrono::steady_clock::now();
     EXPECT_TRUE(writer.write(state));
-    longest = std::max(longest, std::chrono::steady_clock::now() - start);
+    if (std::chrono::steady_clock::now() - start >= milliseconds(90)) ++held_up;
     if (i % 100 == 0) let_pass(milliseconds(1));
   }
-  // A blocked write would have lasted for the profile's 100 ms, and each of the 2000 at that.
-  EXPECT_LT(longest, milliseconds(90));
+  // A blocked write lasts for the profile's 100 ms, and each of the 2000 would; a busy machine delays a few.
+  EXPECT_LT(held_up, 100);
   EXPECT_TRUE(eventually([&] { return inbox.size() == 2000; })) << inbox.size();
   EXPECT_EQ(slow_count, 1);
   release.set_value();
