@@ -10,104 +10,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "dataset/dataset.hpp"
-#include "support/process.hpp"
+#include "solve_fixture.hpp"
 
 namespace fathom::test {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr double kEarthRate = 7.292115e-5;
-constexpr double kLatitude = 0.6;
-
-/// A vehicle on a straight course to the north at constant depth and speed, written as a data set. Its
-/// inertial unit feels gravity, the Earth's rotation, the turn of the local level and the Coriolis force.
-class StraightCourse {
- public:
-  static constexpr double kSpeed_m_s = 2.0;
-  static constexpr int kSeconds = 60;
-
-  explicit StraightCourse(bool with_gps) {
-    constexpr double kMeridian_m = 6'355'776.3;  // radius of curvature at this latitude
-    const double gravity = 9.780325 * (1.0 + 0.00193185 * std::pow(std::sin(kLatitude), 2)) /
-                           std::sqrt(1.0 - 0.00669438 * std::pow(std::sin(kLatitude), 2));
-    for (int i = 0; i <= kSeconds * 100; ++i) {
-      const TimeNs stamp = dataset::kDefaultEpochNs + i * 10'000'000LL;
-      const double latitude = kLatitude + kSpeed_m_s * 0.01 * i / kMeridian_m;
-      ImuSample& imu = data.imu.emplace_back();
-      imu.header.stamp_ns = imu.header.received_ns = stamp;
-      imu.angular_rate_B_rad_s = {kEarthRate * std::cos(latitude), -kSpeed_m_s / kMeridian_m,
-                                  -kEarthRate * std::sin(latitude)};
-      imu.specific_force_B_m_s2 = {0.0, 2.0 * kEarthRate * std::sin(latitude) * kSpeed_m_s,
-                                   -gravity - kSpeed_m_s * kSpeed_m_s / kMeridian_m};
-      if (i % 10 == 0) {
-        Truth& truth = data.reference.emplace_back();
-        truth.header = imu.header;
-        truth.latitude_rad = latitude;
-        truth.longitude_rad = 0.3;
-        truth.altitude_m = 0.0;
-        truth.velocity_N_m_s = {kSpeed_m_s, 0.0, 0.0};
-        truth.rpy_rad = {0.0, 0.0, 0.0};
-      }
-      if (i % 100 == 3) {
-        DvlSample& dvl = data.dvl.emplace_back();
-        dvl.header.stamp_ns = stamp;
-        dvl.header.received_ns = stamp + 200'000'000;
-        dvl.velocity_D_m_s = {kSpeed_m_s, 0.0, 0.0};
-      }
-      if (with_gps && i % 50 == 0) {
-        GpsSample& gps = data.gps.emplace_back();
-        gps.header = imu.header;
-        gps.fix = GpsFix::fix_3d;
-        gps.latitude_rad = latitude;
-        gps.longitude_rad = 0.3;
-        gps.altitude_m = 0.0;
-        gps.position_sigma_N_m = {1.0, 1.0, 2.0};
-        gps.velocity_N_m_s = {kSpeed_m_s, 0.0, 0.0};
-      }
-    }
-  }
-
-  dataset::Dataset data;
-};
-
-/// A folder for a data set, a configuration and what solve makes of them.
-class SolveTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string pattern = (fs::temp_directory_path() / "fathom-solve-XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-    write("config.json",
-          R"({"start": {"mode": "automatic"}, "engine": {"configuration": "gps_ins15", "imu": {},
-      "sensors": [
-        {"sensor": "gps0", "kind": "gps", "lever_B_m": [0, 0, 0]},
-        {"sensor": "dvl0", "kind": "dvl", "lever_B_m": [0, 0, 0], "mounting_rpy_deg": [0, 0, 0]}]}})");
-  }
-  void TearDown() override { fs::remove_all(folder); }
-
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
-  [[nodiscard]] std::string path(const std::string& name) const { return (folder / name).string(); }
-  [[nodiscard]] std::string content(const std::string& name) const {
-    std::ifstream file(folder / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
-  // Runs `fathom solve data --config config.json --out nav.csv` and more; the exit code.
-  int solve(std::vector<std::string> more, const std::string& config = "config.json") {
-    std::vector<std::string> arguments{"solve",      path("data"), "--config",
-                                       path(config), "--out",      path("nav.csv")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    Process process("fathom", arguments);
-    const int code = process.wait();
-    out = process.out();
-    err = process.err();
-    return code;
-  }
-
-  fs::path folder;
-  std::string out;
-  std::string err;
-};
 
 TEST_F(SolveTest, FollowsTheReferenceFromItsStart) {
   dataset::write(path("data"), StraightCourse(false).data);
@@ -469,54 +375,6 @@ TEST_F(SolveTest, BadMeasurementsGetVerdictsAndMoveNothing) {
   EXPECT_EQ(metrics["verdicts"]["imu"]["duplicate"], 1);
   EXPECT_EQ(metrics["verdicts"]["dvl"]["out_of_range"], 1);
   EXPECT_LT(metrics["horizontal_error_m"]["end"].get<double>(), 0.1);
-}
-
-TEST_F(SolveTest, RealVehicleStaysWithinOnePercentOfItsReference) {
-  const fs::path akit = fs::path(FATHOM_DATASETS) / "akit";
-  if (!fs::exists(akit)) GTEST_SKIP() << "no data sets in " << FATHOM_DATASETS;
-  double sum = 0.0;
-  int count = 0;
-  for (const auto& entry : fs::directory_iterator(akit)) {
-    if (!entry.is_directory()) continue;
-    Process process("fathom", {"solve", entry.path().string(), "--config",
-                               std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/akit.json", "--start",
-                               "reference", "--out", path("nav.csv"), "--rate", "1", "--json"});
-    ASSERT_EQ(process.wait(), 0) << process.err();
-    const double percent =
-        nlohmann::json::parse(process.out())["horizontal_error_percent"]["end"].get<double>();
-    EXPECT_LT(percent, 0.45) << entry.path();
-    sum += percent;
-    ++count;
-  }
-  ASSERT_GT(count, 0);
-  EXPECT_LT(sum / count, 0.25);
-}
-
-// The fixes of these recordings are stamped some hundredths of a second off their instant, and the reference
-// is made of them: only withheld fixes, each at its own instant, tell which of the two is better.
-TEST_F(SolveTest, SmoothedRealVehiclesAreNearerToTheFixesTheyWereNotGiven) {
-  if (!fs::exists(fs::path(FATHOM_DATASETS) / "rtkx_drive"))
-    GTEST_SKIP() << "no data sets in " << FATHOM_DATASETS;
-  struct Vehicle {
-    const char* name;
-    const char* windows;
-    double given_m;  ///< smoothed, at the fixes it was given, rms
-  };
-  for (const Vehicle& vehicle : {Vehicle{"rtkx_drive", "20@110.2", 0.15}, Vehicle{"thor75", "20@252", 1.4}}) {
-    const std::string config =
-        std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/" + vehicle.name + ".json";
-    Process process("fathom",
-                    {"solve", std::string(FATHOM_DATASETS) + "/" + vehicle.name, "--config", config, "--out",
-                     path("nav.csv"), "--rate", "1", "--smooth", "--gps-outage", vehicle.windows, "--json"});
-    ASSERT_EQ(process.wait(), 0) << process.err();
-    const auto metrics = nlohmann::json::parse(process.out());
-    const auto& outage = metrics["gps_outages"][0];
-    EXPECT_LT(outage["smoothed_inside_horizontal_error_m"]["rms"].get<double>(),
-              0.5 * outage["inside_horizontal_error_m"]["rms"].get<double>())
-        << vehicle.name;
-    EXPECT_LT(metrics["at_fixes"]["horizontal_error_m"]["rms"].get<double>(), vehicle.given_m)
-        << vehicle.name;
-  }
 }
 
 }  // namespace

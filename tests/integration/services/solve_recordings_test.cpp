@@ -1,0 +1,90 @@
+// `fathom solve` over real vehicles.
+
+#include <filesystem>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "solve_fixture.hpp"
+
+namespace fathom::test {
+namespace {
+
+#ifdef FATHOM_SANITIZED
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
+class SolveRecordings : public SolveTest {
+ protected:
+  /// The folder of a recording; under a sanitizer, which takes many times as long, of its beginning.
+  [[nodiscard]] std::string recording(const std::string& name, double enough_s) const {
+    const fs::path whole = fs::path(FATHOM_DATASETS) / name;
+    if (!kSanitized) return whole.string();
+    dataset::Dataset data = dataset::read(whole);
+    const TimeNs end_ns = data.imu.front().header.stamp_ns + from_seconds(enough_s);
+    const auto cut = [end_ns](auto&... streams) {
+      (std::erase_if(streams, [end_ns](const auto& sample) { return sample.header.stamp_ns > end_ns; }), ...);
+    };
+    cut(data.imu, data.gps, data.dvl, data.depth, data.heading, data.usbl, data.airspeed, data.propulsion,
+        data.fins, data.reference);
+    dataset::write(path(name), data);
+    return path(name);
+  }
+};
+
+TEST_F(SolveRecordings, RealVehicleStaysWithinOnePercentOfItsReference) {
+  const fs::path akit = fs::path(FATHOM_DATASETS) / "akit";
+  if (!fs::exists(akit)) GTEST_SKIP() << "no data sets in " << FATHOM_DATASETS;
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(akit)) {
+    if (!entry.is_directory()) continue;
+    if (kSanitized && count > 0) break;  // slow, and the others run through the same code
+    Process process("fathom", {"solve", entry.path().string(), "--config",
+                               std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/akit.json", "--start",
+                               "reference", "--out", path("nav.csv"), "--rate", "1", "--json"});
+    ASSERT_EQ(process.wait(), 0) << process.err();
+    const double percent =
+        nlohmann::json::parse(process.out())["horizontal_error_percent"]["end"].get<double>();
+    EXPECT_LT(percent, 0.45) << entry.path();
+    sum += percent;
+    ++count;
+  }
+  ASSERT_GT(count, 0);
+  EXPECT_LT(sum / count, 0.25);
+}
+
+// The fixes of these recordings are stamped some hundredths of a second off their instant, and the reference
+// is made of them: only withheld fixes, each at its own instant, tell which of the two is better.
+TEST_F(SolveRecordings, SmoothedRealVehiclesAreNearerToTheFixesTheyWereNotGiven) {
+  if (!fs::exists(fs::path(FATHOM_DATASETS) / "rtkx_drive"))
+    GTEST_SKIP() << "no data sets in " << FATHOM_DATASETS;
+  struct Vehicle {
+    const char* name;
+    const char* windows;
+    double given_m;   ///< smoothed, at the fixes it was given, rms
+    double enough_s;  ///< of the recording, for one withheld window
+  };
+  for (const Vehicle& vehicle :
+       {Vehicle{"rtkx_drive", "20@110.2", 0.15, 170.0}, Vehicle{"thor75", "20@252", 1.4, 310.0}}) {
+    const std::string config =
+        std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/" + vehicle.name + ".json";
+    Process process("fathom",
+                    {"solve", recording(vehicle.name, vehicle.enough_s), "--config", config, "--out",
+                     path("nav.csv"), "--rate", "1", "--smooth", "--gps-outage", vehicle.windows, "--json"});
+    ASSERT_EQ(process.wait(), 0) << process.err();
+    const auto metrics = nlohmann::json::parse(process.out());
+    const auto& outage = metrics["gps_outages"][0];
+    EXPECT_LT(outage["smoothed_inside_horizontal_error_m"]["rms"].get<double>(),
+              0.5 * outage["inside_horizontal_error_m"]["rms"].get<double>())
+        << vehicle.name;
+    EXPECT_LT(metrics["at_fixes"]["horizontal_error_m"]["rms"].get<double>(), vehicle.given_m)
+        << vehicle.name;
+  }
+}
+
+}  // namespace
+}  // namespace fathom::test
