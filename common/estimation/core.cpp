@@ -96,6 +96,13 @@ Core::Core(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {
     sensors_[i].enabled = setup.config.sensors[i].enabled;
 }
 
+void Core::read(ImageReader& image) {
+  const Setup* setup = setup_;
+  image.get(*this);
+  setup_ = setup;
+  filter_.record_to(nullptr);
+}
+
 ProcessNoise Core::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& rate_B_rad_s,
                                  const Vector3d& force_B_m_s2) const {
   // (NOISE-1): white noise, and as equivalent noise the scale and misalignment that are not estimated.

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/image.hpp"
 #include "estimation/aiding/registry.hpp"
 #include "estimation/alignment/drop_alignment.hpp"
 #include "estimation/alignment/rest_window.hpp"
@@ -121,6 +122,8 @@ class Core {
   /// Another estimate for the present instant, as the smoother has it.
   void replace(const FilterState& state, const ErrorFilter& filter);
   void record_to(FilterTape* tape) { filter_.record_to(tape); }
+  /// All of it from an image that a navigator of an equal setup wrote as it is.
+  void read(ImageReader& image);
   /// Puts the present instant elsewhere on the time axis, after a step of the stamps.
   void rebase(TimeNs now_ns, double unobserved_s);
 

@@ -150,6 +150,33 @@ class FusionEngine::Impl final : public VerdictSink {
     if (nav_.header.sequence > 0) filled_ = false;
   }
 
+  bool save(std::vector<std::byte>& out) const {
+    if (!history_.started() || pending_start_) return false;
+    ImageWriter image(out);
+    image.put(ImageHead(*this));
+    image.put(intake_);
+    history_.write(image);
+    return true;
+  }
+
+  bool restore(std::span<const std::byte> bytes) {
+    if (bytes.size() < sizeof(ImageHead) + sizeof(ImuIntake)) return false;
+    ImageReader image(bytes);
+    ImageHead head;
+    image.get(head);
+    ImuIntake intake(setup_);
+    intake.read(image);
+    if (head.magic != ImageHead::kMagic || !history_.read(image, *this)) return false;
+    intake_ = intake;
+    commands_ = head.commands;
+    nav_.header.stamp_ns = head.stamp_ns;
+    nav_.header.received_ns = head.received_ns;
+    nav_.header.sequence = head.sequence;
+    filled_ = false;
+    pending_start_.reset();
+    return true;
+  }
+
   void judged(const Measurement& measurement, const Judgement& judgement) override {
     push(measurement.header(), measurement.source, judgement);
   }
@@ -194,6 +221,21 @@ class FusionEngine::Impl final : public VerdictSink {
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
+  struct ImageHead {
+    static constexpr std::uint64_t kMagic = 0x31'45'4E'49'47'4E'45'46;  // "FENGINE1"
+    ImageHead() = default;
+    explicit ImageHead(const Impl& engine)
+        : commands(engine.commands_),
+          sequence(engine.nav_.header.sequence),
+          stamp_ns(engine.nav_.header.stamp_ns),
+          received_ns(engine.nav_.header.received_ns) {}
+    std::uint64_t magic = kMagic;
+    std::uint64_t commands = 0;
+    std::uint64_t sequence = 0;
+    TimeNs stamp_ns = 0;
+    TimeNs received_ns = 0;
+  };
+
   [[nodiscard]] int find(const Name& sensor, SourceKind source) const {
     for (std::size_t i = 0; i < names_.size(); ++i)
       if (names_[i] == sensor && setup_.config.sensors[i].kind == source) return static_cast<int>(i);
@@ -294,6 +336,12 @@ void FusionEngine::fill(AlignmentStatus& status) const {
 }
 void FusionEngine::fill(Forecast& forecast) {
   impl_->fill(forecast);
+}
+bool FusionEngine::save(std::vector<std::byte>& out) const {
+  return impl_->save(out);
+}
+bool FusionEngine::restore(std::span<const std::byte> image) {
+  return impl_->restore(image);
 }
 double FusionEngine::forecast_horizontal_95_m(double after_s) {
   return impl_->forecast_horizontal_95_m(after_s);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -92,6 +95,15 @@ class FusionEngine {
   /// Of the same: radius that holds 95 % of the horizontal errors `after_s` from now; unknown without
   /// navigation.
   [[nodiscard]] double forecast_horizontal_95_m(double after_s);
+
+  /// Appends everything that navigation follows from, delayed measurements included: an engine of an equal
+  /// configuration and the same build that restores it does from there on what this one does, to the last
+  /// bit. Left out are verdicts not yet taken and the motion that the forecast remembers. False, with nothing
+  /// appended, before the first inertial sample.
+  [[nodiscard]] bool save(std::vector<std::byte>& out) const;
+  /// False, with nothing changed, when the bytes are no such image. That they are undamaged, and of this
+  /// build and configuration, is for the caller to see to.
+  [[nodiscard]] bool restore(std::span<const std::byte> image);
 
   /// Covariance of position (m, N), velocity and attitude error phi of the point of the IMU.
   [[nodiscard]] Eigen::Matrix<double, 9, 9> navigation_covariance() const;

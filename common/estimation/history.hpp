@@ -51,6 +51,11 @@ class History {
   /// Back to before the first sample.
   void clear(VerdictSink& sink);
 
+  /// What the state follows from: the oldest navigator that is held, and the steps and events since.
+  void write(ImageWriter& image) const;
+  /// That of another history of an equal setup. False, with nothing changed, when this is no such image.
+  [[nodiscard]] bool read(ImageReader& image, VerdictSink& sink);
+
   /// Steps done again because of late events, since construction.
   [[nodiscard]] std::uint64_t repeated_steps() const { return repeated_steps_; }
   /// A late event is still being made up for.

@@ -26,6 +26,12 @@ class ImuIntake {
 
   explicit ImuIntake(const Setup& setup) : setup_(&setup) {}
   [[nodiscard]] Result take(const ImuSample& sample);
+  /// All of it from an image that an intake of an equal setup wrote as it is.
+  void read(ImageReader& image) {
+    const Setup* setup = setup_;
+    image.get(*this);
+    setup_ = setup;
+  }
 
  private:
   /// Mean rate and force of a sample along B; false when it is not usable.
