@@ -72,6 +72,18 @@ void describe(Schema<StartConfig>& s) {
   s.field("sigma", &StartConfig::sigma, "how well a given state or a reference is known");
 }
 
+void describe(Schema<CheckpointConfig>& s) {
+  s.field("path", &CheckpointConfig::path,
+          "file that the state is kept in and a fusion started anew goes on from; below /run it costs no "
+          "disk and "
+          "survives the process, on a disk with sync also the power; empty: none");
+  s.field("period_s", &CheckpointConfig::period_s, "between two of them").unit("s").range(0.05, 3600);
+  s.field("max_age_s", &CheckpointConfig::max_age_s, "an older one is not gone on from")
+      .unit("s")
+      .range(0.1, 86'400);
+  s.field("sync", &CheckpointConfig::sync, "onto the disk each time, before the next");
+}
+
 void describe(Schema<FusionConfig>& s) {
   s.include(&FusionConfig::common);
   s.field("imu_sensor", &FusionConfig::imu_sensor,
@@ -80,6 +92,7 @@ void describe(Schema<FusionConfig>& s) {
           "of the navigation state: the strongest living fusion is heard")
       .range(0, 1'000'000);
   s.field("start", &FusionConfig::start, "how navigation begins");
+  s.field("checkpoint", &FusionConfig::checkpoint, "the state that a fusion started anew goes on from");
   s.field("engine", &FusionConfig::engine, "the estimator and its instruments").required();
   s.check([](const FusionConfig& config) -> std::pair<std::string, std::string> {
     if (config.imu_sensor.size() > Name::kCapacity) {

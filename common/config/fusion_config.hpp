@@ -41,12 +41,21 @@ struct StartConfig {
   StartSigma sigma;
 };
 
+/// Section "checkpoint": the state that a fusion started anew goes on from.
+struct CheckpointConfig {
+  std::string path;         ///< of the file; empty: none is written or read
+  double period_s = 1.0;    ///< host time between two of them
+  double max_age_s = 60.0;  ///< an older one is not gone on from
+  bool sync = false;        ///< onto the disk each time, to survive a power cut; wears a flash memory
+};
+
 /// deploy/config/fusion.json, and what `fathom solve --config` reads: the same engine from the same file.
 struct FusionConfig {
   CommonConfig common;
   std::string imu_sensor;               ///< the inertial unit that is listened to; empty: the first one heard
   std::int32_t ownership_strength = 0;  ///< of NavState: the strongest living fusion is heard
   StartConfig start;
+  CheckpointConfig checkpoint;
   estimation::EngineConfig engine;  ///< as in the file; use engine_config() to build an engine
 };
 

@@ -156,6 +156,9 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   fusion.insert(fusion.end(), scenario_fusion.begin(), scenario_fusion.end());
 
   for (const std::string& kind : bridges) builder.add(kind + "_bridge", overrides[kind + "_bridge"]);
+  // A fusion that dies goes on from here when it is started again.
+  fusion.push_back("checkpoint.path=" + (run_directory / "fusion.checkpoint").string());
+  fusion.emplace_back("checkpoint.period_s=0.2");
   builder.add("fusion", fusion, fusion_file);
   builder.add("guidance_example", overrides["guidance_example"]);
   builder.add("simulator", simulator);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -11,6 +12,8 @@
 #include "bus/writer.hpp"
 #include "estimation/fusion_engine.hpp"
 #include "fusion/arrival_book.hpp"
+#include "fusion/checkpoint.hpp"
+#include "fusion/checkpoint_keeper.hpp"
 
 namespace fathom::fusion {
 namespace {
@@ -56,11 +59,42 @@ bus::WriterOptions nav_state_options(const host::ServiceHost& host, const config
   return options;
 }
 
-// Started before the first reader can hand it a sample.
-estimation::FusionEngine started_engine(const config::FusionConfig& config) {
-  estimation::FusionEngine engine(config::engine_config(config));
-  if (config::starts_from_state(config.start.mode)) engine.start_from(config::initial_state(config));
-  return engine;
+CheckpointLabel label_of(host::ServiceHost& host) {
+  return {host.common().vehicle, host.name(), host.config_hash(), build_of_this_executable(),
+          host.clock().utc_ns()};
+}
+
+/// An engine that is ready for the first sample, and how it came to its state.
+struct Started {
+  estimation::FusionEngine engine;
+  std::string how;
+};
+
+Started started(host::ServiceHost& host, const config::FusionConfig& config, const CheckpointLabel& own) {
+  Started out{estimation::FusionEngine(config::engine_config(config)), "started afresh"};
+  const config::CheckpointConfig& kept = config.checkpoint;
+  if (!kept.path.empty()) {
+    const auto refuse = [&](const std::string& why) { out.how += ": checkpoint " + kept.path + " " + why; };
+    const auto bytes = read_file(kept.path);
+    const auto found = bytes ? decode(bytes.value()) : Result<Checkpoint>(bytes.error());
+    if (!found) {
+      refuse(found.error().message);
+    } else if (const std::string why = objection(found.value().label, own, kept.max_age_s); !why.empty()) {
+      refuse(why);
+    } else if (!out.engine.restore(found.value().image)) {
+      refuse("holds no state of this engine");
+    } else {
+      std::array<char, 96> text{};
+      std::snprintf(text.data(), text.size(), "resumed from a checkpoint %.2f s old",
+                    to_seconds(own.stamp_ns - found.value().label.stamp_ns));
+      out.how = text.data();
+      host.log().info(out.how);
+      return out;
+    }
+  }
+  host.log().info(out.how);
+  if (config::starts_from_state(config.start.mode)) out.engine.start_from(config::initial_state(config));
+  return out;
 }
 
 }  // namespace
@@ -69,8 +103,9 @@ struct FusionService::Impl {
   Impl(host::ServiceHost& the_host, const config::FusionConfig& config)
       : host(the_host),
         vehicle(config.common.vehicle),
+        label(label_of(the_host)),
         imu_sensor(config.imu_sensor),
-        engine(started_engine(config)),
+        start(started(the_host, config, label)),
         nav_states(host.participant(), nav_state_options(host, config)),
         details(host.participant()),
         verdicts(host.participant()),
@@ -90,6 +125,11 @@ struct FusionService::Impl {
             [this](const ImuSample& sample, const bus::SampleInfo& info) { on_imu(sample, info); }) {
     host.on_tick(kNsPerSecond, [this] { publish_slow(); });
     host.on_status([this](ServiceStatus& status) { fill(status); });
+    if (!config.checkpoint.path.empty()) {
+      keeper.emplace(
+          config.checkpoint, label, host.log(),
+          [this](TimeNs& stamp_ns, std::vector<std::byte>& image) { return save(stamp_ns, image); });
+    }
   }
 
   ~Impl() {
@@ -182,6 +222,13 @@ struct FusionService::Impl {
     }
   }
 
+  bool save(TimeNs& stamp_ns, std::vector<std::byte>& image) {
+    const std::lock_guard lock(mutex);
+    if (!engine.save(image)) return false;
+    stamp_ns = engine.nav_state().header.stamp_ns;
+    return true;
+  }
+
   // Takes the verdicts out in batches, so that the engine is not held while they are written.
   void publish_verdicts() {
     std::array<Verdict, 32> batch;
@@ -255,6 +302,7 @@ struct FusionService::Impl {
       status.text = "alignment " + std::string(present == AlignmentPhase::lost ? "lost" : "timed out");
     } else {
       status.state = ServiceState::healthy;
+      status.text = start.how;
     }
     const double span_s = to_seconds(clock_ns - last_status_ns);
     if (last_status_ns != 0 && span_s > 0.0) {
@@ -268,6 +316,13 @@ struct FusionService::Impl {
     }
     status.counters.push_back({"other_vehicle", now.other_vehicle});
     status.counters.push_back({"commands", now.commands});
+    if (keeper) {
+      const CheckpointKeeper::Counts kept = keeper->counts();
+      status.counters.push_back({"checkpoints", kept.written});
+      status.counters.push_back({"checkpoints_failed", kept.failed});
+      if (!kept.failure.empty())
+        status.text += (status.text.empty() ? "checkpoint " : "; checkpoint ") + kept.failure;
+    }
     last = now;
     last_status_ns = clock_ns;
   }
@@ -275,9 +330,12 @@ struct FusionService::Impl {
   host::ServiceHost& host;
   const Name vehicle;
 
+  const CheckpointLabel label;
+
   std::mutex mutex;  // guards what follows up to the writers
   Name imu_sensor;   // the one listened to
-  estimation::FusionEngine engine;
+  Started start;
+  estimation::FusionEngine& engine = start.engine;
   ArrivalBook arrivals;
   bus::WriterGuid imu_writer{};
   Counts counts;
@@ -304,6 +362,8 @@ struct FusionService::Impl {
   bus::Reader<FinsSample> fins;
   bus::Reader<Command> commands;
   bus::Reader<ImuSample> imu;
+
+  std::optional<CheckpointKeeper> keeper;  // ends first of all, with a last checkpoint
 };
 
 FusionService::FusionService(host::ServiceHost& host, const config::FusionConfig& config)

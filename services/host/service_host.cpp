@@ -137,6 +137,10 @@ ServiceHost::~ServiceHost() = default;
 const config::CommonConfig& ServiceHost::common() const {
   return impl_->start.common;
 }
+const std::string& ServiceHost::config_hash() const {
+  return impl_->start.config_hash;
+}
+
 const std::string& ServiceHost::name() const {
   return impl_->start.info.name;
 }

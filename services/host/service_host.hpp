@@ -50,6 +50,7 @@ class ServiceHost {
 
   [[nodiscard]] const config::CommonConfig& common() const;
   [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] const std::string& config_hash() const;
   [[nodiscard]] Clock& clock();
   [[nodiscard]] runtime::Log& log();
   [[nodiscard]] bus::Participant& participant();
