@@ -158,7 +158,7 @@ std::string objection(const CheckpointLabel& found, const CheckpointLabel& own, 
 
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) return Error{"there is none"};
+  if (!std::filesystem::exists(path, error)) return Error{"is not there"};
   if (!std::filesystem::is_regular_file(path, error)) return Error{"is no regular file"};
   // Far more than any engine holds: whatever else lies there is not read into memory.
   constexpr std::uintmax_t kMost = 256U << 20U;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "bus/writer.hpp"
+#include "host/supervisor.hpp"
 #include "runtime/build_info.hpp"
 #include "runtime/signals.hpp"
 
@@ -125,6 +126,9 @@ void ServiceHost::Impl::publish(ServiceState state) {
   if (state == ServiceState::stopping) status.state = state;
   append_bus_counters(participant.counters(), status);
   status_writer.write(status);
+  std::string text(to_string(status.state));
+  if (!status.text.empty()) text += ": " + status.text;
+  supervisor::alive(text);
 }
 
 ServiceHost::ServiceHost(Start start) : impl_(std::make_unique<Impl>(std::move(start))) {
@@ -188,6 +192,7 @@ ExitCode ServiceHost::run() {
   impl.log.info("started, version " + std::string(runtime::version()) + ", configuration " +
                 impl.start.config_hash + ", vehicle " + impl.start.common.vehicle + ", domain " +
                 std::to_string(impl.start.common.bus.domain));
+  supervisor::ready();
   TimeNs next_life_sign = impl.clock->monotonic_ns();
   TimeNs next_tick = next_life_sign;
   try {
@@ -209,6 +214,7 @@ ExitCode ServiceHost::run() {
     impl.publish(ServiceState::stopping);
     throw;
   }
+  supervisor::stopping();
   impl.publish(ServiceState::stopping);
   impl.log.info("stopped");
   return static_cast<ExitCode>(impl.exit_code.load());

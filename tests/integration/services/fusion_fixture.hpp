@@ -237,6 +237,7 @@ class FusionTest : public ::testing::Test {
     setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
     vehicle = std::make_unique<StillVehicle>(domain, start_ns);
     ear = std::make_unique<FusionEar>(vehicle->participant());
+    sets.insert(sets.begin(), "checkpoint.path=");  // unless the test says where
     sets.push_back("bus.domain=" + std::to_string(domain));
     sets.push_back("start.mode=given");
     sets.push_back(

@@ -50,7 +50,7 @@ class FusionRestart : public FusionTest {
           before_now_ns());
     vehicle->run(400);
     ASSERT_TRUE(wait_until([&] { return ear->state_count() >= 400; }, 60.0));
-    EXPECT_EQ(how_started(), "started afresh: checkpoint " + checkpoint() + " there is none");
+    EXPECT_EQ(how_started(), "started afresh: checkpoint " + checkpoint() + " is not there");
     // One that was written from here on.
     const auto from = fs::file_time_type::clock::now();
     std::error_code error;

@@ -91,7 +91,7 @@ class CheckpointFile : public ::testing::Test {
 
 TEST_F(CheckpointFile, IsReplacedWholeAndLeavesNothingBeside) {
   const fs::path path = folder / "deep" / "fusion.checkpoint";
-  EXPECT_EQ(read_file(path).error().message, "there is none");
+  EXPECT_EQ(read_file(path).error().message, "is not there");
   EXPECT_EQ(replace_file(path, image(1000), false), "");
   EXPECT_EQ(replace_file(path, image(20), true), "");
   EXPECT_EQ(read_file(path).value(), image(20));
