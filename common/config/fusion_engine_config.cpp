@@ -277,8 +277,8 @@ void describe(Schema<EngineConfig>& s) {
       .unit("m")
       .range(-1000, 1000);
   s.field("output_axes", &C::output_axes,
-          "whose attitude, rate and force are published: the body's, or those of the wheels with the mount "
-          "angles that were found")
+          "whose attitude, rate and force are published: the body's, or, where constraints.non_holonomic is "
+          "enabled, those of the wheels with the mount angles that were found")
       .words({{"body", OutputAxes::body}, {"wheels", OutputAxes::wheels}});
   s.field("forecast_span_s", &C::forecast_span_s, "how far the forecast looks").unit("s").range(1, 7200);
   s.field("forecast_limits", &C::forecast_limits, "what the forecast watches, at most 8");

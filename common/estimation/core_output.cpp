@@ -28,7 +28,8 @@ OutputAttitude Core::output_attitude() const {
   out.q_NO = state_.nav.q_NB;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) out.covariance_N(i, k) = filter_(6 + i, 6 + k);
-  if (setup_->config.output_axes == OutputAxes::body) return out;
+  const NonHolonomicConfig& wheels = setup_->config.constraints.non_holonomic;
+  if (setup_->config.output_axes == OutputAxes::body || !wheels.enabled) return out;
   // (OUT-3)
   const int mount = setup_->index.of(Group::mount_angles);
   Vector3d angles = Vector3d::Zero();
@@ -36,8 +37,7 @@ OutputAttitude Core::output_attitude() const {
     const auto at = static_cast<std::size_t>(mount);
     angles.tail<2>() = Eigen::Vector2d(state_.x[at], state_.x[at + 1]);
   }
-  const geo::Quaternion q_BO =
-      geo::from_rpy(geo::vec(setup_->config.constraints.non_holonomic.mounting_rpy_rad)) * geo::exp(angles);
+  const geo::Quaternion q_BO = geo::from_rpy(geo::vec(wheels.mounting_rpy_rad)) * geo::exp(angles);
   out.C_BO = geo::to_matrix(q_BO);
   out.q_NO = geo::normalized(state_.nav.q_NB * q_BO);
   if (mount < 0) return out;

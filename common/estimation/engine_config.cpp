@@ -305,8 +305,6 @@ std::string EngineConfig::validate() const {
   check.in("velocity_timeout_s", velocity_timeout_s, 0.1, 1e5);
   check.in("zero_velocity_sigma_m_s", zero_velocity_sigma_m_s, 1e-5, 10);
   check.in("output_lever_B_m", output_lever_B_m, -1000, 1000);
-  check.that(output_axes != OutputAxes::wheels || constraints.non_holonomic.enabled,
-             "output_axes: wheels: expected body where constraints.non_holonomic is not enabled");
   check.in("forecast_span_s", forecast_span_s, 1, 7200);
   check.that(forecast_limits.size() <= 8,
              "forecast_limits: " + std::to_string(forecast_limits.size()) + ": expected at most 8");

@@ -264,7 +264,8 @@ struct VehicleModelConfig {
 /// Whose attitude, rate and force are published.
 enum class OutputAxes : std::uint8_t {
   body = 0,    ///< B, as the configuration mounts the inertial unit in it
-  wheels = 1,  ///< those of the non-holonomic constraint, its estimated mount angles applied: where it drives
+  wheels = 1,  ///< those of the non-holonomic constraint with the mount angles found: where the vehicle goes;
+               ///< without the constraint nothing finds them, and it is B
 };
 
 /// A limit that the forecast watches.

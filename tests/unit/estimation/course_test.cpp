@@ -77,6 +77,11 @@ TEST(CourseHeading, OfTheWheelsWhereTheUnitIsMountedAskew) {
   EXPECT_LT(std::abs(wheels.last_error_rad), 0.3 * kDeg);
   EXPECT_LT(wheels.worst_sigma, 3.0);
   EXPECT_LT(wheels.last_sigma_rad, body.last_sigma_rad);
+  // Without the constraint nothing tells where the wheels point.
+  config.constraints.non_holonomic.enabled = false;
+  const Course free = follow(config, run);
+  config.output_axes = OutputAxes::body;
+  EXPECT_EQ(free.last_error_rad, follow(config, run).last_error_rad);
 }
 
 /// (NOISE-2)
