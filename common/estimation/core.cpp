@@ -132,6 +132,21 @@ ProcessNoise Core::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& ra
   return noise;
 }
 
+void Core::settle_biases(ErrorFilter& filter, double ahead_s, double dt_s) const {
+  // (NOISE-2)
+  const ImuConfig& imu = setup_->config.imu;
+  if (imu.gyro_bias_settling_rad_s <= 0.0 && imu.accel_bias_settling_m_s2 <= 0.0) return;
+  const double age_s = std::max(to_seconds(now_ns_ - began_ns_) + ahead_s, 0.0);
+  const double rate = 2.0 / imu.bias_settling_time_s;
+  const double share = std::exp(-rate * age_s) - std::exp(-rate * (age_s + dt_s));
+  const auto widen = [&](Group group, double sigma) {
+    const int first = setup_->index.of(group);
+    for (int i = 0; i < 3; ++i) filter.widen(first + i, share * sigma * sigma);
+  };
+  widen(Group::gyro_bias, imu.gyro_bias_settling_rad_s);
+  widen(Group::accel_bias, imu.accel_bias_settling_m_s2);
+}
+
 void Core::advance(const ImuStep& step, TimeNs until_ns) {
   const double whole_s = step.increments.dt_s;
   const double fraction =
@@ -159,6 +174,7 @@ void Core::advance(const ImuStep& step, TimeNs until_ns) {
   const ErrorRates rates = error_rates(earth, v_before, c * force_B_);
   filter_.propagate(NavTransition(index, rates, c, rate_B_, force_B_, dt),
                     process_noise(c, rate_B_, force_B_));
+  settle_biases(filter_, -dt, dt);
   state_.nav = mechanise(state_.nav, earth, c, correct(in, fraction));
   travelled_N_m_ += 0.5 * dt * (v_before + state_.nav.v_N_m_s);
   for (const std::uint8_t state : setup_->drift.decaying()) state_.x[state] *= setup_->drift.kept(state, dt);
@@ -209,9 +225,10 @@ void Core::rebase(TimeNs now_ns, double unobserved_s) {
   const auto move = [shift](TimeNs& stamp) {
     if (stamp != 0) stamp += shift;
   };
-  for (TimeNs* stamp : {&gps_used_ns_, &usbl_used_ns_, &dvl_used_ns_, &velocity_used_ns_, &rest_until_ns_,
-                        &next_zero_velocity_ns_, &phase_since_ns_, &waiting_since_ns_, &hold_since_ns_,
-                        &gps_seen_ns_, &under_way_.heading_ns, &under_way_.dvl_ns, &under_way_.usbl_ns})
+  for (TimeNs* stamp :
+       {&gps_used_ns_, &usbl_used_ns_, &dvl_used_ns_, &velocity_used_ns_, &rest_until_ns_,
+        &next_zero_velocity_ns_, &phase_since_ns_, &waiting_since_ns_, &began_ns_, &hold_since_ns_,
+        &gps_seen_ns_, &under_way_.heading_ns, &under_way_.dvl_ns, &under_way_.usbl_ns})
     move(*stamp);
   for (Sensor& sensor : sensors_) {
     move(sensor.used_ns);
@@ -254,23 +271,6 @@ NavMode Core::mode() const {
   if (since(usbl_used_ns_) <= config.usbl_timeout_s) return NavMode::acoustic_aided;
   if (since(velocity_used_ns_) <= config.velocity_timeout_s) return NavMode::dead_reckoning;
   return NavMode::inertial;
-}
-
-Vector3d Core::rpy_sigma_rad() const {
-  if (!navigating_) return Vector3d::Constant(kUnknown);
-  if (dropping_) return drop_.rpy_sigma_rad();
-  // (OUT-1): how roll, pitch and yaw turn with the attitude error about N.
-  const Eigen::Matrix3d c = geo::to_matrix(state_.nav.q_NB);
-  const double level = std::max(std::sqrt(c(0, 0) * c(0, 0) + c(1, 0) * c(1, 0)), 1e-3);  // cos(pitch)
-  const double cosine = c(0, 0) / level;                                                  // of yaw
-  const double sine = c(1, 0) / level;
-  const double tangent = -c(2, 0) / level;  // of pitch
-  Eigen::Matrix3d j;
-  j << -cosine / level, -sine / level, 0.0, sine, -cosine, 0.0, -cosine * tangent, -sine * tangent, -1.0;
-  Eigen::Matrix3d p;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) p(i, k) = filter_(6 + i, 6 + k);
-  return (j * p * j.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
 }  // namespace fathom::estimation

@@ -64,6 +64,18 @@ struct GapSigma {
   double angle_rad;
 };
 
+/// The axes O that are published, B or the wheels', and how well they are known.
+struct OutputAttitude {
+  geo::Quaternion q_NO;
+  Eigen::Matrix3d covariance_N = Eigen::Matrix3d::Zero();  ///< of their attitude error about N, rad^2
+  std::optional<Eigen::Matrix3d> C_BO;                     ///< none where they are B itself
+
+  /// A vector given along B, along these axes.
+  [[nodiscard]] Eigen::Vector3d along(const Eigen::Vector3d& a_B) const {
+    return C_BO ? Eigen::Vector3d(C_BO->transpose() * a_B) : a_B;
+  }
+};
+
 /// Why a start is not possible yet, or that it is.
 struct StartConditions {
   bool window_full = false;
@@ -151,13 +163,18 @@ class Core {
   [[nodiscard]] double dvl_outage_s() const { return since(dvl_used_ns_); }
   [[nodiscard]] std::uint32_t reset_counter() const { return reset_counter_; }
   [[nodiscard]] const Eigen::Vector3d& last_reset_N_m() const { return last_reset_N_m_; }
-  /// Sigmas of roll, pitch and yaw.
+  /// Sigmas of roll, pitch and yaw of the axes that are published.
   [[nodiscard]] Eigen::Vector3d rpy_sigma_rad() const;
   [[nodiscard]] const Sensor& sensor(int index) const { return sensors_[static_cast<std::size_t>(index)]; }
   /// That of a step with this attitude, rate and force.
   [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const Eigen::Vector3d& rate_B_rad_s,
                                            const Eigen::Vector3d& force_B_m_s2) const;
   [[nodiscard]] const hydro::WaterVelocity& water_velocity() const { return water_; }
+  /// Adds to `filter` what the settling biases move by in `dt_s` from `ahead_s` after now on.
+  void settle_biases(ErrorFilter& filter, double ahead_s, double dt_s) const;
+
+  // core_output.cpp
+  [[nodiscard]] OutputAttitude output_attitude() const;
 
  private:
   [[nodiscard]] double since(TimeNs stamp_ns) const {
@@ -250,6 +267,7 @@ class Core {
   TimeNs now_ns_ = 0;
   bool navigating_ = false;
   bool levelled_ = false;
+  TimeNs began_ns_ = 0;  ///< when navigation did
   FilterState state_;
   ErrorFilter filter_;
   Eigen::Vector3d rate_B_ = Eigen::Vector3d::Zero();

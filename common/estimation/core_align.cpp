@@ -306,6 +306,7 @@ void Core::begin(const FilterState& state, const std::array<double, kMaxStates>&
     }
   }
   navigating_ = levelled_ = true;
+  began_ns_ = now_ns_;
   position_set_ = false;
   hold_since_ns_ = 0;
   enter(AlignmentPhase::fine);
@@ -341,6 +342,7 @@ void Core::start(const InitialState& initial, TimeNs now_ns) {
   state_ = start;
   filter_.reset(sigma);
   navigating_ = levelled_ = true;
+  began_ns_ = now_ns_;
   hold_since_ns_ = 0;
   if (setup_->config.alignment.mode == StartMode::air_drop) {
     start_drop(initial);

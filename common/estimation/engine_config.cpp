@@ -45,6 +45,9 @@ void check_imu(const ImuConfig& imu, Check& check) {
   check.in("imu.accel_bias_sigma_m_s2", imu.accel_bias_sigma_m_s2, 1e-9, 10);
   check.in("imu.accel_bias_instability_m_s2", imu.accel_bias_instability_m_s2, 0, 10);
   check.in("imu.accel_bias_time_constant_s", imu.accel_bias_time_constant_s, 1, 1e9);
+  check.in("imu.gyro_bias_settling_rad_s", imu.gyro_bias_settling_rad_s, 0, 1);
+  check.in("imu.accel_bias_settling_m_s2", imu.accel_bias_settling_m_s2, 0, 10);
+  check.in("imu.bias_settling_time_s", imu.bias_settling_time_s, 0.1, 1e6);
   check.in("imu.gyro_scale_sigma", imu.gyro_scale_sigma, 0, 0.1);
   check.in("imu.accel_scale_sigma", imu.accel_scale_sigma, 0, 0.1);
   check.in("imu.gyro_misalignment_sigma_rad", imu.gyro_misalignment_sigma_rad, 0, 0.1);
@@ -112,6 +115,7 @@ void check_sensor(const SensorConfig& sensor, Check& check) {
   check.in(at + "transceiver_depth_m", sensor.transceiver_depth_m, -1000, 12000);
   check.in(at + "sideslip_sigma_rad", sensor.sideslip_sigma_rad, 0, 1);
   check.in(at + "attack_sigma_rad", sensor.attack_sigma_rad, 0, 1);
+  check.in(at + "gust_time_s", sensor.gust_time_s, 0, 1000);
   check.in(at + "baro_sigma_m", sensor.baro_sigma_m, 0, 1e4);
   check.in(at + "beam_angle_rad", sensor.beam_angle_rad, 0.05, 1.4);
   check.in(at + "beam_azimuth_rad", sensor.beam_azimuth_rad, -kAngle, kAngle);
@@ -153,6 +157,7 @@ void check_constraints(const ConstraintsConfig& constraints, Check& check) {
   check.in("constraints.non_holonomic.mounting_rpy_rad", wheels.mounting_rpy_rad, -kAngle, kAngle);
   check.in("constraints.non_holonomic.lateral_sigma_m_s", wheels.lateral_sigma_m_s, 1e-5, 1e3);
   check.in("constraints.non_holonomic.vertical_sigma_m_s", wheels.vertical_sigma_m_s, 1e-5, 1e3);
+  check.in("constraints.non_holonomic.slip_time_s", wheels.slip_time_s, 0, 1000);
   check.in("constraints.constant_depth.rate_hz", constraints.constant_depth.rate_hz, 0.01, 1000);
   check.in("constraints.constant_depth.sigma_m_s", constraints.constant_depth.sigma_m_s, 1e-5, 1e3);
 }

@@ -30,6 +30,12 @@ struct ImuConfig {
   double accel_bias_sigma_m_s2 = 9.8e-3;  ///< turn-on, 1 mg
   double accel_bias_instability_m_s2 = 2.9e-3;
   double accel_bias_time_constant_s = 3600.0;
+  /// What the biases move by while the unit settles, beyond the in-run drift, and how fast that dies out
+  /// after navigation has begun: warming up, or a filter inside the instrument that still changes its
+  /// corrections.
+  double gyro_bias_settling_rad_s = 0.0;
+  double accel_bias_settling_m_s2 = 0.0;  ///< likewise
+  double bias_settling_time_s = 60.0;
   double gyro_scale_sigma = 300e-6;            ///< used where the state group is on, else as equivalent noise
   double accel_scale_sigma = 300e-6;           ///< likewise
   double gyro_misalignment_sigma_rad = 3e-4;   ///< likewise
@@ -157,8 +163,9 @@ struct SensorConfig {
   double transceiver_depth_m = 0.0;  ///< below the water surface, down; also where the sample has no depth
   double sideslip_sigma_rad = 0.0;   ///< airspeed: sideslip beyond its state; 0: nothing is known of it
   double attack_sigma_rad = 0.0;     ///< airspeed: likewise the angle of attack
-  double baro_sigma_m = 0.0;         ///< airspeed: of the barometric height in its samples; 0: not used
-  bool use_beams = false;            ///< DVL: the beams each on their own, where the sample carries them
+  double gust_time_s = 0.0;   ///< airspeed: for which a gust lasts, along and across; 0: noise of a sample
+  double baro_sigma_m = 0.0;  ///< airspeed: of the barometric height in its samples; 0: not used
+  bool use_beams = false;     ///< DVL: the beams each on their own, where the sample carries them
   double beam_angle_rad = 0.5235987755982988;  ///< DVL: of the beams from the down axis, where the sample
                                                ///< does not say; 30 deg
   /// DVL: where each beam points, from forward towards right. Default: 1 left, 2 right, 3 ahead, 4 astern.
@@ -222,6 +229,7 @@ struct NonHolonomicConfig {
   std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< attitude of the wheels' axes in B
   double lateral_sigma_m_s = 0.1;
   double vertical_sigma_m_s = 0.1;
+  double slip_time_s = 0.0;  ///< for which slip and bounce last; 0: noise of each application
 };
 
 /// A vehicle that keeps its depth: no velocity down.
@@ -251,6 +259,13 @@ struct VehicleModelConfig {
   double memory_s = 60.0;                       ///< over which it is compared with the DVL-aided velocity
   double trial_s = 30.0;                        ///< of comparison before it is believed without the DVL
   double doubt_limit = 9.0;  ///< mean normalised squared innovation above which it is not believed
+};
+
+/// Whose attitude, rate and force are published.
+enum class OutputAxes : std::uint8_t {
+  body = 0,    ///< B, as the configuration mounts the inertial unit in it
+  wheels = 1,  ///< those of the non-holonomic constraint with the mount angles found: where the vehicle goes;
+               ///< without the constraint nothing finds them, and it is B
 };
 
 /// A limit that the forecast watches.
@@ -285,6 +300,7 @@ struct EngineConfig {
   double velocity_timeout_s = 3.0;                  ///< mode leaves dead_reckoning after this
   double zero_velocity_sigma_m_s = 0.02;            ///< while marked at rest
   std::array<double, 3> output_lever_B_m{0, 0, 0};  ///< the point whose position and velocity NavState tells
+  OutputAxes output_axes = OutputAxes::body;        ///< those whose attitude NavState tells
   double forecast_span_s = 600.0;
   std::vector<ForecastLimitConfig> forecast_limits;
 

@@ -91,6 +91,7 @@ void Forecaster::begin(const Core& core) {
   const Vector3d rpy = geo::to_rpy(nav.q_NB);
   yaw_rad_ = rpy.z();
   second_ = 0;
+  ahead_s_ = 0.0;
   still_ = {};
   still_.roll_rad = rpy.x();
   still_.pitch_rad = rpy.y();
@@ -112,6 +113,8 @@ void Forecaster::step(const Core& core, int lost, double dt_s) {
   const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
   filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s),
                     core.process_noise(c, motion.rate_B_rad_s, motion.force_B_m_s2));
+  core.settle_biases(filter_, ahead_s_, dt_s);
+  ahead_s_ += dt_s;
   if (lost == kAll) return;
   const AidingState state(setup_->index, state_, motion.rate_B_rad_s, 0.0, motion.force_B_m_s2);
   InnovationStatistics statistics;

@@ -37,6 +37,7 @@ class Forecaster {
   ErrorFilter filter_;
   FilterState state_;  ///< as it may be then
   int second_ = 0;
+  double ahead_s_ = 0.0;  ///< of the present
   double yaw_rad_ = 0.0;
   MotionMemory::Second still_;  ///< where nothing is remembered yet: straight ahead
   std::array<AnySample, kMaxSensors> last_{};

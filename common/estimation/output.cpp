@@ -32,8 +32,7 @@ std::array<double, 9> with_lever(const ErrorFilter& filter, int first, const Vec
   return out;
 }
 
-void fill_attitude(const Core& core, NavState& out) {
-  const geo::Quaternion& q = core.state().nav.q_NB;
+void fill_attitude(const geo::Quaternion& q, NavState& out) {
   // One sign of the two that mean the same, so that readers may difference it.
   const double sign = q.w < 0.0 ? -1.0 : 1.0;
   out.q_NB = {sign * q.w, sign * q.x, sign * q.y, sign * q.z};
@@ -49,8 +48,9 @@ void fill(const Setup& setup, const Core& core, NavState& out) {
   out.dvl_outage_s = core.dvl_outage_s();
   out.reset_counter = core.reset_counter();
   out.last_reset_delta_N_m = geo::arr(core.last_reset_N_m());
-  out.angular_rate_B_rad_s = geo::arr(core.rate_B_rad_s());
-  out.specific_force_B_m_s2 = geo::arr(core.force_B_m_s2());
+  const OutputAttitude attitude = core.output_attitude();
+  out.angular_rate_B_rad_s = geo::arr(attitude.along(core.rate_B_rad_s()));
+  out.specific_force_B_m_s2 = geo::arr(attitude.along(core.force_B_m_s2()));
   if (!core.navigating()) {
     const NavState blank;
     out.latitude_rad = out.longitude_rad = out.altitude_m = out.depth_m = kUnknown;
@@ -60,7 +60,7 @@ void fill(const Setup& setup, const Core& core, NavState& out) {
     out.q_NB = blank.q_NB;
     out.rpy_rad = out.rpy_sigma_rad = blank.rpy_rad;
     if (core.levelled()) {
-      const Vector3d rpy = geo::to_rpy(core.state().nav.q_NB);
+      const Vector3d rpy = geo::to_rpy(attitude.q_NO);
       out.rpy_rad = {rpy.x(), rpy.y(), kUnknown};
     }
     return;
@@ -85,7 +85,7 @@ void fill(const Setup& setup, const Core& core, NavState& out) {
     out.depth_m = good ? core.state().x[static_cast<std::size_t>(surface)] - at.altitude_m : kUnknown;
   }
   out.velocity_N_m_s = geo::arr(nav.v_N_m_s + swing);
-  fill_attitude(core, out);
+  fill_attitude(attitude.q_NO, out);
   out.position_covariance_N_m2 = with_lever(core.filter(), 0, arm);
   out.velocity_covariance_N_m2_s2 = with_lever(core.filter(), 3, swing);
   out.rpy_sigma_rad = geo::arr(core.rpy_sigma_rad());

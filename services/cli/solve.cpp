@@ -13,6 +13,7 @@
 
 #include "cli/command.hpp"
 #include "cli/solve_calibrate.hpp"
+#include "cli/solve_course.hpp"
 #include "cli/solve_fixes.hpp"
 #include "cli/solve_metrics.hpp"
 #include "cli/solve_outage.hpp"
@@ -22,6 +23,7 @@
 #include "dataset/dataset.hpp"
 #include "dataset/nav_csv.hpp"
 #include "dataset/score.hpp"
+#include "estimation/fusion_engine.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -139,8 +141,16 @@ SolveReport solve(const SolveOptions& options) {
     report.passage = run_smoothed(passage, {take_filtered, take});
     report.filtered = filtered.score();
   } else {
-    passage.on_state = [&](const NavState& state, estimation::FusionEngine&) { take(state); };
+    HeadingWatch heading(loaded.value, data.gps);
+    NavDetail detail;
+    passage.on_state = [&](const NavState& state, const estimation::FusionEngine& engine) {
+      take(state);
+      if (heading.wants_detail(state)) engine.fill(detail);
+      heading.add(state, detail);
+      if (const auto at = truth.at(state.header.stamp_ns)) heading.add(state, *at);
+    };
     report.passage = run(passage);
+    report.heading = heading.figures();
   }
   csv.close();
   report.score = scorer.score();

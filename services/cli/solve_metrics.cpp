@@ -98,6 +98,27 @@ json errors(const dataset::Score& score, double distance_m) {
             {"velocity", nees(score.nees_velocity)}}}};
 }
 
+json heading(const HeadingErrors& errors) {
+  return {{"count", errors.count()},
+          {"mean_deg", number(errors.mean_rad() * kDegPerRad)},
+          {"rms_deg", number(errors.rms_rad() * kDegPerRad)},
+          {"worst_sigma", number(errors.worst())},
+          {"beyond_3_sigma", errors.beyond()},
+          {"worst_own_sigma", number(errors.worst_own())},
+          {"beyond_3_own_sigma", errors.beyond_own()}};
+}
+
+json heading(const HeadingFigures& figures) {
+  json out = {{"aligned_after_s", number(figures.aligned_after_s)}};
+  if (figures.course.count() > 0) {
+    out["course_made_good"] = heading(figures.course);
+    out["course_made_good"]["through"] = figures.through_medium ? "medium" : "ground";
+    out["course_made_good"]["aligned"] = heading(figures.course_aligned);
+  }
+  if (figures.reference.count() > 0) out["reference"] = heading(figures.reference);
+  return out;
+}
+
 double us_per_sample(const PassageResult& passage) {
   return passage.imu_samples > 0 ? 1e6 * passage.wall_s / static_cast<double>(passage.imu_samples) : kUnknown;
 }
@@ -126,6 +147,7 @@ std::string to_json(const SolveReport& report) {
   out["wall_time_s"] = report.passage.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.passage));
   out["verdicts"] = verdicts(report.passage.verdicts);
+  if (!report.smoothed) out["heading"] = heading(report.heading);
   const dataset::Score& score = report.score;
   out["scored"] = score.count;
   if (score.count > 0) {
@@ -176,6 +198,17 @@ std::string to_text(const SolveReport& report) {
     out += line("horizontal NEES %.2f, consistent from %.2f to %.2f", score.nees_horizontal.mean,
                 score.nees_horizontal.band_95[0], score.nees_horizontal.band_95[1]);
   }
+  if (known(report.heading.aligned_after_s))
+    out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
+  if (const HeadingErrors& course = report.heading.course; course.count() > 0)
+    out += line(
+        "heading against the course made good%s, straight ahead: rms %.2f deg, worst %.2f sigma, "
+        "%zu of %zu beyond 3 sigma",
+        report.heading.through_medium ? " through the medium" : "", course.rms_rad() * kDegPerRad,
+        course.worst(), course.beyond(), course.count());
+  if (const HeadingErrors& reference = report.heading.reference; reference.count() > 0)
+    out += line("heading against the reference: worst %.2f sigma, %zu of %zu states beyond 3 sigma",
+                reference.worst(), reference.beyond(), reference.count());
   if (report.filtered.count > 0)
     out += line("before smoothing: horizontal error rms %.2f m, 95 %% %.2f m",
                 report.filtered.horizontal_m.rms, report.filtered.horizontal_m.p95);

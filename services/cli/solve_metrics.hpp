@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/solve_course.hpp"
 #include "cli/solve_outage.hpp"
 #include "cli/solve_run.hpp"
 #include "dataset/score.hpp"
@@ -24,6 +25,7 @@ struct SolveReport {
   dataset::Score filtered;                          ///< of the forward pass where smoothed
   FixErrors at_fixes;            ///< of the antenna at the fixes it was given, each at its own instant
   FixErrors filtered_at_fixes;   ///< likewise the forward pass where smoothed
+  HeadingFigures heading;        ///< of the filter; nothing where smoothed
   double distance_m = kUnknown;  ///< horizontal, of the reference while it was scored
   std::vector<OutageFigures> outages;
   std::string calibration;  ///< for a person, where it was asked for

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "estimation/aiding/model.hpp"
 #include "samples/airspeed.hpp"
 
@@ -8,6 +11,14 @@ namespace fathom::estimation {
 /// Velocity through air whose horizontal motion is the `current` state, along N.
 [[nodiscard]] inline Vector3 velocity_through_air_N(const AidingState& s) {
   return s.state.nav.v_N_m_s - Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0);
+}
+
+/// A gust lasts (AID-AIR-3): by how much the sigma of a sample is raised that comes `unused_s` after the one
+/// before.
+[[nodiscard]] inline double lasting_gust(const SensorConfig& sensor, double unused_s) {
+  constexpr double kShortest_s = 1e-3;
+  return unused_s < sensor.gust_time_s ? std::sqrt(sensor.gust_time_s / std::max(unused_s, kShortest_s))
+                                       : 1.0;
 }
 
 /// Slower than this the direction of the flow is not known well enough to linearise.
@@ -19,8 +30,14 @@ class Airspeed {
  public:
   static constexpr const char* kName = "airspeed";
 
-  Airspeed(const AidingState& s, const SensorConfig& sensor, const AirspeedSample& sample)
-      : s_(s), sensor_(sensor), sample_(sample), through_N_(velocity_through_air_N(s)) {}
+  /// `unused_s`: since the last sample that was used, unknown before the first.
+  Airspeed(const AidingState& s, const SensorConfig& sensor, const AirspeedSample& sample,
+           double unused_s = kUnknown)
+      : s_(s),
+        sensor_(sensor),
+        sample_(sample),
+        lasting_(lasting_gust(sensor, unused_s)),
+        through_N_(velocity_through_air_N(s)) {}
 
   [[nodiscard]] static Usable usable(const AidingState& s, const AirspeedSample& sample) {
     if (!(sample.airspeed_m_s > 0.0 && sample.airspeed_m_s < 700.0)) return Usable::out_of_range;
@@ -44,7 +61,7 @@ class Airspeed {
   }
   [[nodiscard]] Vector3 noise() const {
     const double own = std::hypot(sensor_.sigma[0], sensor_.proportional_sigma * sample_.airspeed_m_s);
-    return {sigma_of(own, sample_.sigma_m_s, sensor_.use_sample_sigma), 0.0, 0.0};
+    return {lasting_ * sigma_of(own, sample_.sigma_m_s, sensor_.use_sample_sigma), 0.0, 0.0};
   }
 
  private:
@@ -63,6 +80,7 @@ class Airspeed {
   const AidingState& s_;
   const SensorConfig& sensor_;
   const AirspeedSample& sample_;
+  double lasting_;
   Vector3 through_N_;
 };
 

@@ -12,9 +12,11 @@ class FlowAngles {
   static constexpr const char* kName = "flow_angles";
   using Vector2 = Eigen::Vector2d;
 
-  FlowAngles(const AidingState& s, const SensorConfig& sensor)
+  /// `unused_s`: since the last sample that was used, unknown before the first.
+  FlowAngles(const AidingState& s, const SensorConfig& sensor, double unused_s = kUnknown)
       : s_(s),
         sensor_(sensor),
+        lasting_(lasting_gust(sensor, unused_s)),
         through_N_(velocity_through_air_N(s)),
         through_B_(s.C_NB.transpose() * through_N_),
         angles_(s.value(Group::flow_angles, 0), s.value(Group::flow_angles, 1)) {}
@@ -40,12 +42,13 @@ class FlowAngles {
     h.block(Group::flow_angles, through_B_.x() * Eigen::Matrix2d::Identity());
   }
   [[nodiscard]] Vector2 noise() const {
-    return through_N_.norm() * Vector2(sensor_.sideslip_sigma_rad, sensor_.attack_sigma_rad);
+    return lasting_ * through_N_.norm() * Vector2(sensor_.sideslip_sigma_rad, sensor_.attack_sigma_rad);
   }
 
  private:
   const AidingState& s_;
   const SensorConfig& sensor_;
+  double lasting_;
   Vector3 through_N_;
   Vector3 through_B_;
   Vector2 angles_;

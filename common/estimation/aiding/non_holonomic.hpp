@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "estimation/aiding/model.hpp"
 #include "estimation/engine_config.hpp"
 
@@ -36,7 +39,11 @@ class NonHolonomic {
     h.block(Group::mount_angles, -geo::skew(C_WB_ * v_B_).bottomRightCorner<2, 2>());
     h.block(Group::mount_lever, -d * geo::skew(s_.rate_nb_B_rad_s));
   }
-  [[nodiscard]] Vector2 noise() const { return {config_.lateral_sigma_m_s, config_.vertical_sigma_m_s}; }
+  [[nodiscard]] Vector2 noise() const {
+    // (AID-NHC-3)
+    const double lasting = std::sqrt(std::max(1.0, config_.slip_time_s * config_.rate_hz));
+    return lasting * Vector2(config_.lateral_sigma_m_s, config_.vertical_sigma_m_s);
+  }
 
  private:
   const AidingState& s_;

@@ -99,7 +99,7 @@ Usable usbl_range_bearing(const AidingInput& in, const AnySample& any, Observati
 Usable airspeed(const AidingInput& in, const AnySample& any, Observation& out) {
   const auto& sample = std::get<AirspeedSample>(any);
   const Usable usable = Airspeed::usable(in.state, sample);
-  return usable == Usable::yes ? append(Airspeed(in.state, in.sensor, sample), in, out) : usable;
+  return usable == Usable::yes ? append(Airspeed(in.state, in.sensor, sample, in.unused_s), in, out) : usable;
 }
 
 Usable flow_angles(const AidingInput& in, const AnySample& any, Observation& out) {
@@ -107,7 +107,7 @@ Usable flow_angles(const AidingInput& in, const AnySample& any, Observation& out
   const Usable usable = Airspeed::usable(in.state, std::get<AirspeedSample>(any));
   if (usable != Usable::yes) return usable;
   out.each_alone = true;
-  return append(FlowAngles(in.state, in.sensor), in, out);
+  return append(FlowAngles(in.state, in.sensor, in.unused_s), in, out);
 }
 
 Usable baro_altitude(const AidingInput& in, const AnySample& any, Observation& out) {

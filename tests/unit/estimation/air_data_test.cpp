@@ -29,11 +29,13 @@ class AirData : public ::testing::Test {
   void set(Group group, int component, double value) {
     state_.x[static_cast<std::size_t>(index_.of(group) + component)] = value;
   }
-  [[nodiscard]] Observation rows() const {
+  [[nodiscard]] Observation rows(double unused_s = kUnknown) const {
     const AidingState aiding(index_, state_, Vector3d::Zero(), kUnknown);
+    const AidingInput input{
+        .state = aiding, .sensor = sensor_, .surface_altitude_m = 0.0, .unused_s = unused_s};
     Observation out;
     for (const AidingEntry& entry : aiding_registry())
-      if (entry.source == SourceKind::airspeed) (void)entry.observe({aiding, sensor_, 0.0}, sample_, out);
+      if (entry.source == SourceKind::airspeed) (void)entry.observe(input, sample_, out);
     return out;
   }
 
@@ -55,6 +57,20 @@ TEST_F(AirData, SpeedFlowAndHeightAreFourRows) {
   EXPECT_NEAR(out.innovation[2], 0.0, 1e-12);
   EXPECT_NEAR(out.innovation[3], -2.0, 1e-12);
   EXPECT_NEAR(out.sigma[1], 0.1 * std::hypot(20.0, 5.0), 1e-12);
+}
+
+TEST_F(AirData, AGustLastsLongerThanASample) {
+  const Observation noise = rows(0.1);
+  sensor_.gust_time_s = 0.9;
+  const Observation gusts = rows(0.1);
+  // Speed and flow are as wrong again; the barometer is not blown away.
+  EXPECT_NEAR(gusts.sigma[0], 3.0 * noise.sigma[0], 1e-12);
+  EXPECT_NEAR(gusts.sigma[1], 3.0 * noise.sigma[1], 1e-12);
+  EXPECT_NEAR(gusts.sigma[2], 3.0 * noise.sigma[2], 1e-12);
+  EXPECT_EQ(gusts.sigma[3], noise.sigma[3]);
+  // The first sample, and one behind a pause, meet a gust of their own.
+  EXPECT_EQ(rows().sigma[1], noise.sigma[1]);
+  EXPECT_EQ(rows(5.0).sigma[1], noise.sigma[1]);
 }
 
 TEST_F(AirData, CrabbingWithoutItsWindIsSideslip) {

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "estimation/aiding/non_holonomic.hpp"
 #include "support/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -41,6 +42,22 @@ TEST(Constraints, WheelsHoldTheTrackWhenGpsEnds) {
   const double held_m = end_error_m(wheels, run);
   EXPECT_GT(free_m, 30.0);
   EXPECT_LT(held_m, 0.2 * free_m) << free_m;
+}
+
+TEST(Constraints, SlipThatLastsIsNotLearntAwayTenTimesASecond) {
+  const StateIndex index{StateGroups{}};
+  FilterState state;
+  state.nav.v_N_m_s = {10.0, 0.0, 0.0};
+  const AidingState aiding(index, state, Eigen::Vector3d::Zero(), kUnknown);
+  NonHolonomicConfig wheels;
+  wheels.rate_hz = 10.0;
+  wheels.lateral_sigma_m_s = 0.2;
+  wheels.vertical_sigma_m_s = 0.1;
+  EXPECT_EQ(NonHolonomic(aiding, wheels).noise(), Eigen::Vector2d(0.2, 0.1));
+  wheels.slip_time_s = 0.05;
+  EXPECT_EQ(NonHolonomic(aiding, wheels).noise(), Eigen::Vector2d(0.2, 0.1));
+  wheels.slip_time_s = 1.6;
+  EXPECT_NEAR((NonHolonomic(aiding, wheels).noise() - Eigen::Vector2d(0.8, 0.4)).norm(), 0.0, 1e-12);
 }
 
 TEST(Constraints, AWrongConstraintIsWeighedDown) {
