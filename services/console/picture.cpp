@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kMostNames = 64;  // names come from the network: bounded
 constexpr std::size_t kMostWaiting = 64;
+constexpr std::uint64_t kServicesEvery = 10;
 // Fusion judges a fix within its horizon; what it never mentions is shown as it is.
 constexpr DurationNs kFixPatienceNs = 2 * kNsPerSecond;
 
@@ -131,7 +132,10 @@ Tick Picture::tick(const health::Instant& at) {
     if (source.used_ns != 0) line.since_used_s = to_seconds(at.monotonic_ns - source.used_ns);
     out.sources.push_back(line);
   }
-  for (const auto& [name, line] : services_) out.services.push_back(line);
+  // What changes once a second is said once a second.
+  if (ticks_ % kServicesEvery == 1) {
+    for (const auto& [name, line] : services_) out.services.push_back(line);
+  }
   const auto states = std::min<std::size_t>(detail_.count, NavDetail::kMaxStates);
   for (std::size_t i = 0; i < states; ++i) {
     if (detail_.states[i].name.view().starts_with("current_")) out.current.push_back(detail_.states[i]);

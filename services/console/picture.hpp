@@ -41,7 +41,7 @@ struct Tick {
   Trust trust;
   double nav_latency_s = kUnknown;
   std::vector<SourceLine> sources;
-  std::vector<ServiceLine> services;
+  std::vector<ServiceLine> services;   ///< in every tenth tick, else empty
   std::vector<StateEstimate> current;  ///< water current, as far as it is estimated
   Fresh fresh;
   std::vector<VerdictSeries> fresh_series;  ///< names of the series that fresh rows belong to; no rows

@@ -29,9 +29,12 @@ std::string metres(double value_m) {
   return sentence(value_m < 10.0 ? "%.1f m" : "%.0f m", value_m);
 }
 
-std::string basis(const NavState& nav) {
+/// What the position rests on. Fusion calls itself aided for a while after the last fix; what the monitor
+/// says about GPS counts for more here, or the sentence would contradict itself.
+std::string basis(const NavState& nav, bool gps_gone) {
   const bool dvl = nav.dvl_outage_s < kAidedS;
-  switch (nav.mode) {
+  const NavMode mode = nav.mode == NavMode::gps_aided && gps_gone ? NavMode::dead_reckoning : nav.mode;
+  switch (mode) {
     case NavMode::gps_aided:
       return dvl ? "GPS with DVL" : "GPS";
     case NavMode::acoustic_aided:
@@ -99,7 +102,9 @@ void judge_gps(const cli::StatusView& view, Trust& trust) {
     trust.sentence += ", GPS gone " + duration_text(view.monitor->sample.gps_outage_s);
     raise(trust, view.monitor->sample.gps_outage_severity == Severity::critical ? TrustLevel::bad
                                                                                 : TrustLevel::caution);
-    trust.advice = "Surface for GPS or range to a beacon before the limit is passed.";
+    trust.advice = nav.mode == NavMode::acoustic_aided
+                       ? "USBL carries the position; it stays good while its fixes come."
+                       : "Surface for GPS or get a USBL fix before the limit is passed.";
   } else if (nav.mode != NavMode::gps_aided) {
     trust.sentence += std::isfinite(nav.gps_outage_s)
                           ? ", GPS last used " + duration_text(nav.gps_outage_s) + " ago"
@@ -129,12 +134,13 @@ Trust judge_trust(const cli::StatusView& view, double fresh_s) {
 
   Trust out;
   out.level = nav.mode == NavMode::inertial ? TrustLevel::caution : TrustLevel::good;
-  out.sentence = basis(nav);
+  const bool gps_gone = view.monitor && view.monitor->sample.gps_outage_active;
+  out.sentence = basis(nav, gps_gone);
   judge_gps(view, out);
   const double radius_m = horizontal_95_m(nav.position_covariance_N_m2);
   out.sentence += ", 95 % " + metres(radius_m);
   if (!std::isfinite(radius_m)) raise(out, TrustLevel::bad);
-  if (nav.mode != NavMode::gps_aided) {
+  if (nav.mode != NavMode::gps_aided || gps_gone) {
     if (const auto limit = next_limit(view)) {
       out.sentence += ", passes " + metres(limit->limit) + " in " + about(limit->time_to_limit_s);
       if (limit->time_to_limit_s < kSoonS) raise(out, TrustLevel::caution);
