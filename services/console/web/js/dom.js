@@ -27,9 +27,13 @@ export function card(kind, title, tools, ...content) {
 /** A table in a box of its own that scrolls, reachable by keyboard. */
 export const scroller = (label, ...content) => el("div", {class: "scroll", tabindex: 0, role: "group", "aria-label": label}, ...content);
 
-/** What became of a measurement: mark, word and look. */
-export function verdictLook(kind) {
+/**
+ * What became of a measurement: mark, word and look. Inertial samples are judged only when something is wrong with
+ * one: their last verdict says nothing about now.
+ */
+export function verdictLook(kind, source = "") {
   const word = String(kind).replaceAll("_", " ");
+  if (source === "imu") return ["○ last fault: " + word, "soft"];
   if (kind === "used") return ["✔ " + word, "good-text"];
   return kind === "source_disabled" ? ["○ " + word, "soft"] : ["✖ " + word, "bad-text"];
 }

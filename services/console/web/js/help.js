@@ -1,6 +1,6 @@
 import {el} from "./dom.js";
 
-const kKeys = [["1 … 5", "views"], ["space", "pause or go on with the plots"], ["t", "day or night"], ["u", "metres and degrees, or feet, knots and minutes"],
+const kKeys = [["1 … 5", "views"], ["p or space", "pause or go on with the plots"], ["t", "day or night"], ["u", "metres and degrees, or feet, knots and minutes"],
   ["f", "follow the vehicle on the map"], ["?", "this help"], ["Esc", "close"]];
 
 export function help() {

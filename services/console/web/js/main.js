@@ -65,8 +65,8 @@ function judge() {
     lost = true;
   } else {
     const {level, sentence, advice} = store.tick.trust;
-    lost = sentence.startsWith("No navigation");
-    trust(level, sentence, advice, lost ? "NO NAVIGATION" : undefined);
+    lost = sentence.startsWith("No navigation:");
+    trust(level, sentence, advice, sentence.startsWith("No navigation") ? "NO NAVIGATION" : undefined);
   }
   if (lost !== (root.dataset.navigation === "none")) {
     root.dataset.navigation = lost ? "none" : "there";
@@ -100,7 +100,7 @@ function keys(event) {
   else if (event.key === "?") help();
   else if (event.key === "t") toggleTheme();
   else if (event.key === "u") nextUnits();
-  else if (event.key === " " && !event.target.closest("button")) setPaused(!isPaused());
+  else if (event.key === "p" || (event.key === " " && !event.target.closest("button"))) setPaused(!isPaused());
   else if (current.keys?.[event.key]) current.keys[event.key]();
   else return;
   event.preventDefault();

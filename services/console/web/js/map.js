@@ -75,7 +75,7 @@ export function makeMap() {
   }
   function begin() {
     map = L.map(box, {zoomControl: true, attributionControl: false, zoomSnap: 0.25, minZoom: 3, maxZoom: 22, keyboard: true, fadeAnimation: false, zoomAnimation: false});
-    map.setView(vehicle() ?? [0, 0], vehicle() ? 17.5 : 3);
+    map.setView(vehicle() ?? [0, 0], vehicle() ? 19 : 3);
     L.control.scale({imperial: units.lengthUnit() === "ft", metric: units.lengthUnit() === "m"}).addTo(map);
     chart = new Chart({origin: () => origin, grid: () => !tiles, measured: () => measured}).addTo(map);
     map.on("click", choose);
@@ -97,7 +97,7 @@ export function makeMap() {
       const lat = store.nav.column("lat_deg").findIndex((v) => v !== null);
       if (!origin && lat >= 0) {
         origin = L.latLng(store.nav.column("lat_deg")[lat], store.nav.column("lon_deg")[lat]);
-        if (map.getZoom() < 10) map.setView(degreesOf(origin, {north: 0, east: 0}), 17.5, {animate: false});
+        if (map.getZoom() < 10) map.setView(degreesOf(origin, {north: 0, east: 0}), 19, {animate: false});
       }
       if (follow) centre();
       chart.draw();

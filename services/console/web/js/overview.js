@@ -95,7 +95,7 @@ export function makeOverview() {
     else put(clock, gps.outage ? units.duration(gps.outage_s) : "✔ fix");
     clock.className = "big " + (!gps || gps.outage_s === null ? "caution-text" : !gps.outage ? "good-text" : gps.severity === "notice" ? "caution-text" : "bad-text");
     put(clockNote, gps?.outage ? `▲ without GPS, ${gps.severity}` : "");
-    put(totals, gps ? `${gps.count} outages, longest ${units.duration(gps.longest_s)}, in all ${units.duration(gps.total_s)}` : "");
+    put(totals, gps ? `${gps.count} outage${gps.count === 1 ? "" : "s"}, longest ${units.duration(gps.longest_s)}, in all ${units.duration(gps.total_s)}` : "");
     curve.show(tick.status.forecast, tick.status.navigation?.horizontal_95_m);
   }
 
@@ -113,10 +113,10 @@ export function makeOverview() {
     reconcile(ages, tick.sources, (line) => line.sensor, (line) => el("tr", {"data-source": line.sensor}, el("td", {}, line.sensor), el("td"), el("td", {class: "n"}), el("td", {class: "n"})),
       (row, line) => {
         const [, verdict, used, rate] = row.children;
-        const [text, look] = verdictLook(line.last);
+        const [text, look] = verdictLook(line.last, line.kind);
         put(verdict, text);
         verdict.className = look;
-        put(used, line.since_used_s === null ? "never" : units.duration(line.since_used_s));
+        put(used, line.kind === "imu" ? "–" : line.since_used_s === null ? "never" : units.duration(line.since_used_s));
         const heard = rates.get(line.sensor)?.rate_hz;
         put(rate, Number.isFinite(heard) ? `${heard.toFixed(1)} Hz` : "–");
       });

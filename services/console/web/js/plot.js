@@ -54,8 +54,8 @@ export class Plot {
       width: Math.max(200, this.host.clientWidth), height: Math.max(90, this.host.clientHeight - 24),
       tzDate: (t) => uPlot.tzDate(new Date(t * 1000), "Etc/UTC"),
       cursor: {sync: {key: linked.key}, drag: {x: true, y: false, setScale: true}},
-      scales: {x: {time: true}, y: this.log ? {distr: 3} : {range: (u, low, high) => uPlot.rangeNum(low ?? 0, high ?? 1, 0.1, true)}},
-      axes: [{...axis, size: 28}, {...axis, size: 62, label: this.unit(), labelSize: 16, labelGap: 0}],
+      scales: {x: {time: true}, y: this.log ? {distr: 3, range: (u, low, high) => [Math.min(low ?? 0.01, 0.01) / 2, Math.max(high ?? 1, 1) * 3]} : {range: (u, low, high) => uPlot.rangeNum(low ?? 0, high ?? 1, 0.1, true)}},
+      axes: [{...axis, size: 28, space: 75, values: (u, splits) => splits.map((t) => new Date(t * 1000).toISOString().slice(11, 19))}, {...axis, size: 62, label: this.unit(), labelSize: 16, labelGap: 0}],
       series: [{value: (u, t) => (t === null || t === undefined ? "–" : new Date(t * 1000).toISOString().slice(11, 21))},
         ...this.series.map((one, i) => ({label: one.label, class: one.quiet ? "quiet" : undefined, stroke: colour(one.colour), width: one.width ?? 1.6,
           dash: kDashes[one.dash ?? i % kDashes.length], spanGaps: false, points: {show: one.points ?? false, size: 5},
@@ -133,9 +133,9 @@ export class Plot {
 }
 
 /** The buttons above a view's plots. */
-export function plotControls() {
+export function plotControls(hint = true) {
   const span = el("select", {"aria-label": "Time shown", onchange: () => setSpan(Number(span.value))},
     ...[[60, "1 min"], [180, "3 min"], [600, "10 min"]].map(([value, text]) => el("option", {value, selected: value === spanS}, text)));
-  return el("div", {class: "plotbar"}, el("button", {type: "button", "data-pause": "", "aria-pressed": "false", title: "Pause (space)", onclick: () => setPaused(!paused)}, "Pause"),
-    span, el("span", {class: "soft"}, "drag across a plot to zoom; cursors are linked"));
+  return el("div", {class: "plotbar"}, el("button", {type: "button", "data-pause": "", "aria-pressed": "false", title: "Pause (p)", onclick: () => setPaused(!paused)}, "Pause"),
+    span, hint ? el("span", {class: "soft"}, "drag across a plot to zoom; cursors are linked") : null);
 }

@@ -12,7 +12,7 @@ export function makeSensors() {
   let chosen = null;
   const rows = el("tbody");
   const table = el("table", {}, el("thead", {}, el("tr", {}, ...kHead.map((text, i) => el("th", {class: i >= 3 && i !== 6 && i < 10 ? "n" : null, scope: "col"}, text || "Switch")))), rows);
-  const plotCard = card("", "Test ratio", [plotControls()]);
+  const plotCard = card("", "Test ratio", [plotControls(false)]);
   const title = plotCard.querySelector("h2");
   const plot = new Plot(plotCard, {
     name: "test ratio", unit: () => "limit 1", log: true,
@@ -64,8 +64,8 @@ export function makeSensors() {
     presence.className = look;
     put(rate, Number.isFinite(line.rate_hz) ? `${line.rate_hz.toFixed(1)} Hz` : "–");
     put(latency, Number.isFinite(source?.latency_s) ? `${(source.latency_s * 1000).toFixed(0)} ms` : "–");
-    put(used, !source ? "–" : source.since_used_s === null ? "never" : units.duration(source.since_used_s));
-    const [text, shade] = source ? verdictLook(source.last) : ["–", ""];
+    put(used, !source || source.kind === "imu" ? "–" : source.since_used_s === null ? "never" : units.duration(source.since_used_s));
+    const [text, shade] = source ? verdictLook(source.last, source.kind) : ["–", ""];
     put(verdict, text);
     verdict.className = shade;
     put(good, String(counts[0] ?? "–"));
