@@ -17,30 +17,59 @@ function between({t, lat, lon, depth, yaw}, at) {
 }
 
 async function valuesEqualDds(page) {
-  await until("a position", async () => (await field(page, "lat")) !== "–" && (await store(page, "(s) => s.tick.status.navigation.mode")) === "gps_aided");
+  await until(
+    "a position",
+    async () =>
+      (await field(page, "lat")) !== "–" && (await store(page, "(s) => s.tick.status.navigation.mode")) === "gps_aided",
+  );
   const dds = (await ddsStatus()).navigation;
   const at = Date.parse(dds.stamp_utc);
-  const shown = await until("the page's rows around the state that DDS gave", async () => between(await store(page,
-    `(s) => ({t: s.nav.columns[0], lat: s.nav.column("lat_deg"), lon: s.nav.column("lon_deg"), depth: s.nav.column("depth_m"), yaw: s.nav.column("yaw_deg")})`), at));
+  const shown = await until("the page's rows around the state that DDS gave", async () =>
+    between(
+      await store(
+        page,
+        `(s) => ({t: s.nav.columns[0], lat: s.nav.column("lat_deg"), lon: s.nav.column("lon_deg"), depth: s.nav.column("depth_m"), yaw: s.nav.column("yaw_deg")})`,
+      ),
+      at,
+    ),
+  );
   check(Math.abs(shown.lat - dds.lat_deg) < 2e-6, `latitude ${shown.lat} on the page, ${dds.lat_deg} on DDS`);
   check(Math.abs(shown.lon - dds.lon_deg) < 2e-6, `longitude ${shown.lon} on the page, ${dds.lon_deg} on DDS`);
   check(Math.abs(shown.depth - dds.depth_m) < 0.2, `depth ${shown.depth} on the page, ${dds.depth_m} on DDS`);
-  check(Math.abs(((shown.yaw - dds.rpy_deg[2] + 540) % 360) - 180) < 1, `heading ${shown.yaw} on the page, ${dds.rpy_deg[2]} on DDS`);
+  check(
+    Math.abs(((shown.yaw - dds.rpy_deg[2] + 540) % 360) - 180) < 1,
+    `heading ${shown.yaw} on the page, ${dds.rpy_deg[2]} on DDS`,
+  );
   // What stands on the screen is what the newest event says, to its last digit.
   const pair = await page.evaluate(async () => {
     const {store} = await import("/js/store.js");
-    await new Promise((resolve) => {  // until an event has just been drawn
+    await new Promise((resolve) => {
+      // until an event has just been drawn
       const before = store.tickNumber;
       const look = () => (store.tickNumber > before + 1 ? resolve() : requestAnimationFrame(look));
       look();
     });
     const text = (name) => document.querySelector(`[data-field="${name}"]`).textContent;
-    const {lat_deg: lat, depth_m: depth, horizontal_95_m: h95, rpy_deg: [roll]} = store.tick.status.navigation;
-    return {texts: [text("lat"), text("depth"), text("h95"), text("roll")].map(parseFloat), values: [lat, depth, h95, roll]};
+    const {
+      lat_deg: lat,
+      depth_m: depth,
+      horizontal_95_m: h95,
+      rpy_deg: [roll],
+    } = store.tick.status.navigation;
+    return {
+      texts: [text("lat"), text("depth"), text("h95"), text("roll")].map(parseFloat),
+      values: [lat, depth, h95, roll],
+    };
   });
-  [5e-6, 0.4, 0.3, 2].forEach((tolerance, i) => check(Math.abs(pair.texts[i] - pair.values[i]) <= tolerance,
-    `field ${i}: ${pair.texts[i]} on the screen, ${pair.values[i]} in the event`));
-  said(`values: latitude differs from DDS by ${Math.abs(shown.lat - dds.lat_deg).toExponential(1)} deg, longitude by ${Math.abs(shown.lon - dds.lon_deg).toExponential(1)} deg`);
+  [5e-6, 0.4, 0.3, 2].forEach((tolerance, i) =>
+    check(
+      Math.abs(pair.texts[i] - pair.values[i]) <= tolerance,
+      `field ${i}: ${pair.texts[i]} on the screen, ${pair.values[i]} in the event`,
+    ),
+  );
+  said(
+    `values: latitude differs from DDS by ${Math.abs(shown.lat - dds.lat_deg).toExponential(1)} deg, longitude by ${Math.abs(shown.lon - dds.lon_deg).toExponential(1)} deg`,
+  );
 }
 
 async function outageAppears(pages) {
@@ -64,7 +93,11 @@ async function acknowledged(one, other) {
 
 async function outageClears(pages) {
   for (const page of pages) {
-    await until("the end of the GPS outage", async () => (await field(page, "outage")) === "✔ fix" && !/GPS gone/.test(await sentence(page)), 600000);
+    await until(
+      "the end of the GPS outage",
+      async () => (await field(page, "outage")) === "✔ fix" && !/GPS gone/.test(await sentence(page)),
+      600000,
+    );
     // An alarm that grew worse after it was acknowledged asks once more, and stays until somebody has seen that, too.
     await until("the alarm to leave", async () => {
       const again = await pages[0].$('[data-alarm="gps_outage"] button:not([hidden])');
@@ -79,7 +112,12 @@ async function looksRight(page) {
   for (const _ of [0, 1]) {
     for (const name of kViews) {
       await view(page, name);
-      await until("the view to be drawn", () => page.evaluate((key) => document.querySelector(`.view:not([hidden])`)?.className.includes(key), name === "map" ? "mapview" : name));
+      await until("the view to be drawn", () =>
+        page.evaluate(
+          (key) => document.querySelector(`.view:not([hidden])`)?.className.includes(key),
+          name === "map" ? "mapview" : name,
+        ),
+      );
       if (name === "filter" || name === "sensors") await page.waitForSelector(".view:not([hidden]) .uplot");
       const before = await store(page, "(s) => s.tickNumber");
       await until("an update of every part", () => store(page, `(s) => s.tickNumber > ${before} + 12`));
@@ -90,15 +128,22 @@ async function looksRight(page) {
     }
     await page.keyboard.press("t");
   }
-  for (const name of kViews) for (const theme of ["day", "night"]) {
-    check(existsSync(`${kShots}/${name}-${theme}.png`) && statSync(`${kShots}/${name}-${theme}.png`).size > 5000, `a picture of ${name} by ${theme}`);
-  }
+  for (const name of kViews)
+    for (const theme of ["day", "night"]) {
+      check(
+        existsSync(`${kShots}/${name}-${theme}.png`) && statSync(`${kShots}/${name}-${theme}.png`).size > 5000,
+        `a picture of ${name} by ${theme}`,
+      );
+    }
   said("ten pictures, no serious finding of axe-core");
 }
 
 async function tabletFits(stage, address) {
   const page = await stage.open(address, {viewport: {width: 820, height: 1180}, colorScheme: "dark"});
-  check((await page.evaluate(() => document.documentElement.dataset.theme)) === "night", "the system's preference is followed");
+  check(
+    (await page.evaluate(() => document.documentElement.dataset.theme)) === "night",
+    "the system's preference is followed",
+  );
   for (const name of kViews) {
     await view(page, name);
     const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
@@ -113,7 +158,10 @@ async function toolsWork(page) {
   await view(page, "filter");
   await page.waitForSelector(".view:not([hidden]) .uplot");
   const saved = async (label) => {
-    const [download] = await Promise.all([page.waitForEvent("download"), page.click(`button[aria-label="${label}: sigma of position"]`)]);
+    const [download] = await Promise.all([
+      page.waitForEvent("download"),
+      page.click(`button[aria-label="${label}: sigma of position"]`),
+    ]);
     return readFileSync(await download.path());
   };
   const csv = (await saved("Save as CSV")).toString();
@@ -125,7 +173,13 @@ async function toolsWork(page) {
   await page.keyboard.press("1");
   check(await page.isVisible(".view.overview"), "1 is the overview");
   await page.keyboard.press("u");
-  await until("feet", async () => (await field(page, "h95")).endsWith("ft") && (await field(page, "lat")).includes("′") && (await field(page, "speed")).endsWith("kn"));
+  await until(
+    "feet",
+    async () =>
+      (await field(page, "h95")).endsWith("ft") &&
+      (await field(page, "lat")).includes("′") &&
+      (await field(page, "speed")).endsWith("kn"),
+  );
   await page.keyboard.press("u");
   await page.keyboard.press("?");
   await page.waitForSelector("dialog[open]");
@@ -149,10 +203,14 @@ async function sourceIsSwitched(page) {
   const row = '[data-source="usbl"] button:text("Disable …")';
   await page.click(".view:not([hidden]) " + row);
   await page.click('dialog[open] button:text("Disable")');
-  await until("the source to be disabled", () => store(page, '(s) => s.tick.sources.find((one) => one.sensor === "usbl")?.last === "source_disabled"'));
+  await until("the source to be disabled", () =>
+    store(page, '(s) => s.tick.sources.find((one) => one.sensor === "usbl")?.last === "source_disabled"'),
+  );
   await page.click('.view:not([hidden]) [data-source="usbl"] button:text("Enable …")');
   await page.click('dialog[open] button:text("Enable")');
-  await until("the source to be enabled again", () => store(page, '(s) => s.tick.sources.find((one) => one.sensor === "usbl")?.last !== "source_disabled"'));
+  await until("the source to be enabled again", () =>
+    store(page, '(s) => s.tick.sources.find((one) => one.sensor === "usbl")?.last !== "source_disabled"'),
+  );
   await view(page, "overview");
   said("a source is disabled and enabled again, each after a confirmation");
 }
@@ -162,7 +220,10 @@ async function manyClients(stage, address) {
   for (const page of pages) {
     const first = await store(page, "(s) => s.tickNumber");
     await until("events on each of ten pages", async () => (await store(page, "(s) => s.tickNumber")) > first + 5);
-    check((await page.getAttribute(".view:not([hidden]) .alarms button", "disabled")) !== null, "who has no token cannot order");
+    check(
+      (await page.getAttribute(".view:not([hidden]) .alarms button", "disabled")) !== null,
+      "who has no token cannot order",
+    );
   }
   await Promise.all(pages.map((page) => page.context().close()));
   said("ten browsers at the same time are served");
@@ -177,8 +238,12 @@ async function killFusion(page) {
   const {since, stamp} = await page.evaluate(() => ({...document.documentElement.dataset}));
   said(`kill -9 of fusion: "${await sentence(page)}", shown ${since - stamp} ms after the last state`);
   await until("fusion to be back", async () => (await page.getAttribute("html", "data-navigation")) === "there");
-  await until("a new process", () => store(page, `(s) => s.tick.status.services.find((one) => one.name === "fusion").pid !== ${pid}`));
-  await until("the restart to be counted", () => store(page, '(s) => s.services.find((one) => one.name === "fusion").restarts >= 1'));
+  await until("a new process", () =>
+    store(page, `(s) => s.tick.status.services.find((one) => one.name === "fusion").pid !== ${pid}`),
+  );
+  await until("the restart to be counted", () =>
+    store(page, '(s) => s.services.find((one) => one.name === "fusion").restarts >= 1'),
+  );
   said(`fusion is back: "${await sentence(page)}"`);
 }
 
@@ -189,7 +254,10 @@ async function killConsole(stage, page) {
   await until("the page to notice", async () => /console has been silent/.test(await sentence(page)));
   const dds = await ddsStatus();
   check(dds.services.find((one) => one.name === "fusion") !== undefined, "navigation goes on without its console");
-  await until("the page to be connected again", async () => (await page.getAttribute("#link", "class")).includes("live") && !/silent/.test(await sentence(page)));
+  await until(
+    "the page to be connected again",
+    async () => (await page.getAttribute("#link", "class")).includes("live") && !/silent/.test(await sentence(page)),
+  );
   stage.connectionMayFail = false;
   said("the console was killed; the page said so and came back with it");
 }

@@ -36,7 +36,9 @@ export async function until(what, ask, patienceMs = kPatienceMs) {
 
 /** The demonstration, started; `address` is what it printed. */
 export async function startDemo() {
-  const demo = spawn(bin + "/fathom-demo", ["--domain", domain, "--duration", "1600"], {stdio: ["ignore", "pipe", "pipe"]});
+  const demo = spawn(bin + "/fathom-demo", ["--domain", domain, "--duration", "1600"], {
+    stdio: ["ignore", "pipe", "pipe"],
+  });
   let output = "";
   for (const stream of [demo.stdout, demo.stderr]) stream.on("data", (bytes) => (output += bytes));
   const ended = new Promise((resolve) => demo.on("exit", resolve));
@@ -53,27 +55,35 @@ export async function startDemo() {
 }
 
 /** What `fathom status --json` says. */
-export const ddsStatus = () => new Promise((resolve, reject) => {
-  execFile(bin + "/fathom", ["status", "--json", "--domain", domain, "--timeout", "60"], (error, out) => {
-    try {
-      resolve(JSON.parse(out));
-    } catch {
-      reject(error ?? new Error("no JSON: " + out));
-    }
+export const ddsStatus = () =>
+  new Promise((resolve, reject) => {
+    execFile(bin + "/fathom", ["status", "--json", "--domain", domain, "--timeout", "60"], (error, out) => {
+      try {
+        resolve(JSON.parse(out));
+      } catch {
+        reject(error ?? new Error("no JSON: " + out));
+      }
+    });
   });
-});
 
 /** A browser whose pages' complaints are collected. */
 export async function startBrowser() {
-  const browser = await chromium.launch({executablePath: process.env.FATHOM_CHROMIUM, timeout: kPatienceMs,
-    args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]});
+  const browser = await chromium.launch({
+    executablePath: process.env.FATHOM_CHROMIUM,
+    timeout: kPatienceMs,
+    args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
+  });
   const complaints = [];
   const stage = {
     complaints,
     connectionMayFail: false,
     /** A page in a browser profile of its own. */
     async open(address, options = {}) {
-      const context = await browser.newContext({viewport: {width: 1280, height: 720}, colorScheme: "light", ...options});
+      const context = await browser.newContext({
+        viewport: {width: 1280, height: 720},
+        colorScheme: "light",
+        ...options,
+      });
       context.setDefaultTimeout(kPatienceMs);
       const page = await context.newPage();
       const complain = (text) => {
@@ -84,7 +94,9 @@ export async function startBrowser() {
       page.on("pageerror", (error) => complain(String(error.stack)));
       await page.goto(address, {timeout: kPatienceMs});
       await page.waitForSelector("#link.live");
-      await until("the first data on the page", () => page.evaluate(async () => (await import("/js/store.js")).store.tick !== null));
+      await until("the first data on the page", () =>
+        page.evaluate(async () => (await import("/js/store.js")).store.tick !== null),
+      );
       return page;
     },
     close: () => browser.close(),
@@ -100,6 +112,13 @@ export const view = (page, name) => page.click(`[data-view="${name}"]`);
 export async function findings(page) {
   await page.evaluate(axeSource);
   const result = await page.evaluate(() => globalThis.axe.run());
-  return result.violations.filter((one) => ["serious", "critical"].includes(one.impact))
-    .map((one) => `${one.id}: ${one.help}: ${one.nodes.map((node) => node.html.slice(0, 160)).slice(0, 3).join(" | ")}`);
+  return result.violations
+    .filter((one) => ["serious", "critical"].includes(one.impact))
+    .map(
+      (one) =>
+        `${one.id}: ${one.help}: ${one.nodes
+          .map((node) => node.html.slice(0, 160))
+          .slice(0, 3)
+          .join(" | ")}`,
+    );
 }

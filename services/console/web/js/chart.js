@@ -5,13 +5,18 @@ import {store} from "./store.js";
 import * as units from "./units.js";
 
 const kEarthM = 6371000;
-const kK95 = 2.4477;  // of two dimensions, 95 %
+const kK95 = 2.4477; // of two dimensions, 95 %
 
 /** Metres north and east of an origin, and back: flat earth, for display. */
-export const metresOf = (origin, {lat, lng}) => ({north: ((lat - origin.lat) * Math.PI * kEarthM) / 180,
-  east: ((lng - origin.lng) * Math.PI * kEarthM * Math.cos((origin.lat * Math.PI) / 180)) / 180});
-export const degreesOf = (origin, {north, east}) => L.latLng(origin.lat + (north / kEarthM) * (180 / Math.PI),
-  origin.lng + (east / (kEarthM * Math.cos((origin.lat * Math.PI) / 180))) * (180 / Math.PI));
+export const metresOf = (origin, {lat, lng}) => ({
+  north: ((lat - origin.lat) * Math.PI * kEarthM) / 180,
+  east: ((lng - origin.lng) * Math.PI * kEarthM * Math.cos((origin.lat * Math.PI) / 180)) / 180,
+});
+export const degreesOf = (origin, {north, east}) =>
+  L.latLng(
+    origin.lat + (north / kEarthM) * (180 / Math.PI),
+    origin.lng + (east / (kEarthM * Math.cos((origin.lat * Math.PI) / 180))) * (180 / Math.PI),
+  );
 
 /** The 95 % ellipse of a horizontal covariance [nn, ne, ee] as offsets in metres. */
 export function ellipse([nn, ne, ee]) {
@@ -19,12 +24,15 @@ export function ellipse([nn, ne, ee]) {
   const split = Math.hypot((nn - ee) / 2, ne);
   const major = Math.sqrt(Math.max(0, mean + split)) * kK95;
   const minor = Math.sqrt(Math.max(0, mean - split)) * kK95;
-  const turn = 0.5 * Math.atan2(2 * ne, nn - ee);  // of the major axis from north
+  const turn = 0.5 * Math.atan2(2 * ne, nn - ee); // of the major axis from north
   return Array.from({length: 49}, (_, i) => {
     const a = (i / 48) * 2 * Math.PI;
     const along = major * Math.cos(a);
     const across = minor * Math.sin(a);
-    return {north: along * Math.cos(turn) - across * Math.sin(turn), east: along * Math.sin(turn) + across * Math.cos(turn)};
+    return {
+      north: along * Math.cos(turn) - across * Math.sin(turn),
+      east: along * Math.sin(turn) + across * Math.cos(turn),
+    };
   });
 }
 
@@ -95,12 +103,26 @@ export const Chart = L.Layer.extend({
     const label = (value) => `${Math.round((value / step) * nice * 10) / 10}`;
     for (let east = Math.ceil(from.east / step) * step; east <= to.east; east += step) {
       const p = this.map.latLngToContainerPoint(degreesOf(origin, {north: from.north, east}));
-      this.line([{x: p.x, y: 0}, {x: p.x, y: size.y}], colour("grid"), Math.abs(east) < step / 2 ? 2 : 1);
+      this.line(
+        [
+          {x: p.x, y: 0},
+          {x: p.x, y: size.y},
+        ],
+        colour("grid"),
+        Math.abs(east) < step / 2 ? 2 : 1,
+      );
       c.fillText(`${label(east)} ${units.lengthUnit()} E`, p.x + 3, size.y - 28);
     }
     for (let north = Math.ceil(from.north / step) * step; north <= to.north; north += step) {
       const p = this.map.latLngToContainerPoint(degreesOf(origin, {north, east: from.east}));
-      this.line([{x: 0, y: p.y}, {x: size.x, y: p.y}], colour("grid"), Math.abs(north) < step / 2 ? 2 : 1);
+      this.line(
+        [
+          {x: 0, y: p.y},
+          {x: size.x, y: p.y},
+        ],
+        colour("grid"),
+        Math.abs(north) < step / 2 ? 2 : 1,
+      );
       c.fillText(`${label(north)} ${units.lengthUnit()} N`, 48, p.y - 3);
     }
   },
@@ -108,7 +130,8 @@ export const Chart = L.Layer.extend({
     const lat = store.nav.column("lat_deg");
     const lon = store.nav.column("lon_deg");
     const points = [];
-    for (let i = 0; i < lat.length; ++i) if (lat[i] !== null && lon[i] !== null) points.push(this.point(lat[i], lon[i]));
+    for (let i = 0; i < lat.length; ++i)
+      if (lat[i] !== null && lon[i] !== null) points.push(this.point(lat[i], lon[i]));
     this.line(points, colour("track"), 2);
   },
   /** Shape says the source, a cross says that it was refused: colour only repeats it. */

@@ -25,7 +25,8 @@ export function card(kind, title, tools, ...content) {
 }
 
 /** A table in a box of its own that scrolls, reachable by keyboard. */
-export const scroller = (label, ...content) => el("div", {class: "scroll", tabindex: 0, role: "group", "aria-label": label}, ...content);
+export const scroller = (label, ...content) =>
+  el("div", {class: "scroll", tabindex: 0, role: "group", "aria-label": label}, ...content);
 
 /**
  * What became of a measurement: mark, word and look. Inertial samples are judged only when something is wrong with

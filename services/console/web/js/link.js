@@ -1,7 +1,7 @@
 // The live stream. fetch() rather than EventSource: it can carry a token, and it says why it was refused.
 
 const kRetryMs = 700;
-const kSilentMs = 4000;  // a stream this silent is dead, whatever TCP believes
+const kSilentMs = 4000; // a stream this silent is dead, whatever TCP believes
 
 /** `handlers`: snapshot(object), tick(object), state(word, reason). Runs until the page is gone. */
 export function openLink(token, handlers) {

@@ -13,7 +13,7 @@ import {makeSensors} from "./sensors.js";
 import {store, takeSnapshot, takeTick} from "./store.js";
 import * as units from "./units.js";
 
-const kSilentMs = 800;  // no message from the console for this long is no navigation
+const kSilentMs = 800; // no message from the console for this long is no navigation
 const kLooks = {good: ["✔", "GOOD"], caution: ["▲", "CAUTION"], bad: ["✖", "NO TRUST"]};
 const get = (id) => document.getElementById(id);
 const views = [makeOverview(), makeMap(), makeSensors(), makeFilter(), makeNetwork()];
@@ -58,10 +58,20 @@ function judge() {
   const root = document.documentElement;
   let lost = false;
   if (!store.tick) {
-    trust("bad", "No navigation: the console has not answered yet", "Is the console's service running, and the cable in?", "NO DATA");
+    trust(
+      "bad",
+      "No navigation: the console has not answered yet",
+      "Is the console's service running, and the cable in?",
+      "NO DATA",
+    );
     lost = true;
   } else if (silentMs > kSilentMs) {
-    trust("bad", `No navigation: the console has been silent for ${units.duration(silentMs / 1000)}`, "What is shown below is old.", "NO DATA");
+    trust(
+      "bad",
+      `No navigation: the console has been silent for ${units.duration(silentMs / 1000)}`,
+      "What is shown below is old.",
+      "NO DATA",
+    );
     lost = true;
   } else {
     const {level, sentence, advice} = store.tick.trust;
@@ -88,7 +98,12 @@ function nextUnits() {
 function who() {
   const {role, name, orders, vehicle} = store.session;
   put(get("who"), role === "nobody" ? "Sign in" : `${name} (${role})`);
-  get("who").title = role === "nobody" ? "Sign in with a token" : orders ? "Sign out" : "Orders are switched off in this console; sign out";
+  get("who").title =
+    role === "nobody"
+      ? "Sign in with a token"
+      : orders
+        ? "Sign out"
+        : "Orders are switched off in this console; sign out";
   put(get("vehicle"), vehicle || "fathom");
   document.title = `${vehicle} – fathom console`;
 }
@@ -107,7 +122,11 @@ function keys(event) {
 }
 
 views.forEach((view, i) => {
-  view.tab = el("button", {type: "button", title: `${view.name} (${i + 1})`, "data-view": view.key, onclick: () => show(i)}, `${i + 1} ${view.name}`);
+  view.tab = el(
+    "button",
+    {type: "button", title: `${view.name} (${i + 1})`, "data-view": view.key, onclick: () => show(i)},
+    `${i + 1} ${view.name}`,
+  );
   get("tabs").append(view.tab);
   get("main").append(view.root);
 });
@@ -140,6 +159,11 @@ get("who").addEventListener("click", async () => {
   if (await signIn()) link.again();
 });
 setInterval(judge, 100);
-show(Math.max(0, views.findIndex((view) => "#" + view.key === location.hash)));
+show(
+  Math.max(
+    0,
+    views.findIndex((view) => "#" + view.key === location.hash),
+  ),
+);
 loadSession();
 window.addEventListener("error", (event) => notice(`The page has a fault: ${event.message}`, false));

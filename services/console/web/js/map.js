@@ -15,12 +15,53 @@ export function makeMap() {
   let measured = [];
   let tiles = null;
   const box = el("div", {class: "map", id: "map", role: "application", "aria-label": "Map"});
-  const followButton = el("button", {type: "button", "aria-pressed": "true", title: "Keep the vehicle in the middle (f)", onclick: () => setFollow(!follow)}, "Follow");
-  const measureButton = el("button", {type: "button", "aria-pressed": "false", title: "Distance between two clicks", onclick: () => setMeasuring(!measuring)}, "Measure");
+  const followButton = el(
+    "button",
+    {
+      type: "button",
+      "aria-pressed": "true",
+      title: "Keep the vehicle in the middle (f)",
+      onclick: () => setFollow(!follow),
+    },
+    "Follow",
+  );
+  const measureButton = el(
+    "button",
+    {
+      type: "button",
+      "aria-pressed": "false",
+      title: "Distance between two clicks",
+      onclick: () => setMeasuring(!measuring),
+    },
+    "Measure",
+  );
   const pointer = el("span", {class: "pointer", "data-field": "pointer"}, "–");
   const distance = el("span", {class: "num", "data-field": "distance", role: "status"});
-  const root = el("div", {class: "view mapview"}, el("div", {class: "mapbar"}, followButton, el("button", {type: "button", title: "Show the whole track", onclick: fit}, "Fit track"), measureButton, distance, pointer), box,
-    el("div", {class: "legend"}, el("span", {}, "▲ vehicle"), el("span", {}, "— track, 10 min"), el("span", {}, "◌ 95 % ellipse"), el("span", {}, "○ GPS fix"), el("span", {}, "◇ USBL fix"), el("span", {}, "✕ refused fix"), el("span", {}, "□ waypoint")));
+  const root = el(
+    "div",
+    {class: "view mapview"},
+    el(
+      "div",
+      {class: "mapbar"},
+      followButton,
+      el("button", {type: "button", title: "Show the whole track", onclick: fit}, "Fit track"),
+      measureButton,
+      distance,
+      pointer,
+    ),
+    box,
+    el(
+      "div",
+      {class: "legend"},
+      el("span", {}, "▲ vehicle"),
+      el("span", {}, "— track, 10 min"),
+      el("span", {}, "◌ 95 % ellipse"),
+      el("span", {}, "○ GPS fix"),
+      el("span", {}, "◇ USBL fix"),
+      el("span", {}, "✕ refused fix"),
+      el("span", {}, "□ waypoint"),
+    ),
+  );
 
   function setFollow(value) {
     follow = value;
@@ -47,7 +88,8 @@ export function makeMap() {
     const lon = store.nav.column("lon_deg").filter((v) => v !== null);
     if (!map || lat.length === 0) return;
     setFollow(false);
-    const range = (values) => values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+    const range = (values) =>
+      values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
     const [south, north] = range(lat);
     const [west, east] = range(lon);
     map.fitBounds(L.latLngBounds([south, west], [north, east]).pad(0.15), {animate: false, maxZoom: 20});
@@ -58,7 +100,10 @@ export function makeMap() {
     measured.push(event.latlng);
     if (measured.length === 2) {
       const {north, east} = metresOf(measured[0], measured[1]);
-      put(distance, `${units.length(Math.hypot(north, east), 1)} at ${units.bearing((Math.atan2(east, north) * 180) / Math.PI)}`);
+      put(
+        distance,
+        `${units.length(Math.hypot(north, east), 1)} at ${units.bearing((Math.atan2(east, north) * 180) / Math.PI)}`,
+      );
     } else {
       put(distance, "click the second point");
     }
@@ -66,7 +111,11 @@ export function makeMap() {
   }
   function point(event) {
     const local = origin ? metresOf(origin, event.latlng) : null;
-    put(pointer, `${units.latitude(event.latlng.lat)} ${units.longitude(event.latlng.lng)}` + (local ? ` · ${units.length(local.north, 0)} N ${units.length(local.east, 0)} E of the first position` : ""));
+    put(
+      pointer,
+      `${units.latitude(event.latlng.lat)} ${units.longitude(event.latlng.lng)}` +
+        (local ? ` · ${units.length(local.north, 0)} N ${units.length(local.east, 0)} E of the first position` : ""),
+    );
   }
   function useTiles() {
     if (!map || tiles || !store.session.tiles) return;
@@ -74,7 +123,16 @@ export function makeMap() {
     chart.draw();
   }
   function begin() {
-    map = L.map(box, {zoomControl: true, attributionControl: false, zoomSnap: 0.25, minZoom: 3, maxZoom: 22, keyboard: true, fadeAnimation: false, zoomAnimation: false});
+    map = L.map(box, {
+      zoomControl: true,
+      attributionControl: false,
+      zoomSnap: 0.25,
+      minZoom: 3,
+      maxZoom: 22,
+      keyboard: true,
+      fadeAnimation: false,
+      zoomAnimation: false,
+    });
     map.setView(vehicle() ?? [0, 0], vehicle() ? 19 : 3);
     L.control.scale({imperial: units.lengthUnit() === "ft", metric: units.lengthUnit() === "m"}).addTo(map);
     chart = new Chart({origin: () => origin, grid: () => !tiles, measured: () => measured}).addTo(map);
@@ -87,7 +145,10 @@ export function makeMap() {
   onSession(useTiles);
 
   return {
-    root, name: "Map", key: "map", everyMs: 200,
+    root,
+    name: "Map",
+    key: "map",
+    everyMs: 200,
     shown() {
       if (!map) begin();
       map.invalidateSize({animate: false});

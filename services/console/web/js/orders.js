@@ -61,16 +61,42 @@ export async function order(content) {
 export function ask(title, text, verb, fields = []) {
   return new Promise((resolve) => {
     const inputs = fields.map(([, key, value, type]) =>
-      el("input", {name: key, value: String(value ?? ""), type: type ?? "number", step: "any", required: true, autocomplete: "off"}));
-    const form = el("form", {method: "dialog"}, el("h2", {}, title), text ? el("p", {}, text) : null,
+      el("input", {
+        name: key,
+        value: String(value ?? ""),
+        type: type ?? "number",
+        step: "any",
+        required: true,
+        autocomplete: "off",
+      }),
+    );
+    const form = el(
+      "form",
+      {method: "dialog"},
+      el("h2", {}, title),
+      text ? el("p", {}, text) : null,
       ...fields.map(([label], i) => el("label", {}, label, inputs[i])),
-      el("div", {class: "row"}, el("button", {type: "button", onclick: () => dialog.close()}, "Cancel"),
-        el("button", {class: "primary", value: "yes"}, verb)));
-    const dialog = el("dialog", {"aria-label": title, onclose: () => {
-      const values = Object.fromEntries(inputs.map((input) => [input.name, input.type === "number" ? Number(input.value) : input.value]));
-      resolve(dialog.returnValue === "yes" ? values : null);
-      dialog.remove();
-    }}, form);
+      el(
+        "div",
+        {class: "row"},
+        el("button", {type: "button", onclick: () => dialog.close()}, "Cancel"),
+        el("button", {class: "primary", value: "yes"}, verb),
+      ),
+    );
+    const dialog = el(
+      "dialog",
+      {
+        "aria-label": title,
+        onclose: () => {
+          const values = Object.fromEntries(
+            inputs.map((input) => [input.name, input.type === "number" ? Number(input.value) : input.value]),
+          );
+          resolve(dialog.returnValue === "yes" ? values : null);
+          dialog.remove();
+        },
+      },
+      form,
+    );
     document.body.append(dialog);
     dialog.showModal();
   });
@@ -82,8 +108,12 @@ export async function signIn() {
     await loadSession();
     return true;
   }
-  const values = await ask("Sign in", "The token of a viewer or an operator, as in the console's token file.", "Sign in",
-    [["Token", "token", "", "password"]]);
+  const values = await ask(
+    "Sign in",
+    "The token of a viewer or an operator, as in the console's token file.",
+    "Sign in",
+    [["Token", "token", "", "password"]],
+  );
   if (!values) return false;
   sessionStorage.setItem(kKey, values.token.trim());
   await loadSession();

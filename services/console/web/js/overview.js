@@ -12,33 +12,91 @@ const kLooks = {critical: "bad-text", warning: "caution-text", notice: "soft"};
 export function makeOverview() {
   const numbers = el("dl", {class: "numbers"});
   const f = {};
-  for (const [name, label] of [["lat", "Latitude"], ["lon", "Longitude"], ["h95", "95 % horizontal"], ["v95", "95 % vertical"],
-    ["depth", "Depth"], ["alt", "Altitude"], ["speed", "Speed"], ["course", "Course"], ["current", "Current"]]) f[name] = field(numbers, label, name);
+  for (const [name, label] of [
+    ["lat", "Latitude"],
+    ["lon", "Longitude"],
+    ["h95", "95 % horizontal"],
+    ["v95", "95 % vertical"],
+    ["depth", "Depth"],
+    ["alt", "Altitude"],
+    ["speed", "Speed"],
+    ["course", "Course"],
+    ["current", "Current"],
+  ])
+    f[name] = field(numbers, label, name);
   const attitude = makeAttitude();
   const angles = el("dl", {class: "numbers"});
-  for (const [name, label] of [["heading", "Heading"], ["roll", "Roll"], ["pitch", "Pitch"], ["yaw_sigma", "Heading ±1σ"], ["mode", "Mode"], ["rate", "Rate"], ["age", "Age"]]) f[name] = field(angles, label, name);
+  for (const [name, label] of [
+    ["heading", "Heading"],
+    ["roll", "Roll"],
+    ["pitch", "Pitch"],
+    ["yaw_sigma", "Heading ±1σ"],
+    ["mode", "Mode"],
+    ["rate", "Rate"],
+    ["age", "Age"],
+  ])
+    f[name] = field(angles, label, name);
   const setPosition = el("button", {type: "button", onclick: orderPosition}, "Set position …");
   const realign = el("button", {type: "button", onclick: orderRealign}, "Realign …");
-  const place = card("place", "Position", [], scroller("Position", numbers), el("div", {class: "actions"}, setPosition, realign));
+  const place = card(
+    "place",
+    "Position",
+    [],
+    scroller("Position", numbers),
+    el("div", {class: "actions"}, setPosition, realign),
+  );
   const motion = card("motioncard", "Attitude", [], el("div", {class: "motion"}, attitude.root, angles));
 
   const list = el("div", {class: "scroll", "data-field": "alarms", tabindex: 0, role: "group", "aria-label": "Alarms"});
-  const all = el("button", {type: "button", class: "push", onclick: () => order({kind: "acknowledge_alarm", target: "*"})}, "Acknowledge all");
+  const all = el(
+    "button",
+    {type: "button", class: "push", onclick: () => order({kind: "acknowledge_alarm", target: "*"})},
+    "Acknowledge all",
+  );
   const alarms = card("alarms", "Alarms", [all], list);
 
   const clock = el("span", {class: "big", "data-field": "outage"}, "–");
   const clockNote = el("span", {"data-field": "outage_note"});
   const totals = el("span", {class: "soft num"});
   const curve = new ForecastCurve();
-  const gps = card("gps", "GPS outage and forecast", [], el("div", {class: "outage"}, clock, clockNote, totals), curve.root);
+  const gps = card(
+    "gps",
+    "GPS outage and forecast",
+    [],
+    el("div", {class: "outage"}, clock, clockNote, totals),
+    curve.root,
+  );
 
   const phase = el("strong", {"data-field": "phase"}, "–");
   const conditions = el("div", {class: "conditions"});
   const advice = el("p", {class: "soft"});
   const alignment = card("alignment", "Alignment", [], scroller("Alignment", el("p", {}, phase), conditions, advice));
   const ages = el("tbody");
-  const sources = card("sources", "Sources", [], scroller("Sources", el("table", {}, el("thead", {}, el("tr", {}, el("th", {}, "Source"),
-    el("th", {}, "Last verdict"), el("th", {class: "n"}, "Used"), el("th", {class: "n"}, "Rate"))), ages)));
+  const sources = card(
+    "sources",
+    "Sources",
+    [],
+    scroller(
+      "Sources",
+      el(
+        "table",
+        {},
+        el(
+          "thead",
+          {},
+          el(
+            "tr",
+            {},
+            el("th", {}, "Source"),
+            el("th", {}, "Last verdict"),
+            el("th", {class: "n"}, "Used"),
+            el("th", {class: "n"}, "Rate"),
+          ),
+        ),
+        ages,
+      ),
+    ),
+  );
   const root = el("div", {class: "view overview"}, place, gps, alarms, motion, alignment, sources);
 
   function allowed() {
@@ -67,7 +125,12 @@ export function makeOverview() {
     put(f.speed, units.speed(Math.hypot(north, east, down)));
     put(f.course, course);
     const doubt = Math.max(...tick.current.map(([, , sigma]) => sigma));
-    put(f.current, Number.isFinite(drift) ? `${units.speed(drift)} ± ${units.fixed(units.toSpeed(doubt), 2)} to ${units.bearing(set)}` : "not estimated");
+    put(
+      f.current,
+      Number.isFinite(drift)
+        ? `${units.speed(drift)} ± ${units.fixed(units.toSpeed(doubt), 2)} to ${units.bearing(set)}`
+        : "not estimated",
+    );
     put(f.heading, units.bearing(yaw));
     put(f.roll, units.degrees(roll));
     put(f.pitch, units.degrees(pitch));
@@ -82,7 +145,8 @@ export function makeOverview() {
     const present = tick.status.alarms;
     all.hidden = !present.some((alarm) => !alarm.acknowledged);
     if (present.length === 0) {
-      if (list.firstChild?.dataset?.key !== "none") list.replaceChildren(el("p", {class: "good-text", "data-key": "none"}, "✔ No alarm"));
+      if (list.firstChild?.dataset?.key !== "none")
+        list.replaceChildren(el("p", {class: "good-text", "data-key": "none"}, "✔ No alarm"));
       return;
     }
     reconcile(list, present, (alarm) => alarm.alarm, makeAlarm, updateAlarm);
@@ -93,16 +157,34 @@ export function makeOverview() {
     if (!gps) put(clock, "no monitor");
     else if (gps.outage_s === null) put(clock, "no fix yet");
     else put(clock, gps.outage ? units.duration(gps.outage_s) : "✔ fix");
-    clock.className = "big " + (!gps || gps.outage_s === null ? "caution-text" : !gps.outage ? "good-text" : gps.severity === "notice" ? "caution-text" : "bad-text");
+    clock.className =
+      "big " +
+      (!gps || gps.outage_s === null
+        ? "caution-text"
+        : !gps.outage
+          ? "good-text"
+          : gps.severity === "notice"
+            ? "caution-text"
+            : "bad-text");
     put(clockNote, gps?.outage ? `▲ without GPS, ${gps.severity}` : "");
-    put(totals, gps ? `${gps.count} outage${gps.count === 1 ? "" : "s"}, longest ${units.duration(gps.longest_s)}, in all ${units.duration(gps.total_s)}` : "");
+    put(
+      totals,
+      gps
+        ? `${gps.count} outage${gps.count === 1 ? "" : "s"}, longest ${units.duration(gps.longest_s)}, in all ${units.duration(gps.total_s)}`
+        : "",
+    );
     curve.show(tick.status.forecast, tick.status.navigation?.horizontal_95_m);
   }
 
   function showAlignment(tick) {
     const status = tick.status.alignment;
-    put(phase, status ? `${status.phase === "aligned" ? "✔" : "▲"} ${units.words(status.phase)} for ${units.duration(status.in_phase_s)}`
-      + (status.time_to_aligned_s > 0 ? `, done in about ${units.duration(status.time_to_aligned_s)}` : "") : "not heard");
+    put(
+      phase,
+      status
+        ? `${status.phase === "aligned" ? "✔" : "▲"} ${units.words(status.phase)} for ${units.duration(status.in_phase_s)}` +
+            (status.time_to_aligned_s > 0 ? `, done in about ${units.duration(status.time_to_aligned_s)}` : "")
+        : "not heard",
+    );
     phase.className = status?.phase === "aligned" ? "good-text" : "caution-text";
     put(advice, status?.advice ?? "");
     reconcile(conditions, status?.conditions ?? [], (one) => one.name, makeCondition, updateCondition);
@@ -110,7 +192,19 @@ export function makeOverview() {
 
   function showSources(tick) {
     const rates = new Map(tick.status.sensors.map((sensor) => [sensor.name, sensor]));
-    reconcile(ages, tick.sources, (line) => line.sensor, (line) => el("tr", {"data-source": line.sensor}, el("td", {}, line.sensor), el("td"), el("td", {class: "n"}), el("td", {class: "n"})),
+    reconcile(
+      ages,
+      tick.sources,
+      (line) => line.sensor,
+      (line) =>
+        el(
+          "tr",
+          {"data-source": line.sensor},
+          el("td", {}, line.sensor),
+          el("td"),
+          el("td", {class: "n"}),
+          el("td", {class: "n"}),
+        ),
       (row, line) => {
         const [, verdict, used, rate] = row.children;
         const [text, look] = verdictLook(line.last, line.kind);
@@ -119,11 +213,15 @@ export function makeOverview() {
         put(used, line.kind === "imu" ? "–" : line.since_used_s === null ? "never" : units.duration(line.since_used_s));
         const heard = rates.get(line.sensor)?.rate_hz;
         put(rate, Number.isFinite(heard) ? `${heard.toFixed(1)} Hz` : "–");
-      });
+      },
+    );
   }
 
   return {
-    root, name: "Overview", key: "overview", everyMs: 100,
+    root,
+    name: "Overview",
+    key: "overview",
+    everyMs: 100,
     update(tick) {
       showNumbers(tick);
       showAlarms(tick);
@@ -135,9 +233,21 @@ export function makeOverview() {
 }
 
 function makeAlarm(alarm) {
-  return el("div", {class: "alarm", "data-alarm": alarm.alarm}, el("span", {class: "severity"}),
+  return el(
+    "div",
+    {class: "alarm", "data-alarm": alarm.alarm},
+    el("span", {class: "severity"}),
     el("div", {}, el("p"), el("p", {class: "kind"})),
-    el("button", {type: "button", "aria-label": "Acknowledge " + alarm.alarm, onclick: () => order({kind: "acknowledge_alarm", target: alarm.alarm})}, "Acknowledge"));
+    el(
+      "button",
+      {
+        type: "button",
+        "aria-label": "Acknowledge " + alarm.alarm,
+        onclick: () => order({kind: "acknowledge_alarm", target: alarm.alarm}),
+      },
+      "Acknowledge",
+    ),
+  );
 }
 
 function updateAlarm(node, alarm) {
@@ -146,7 +256,10 @@ function updateAlarm(node, alarm) {
   put(severity, alarm.active ? kMarks[alarm.severity] : "○ over");
   severity.className = "severity " + (alarm.active ? kLooks[alarm.severity] : "soft");
   put(what.children[0], alarm.text);
-  put(what.children[1], `${alarm.alarm} · since ${alarm.since_utc?.slice(11, 19) ?? "–"}` + (alarm.acknowledged ? " · seen" : ""));
+  put(
+    what.children[1],
+    `${alarm.alarm} · since ${alarm.since_utc?.slice(11, 19) ?? "–"}` + (alarm.acknowledged ? " · seen" : ""),
+  );
   button.hidden = alarm.acknowledged;
   button.disabled = !mayOrder();
 }
@@ -169,11 +282,21 @@ function updateCondition(node, one) {
 
 async function orderPosition() {
   const nav = store.tick?.status.navigation ?? {};
-  const values = await ask("Set position", "Navigation starts anew from this position. The vehicle must really be there.", "Set position", [
-    ["Latitude [deg]", "lat_deg", nav.lat_deg], ["Longitude [deg]", "lon_deg", nav.lon_deg], ["Depth [m]", "depth_m", nav.depth_m], ["1 sigma [m]", "sigma_m", 10]]);
+  const values = await ask(
+    "Set position",
+    "Navigation starts anew from this position. The vehicle must really be there.",
+    "Set position",
+    [
+      ["Latitude [deg]", "lat_deg", nav.lat_deg],
+      ["Longitude [deg]", "lon_deg", nav.lon_deg],
+      ["Depth [m]", "depth_m", nav.depth_m],
+      ["1 sigma [m]", "sigma_m", 10],
+    ],
+  );
   if (values) order({kind: "set_position", ...values});
 }
 
 async function orderRealign() {
-  if (await ask("Realign", "Attitude is found again from the start. There is no navigation until it is.", "Realign")) order({kind: "realign"});
+  if (await ask("Realign", "Attitude is found again from the start. There is no navigation until it is.", "Realign"))
+    order({kind: "realign"});
 }

@@ -36,10 +36,19 @@ export class Plot {
   constructor(box, {name, unit = () => "", series, read, log = false}) {
     Object.assign(this, {name, unit, series, read, log, live: true, window: null});
     this.host = el("div", {class: "plot", role: "img", "aria-label": "Plot: " + name});
-    const tool = (text, title, act) => el("button", {type: "button", title: `${title}: ${name}`, "aria-label": `${title}: ${name}`, onclick: act}, text);
-    this.bar = el("div", {class: "plotbar push"}, tool("−", "Zoom out", () => this.zoom(2)), tool("+", "Zoom in", () => this.zoom(0.5)),
-      tool("◀", "Earlier", () => this.pan(-0.5)), tool("▶", "Later", () => this.pan(0.5)), tool("Live", "Back to live", () => this.follow()),
-      tool("CSV", "Save as CSV", () => this.csv()), tool("PNG", "Save as PNG", () => this.png()));
+    const tool = (text, title, act) =>
+      el("button", {type: "button", title: `${title}: ${name}`, "aria-label": `${title}: ${name}`, onclick: act}, text);
+    this.bar = el(
+      "div",
+      {class: "plotbar push"},
+      tool("−", "Zoom out", () => this.zoom(2)),
+      tool("+", "Zoom in", () => this.zoom(0.5)),
+      tool("◀", "Earlier", () => this.pan(-0.5)),
+      tool("▶", "Later", () => this.pan(0.5)),
+      tool("Live", "Back to live", () => this.follow()),
+      tool("CSV", "Save as CSV", () => this.csv()),
+      tool("PNG", "Save as PNG", () => this.png()),
+    );
     box.querySelector(".head").append(this.bar);
     box.append(this.host);
     plots.add(this);
@@ -49,19 +58,54 @@ export class Plot {
 
   options() {
     const ink = colour("soft");
-    const axis = {stroke: ink, grid: {stroke: colour("grid"), width: 1}, ticks: {stroke: colour("grid")}, font: "12px system-ui", labelFont: "12px system-ui"};
+    const axis = {
+      stroke: ink,
+      grid: {stroke: colour("grid"), width: 1},
+      ticks: {stroke: colour("grid")},
+      font: "12px system-ui",
+      labelFont: "12px system-ui",
+    };
     return {
-      width: Math.max(200, this.host.clientWidth), height: Math.max(90, this.host.clientHeight - 24),
+      width: Math.max(200, this.host.clientWidth),
+      height: Math.max(90, this.host.clientHeight - 24),
       tzDate: (t) => uPlot.tzDate(new Date(t * 1000), "Etc/UTC"),
       cursor: {sync: {key: linked.key}, drag: {x: true, y: false, setScale: true}},
-      scales: {x: {time: true}, y: this.log ? {distr: 3, range: (u, low, high) => [Math.min(low ?? 0.01, 0.01) / 2, Math.max(high ?? 1, 1) * 3]} : {range: (u, low, high) => uPlot.rangeNum(low ?? 0, high ?? 1, 0.1, true)}},
-      axes: [{...axis, size: 28, space: 75, values: (u, splits) => splits.map((t) => new Date(t * 1000).toISOString().slice(11, 19))}, {...axis, size: 62, label: this.unit(), labelSize: 16, labelGap: 0}],
-      series: [{value: (u, t) => (t === null || t === undefined ? "–" : new Date(t * 1000).toISOString().slice(11, 21))},
-        ...this.series.map((one, i) => ({label: one.label, class: one.quiet ? "quiet" : undefined, stroke: colour(one.colour), width: one.width ?? 1.6,
-          dash: kDashes[one.dash ?? i % kDashes.length], spanGaps: false, points: {show: one.points ?? false, size: 5},
+      scales: {
+        x: {time: true},
+        y: this.log
+          ? {distr: 3, range: (u, low, high) => [Math.min(low ?? 0.01, 0.01) / 2, Math.max(high ?? 1, 1) * 3]}
+          : {range: (u, low, high) => uPlot.rangeNum(low ?? 0, high ?? 1, 0.1, true)},
+      },
+      axes: [
+        {
+          ...axis,
+          size: 28,
+          space: 75,
+          values: (u, splits) => splits.map((t) => new Date(t * 1000).toISOString().slice(11, 19)),
+        },
+        {...axis, size: 62, label: this.unit(), labelSize: 16, labelGap: 0},
+      ],
+      series: [
+        {value: (u, t) => (t === null || t === undefined ? "–" : new Date(t * 1000).toISOString().slice(11, 21))},
+        ...this.series.map((one, i) => ({
+          label: one.label,
+          class: one.quiet ? "quiet" : undefined,
+          stroke: colour(one.colour),
+          width: one.width ?? 1.6,
+          dash: kDashes[one.dash ?? i % kDashes.length],
+          spanGaps: false,
+          points: {show: one.points ?? false, size: 5},
           paths: one.points === true ? () => null : undefined,
-          value: (u, v) => (v === null || v === undefined ? "–" : Number(v.toPrecision(4)).toString())}))],
-      hooks: {setSelect: [(u) => { if (u.select.width > 2) this.live = false; }]},
+          value: (u, v) => (v === null || v === undefined ? "–" : Number(v.toPrecision(4)).toString()),
+        })),
+      ],
+      hooks: {
+        setSelect: [
+          (u) => {
+            if (u.select.width > 2) this.live = false;
+          },
+        ],
+      },
     };
   }
 
@@ -75,7 +119,11 @@ export class Plot {
     this.rebuild();
   }
   resize() {
-    if (this.drawn && this.host.clientWidth > 0) this.drawn.setSize({width: Math.max(200, this.host.clientWidth), height: Math.max(90, this.host.clientHeight - 24)});
+    if (this.drawn && this.host.clientWidth > 0)
+      this.drawn.setSize({
+        width: Math.max(200, this.host.clientWidth),
+        height: Math.max(90, this.host.clientHeight - 24),
+      });
   }
   visible() {
     return this.host.offsetParent !== null && this.host.clientWidth > 0;
@@ -113,7 +161,9 @@ export class Plot {
     const data = this.drawn?.data ?? this.read();
     const lines = [["utc", ...this.series.map((one) => `"${one.label} ${this.unit()}"`)].join(",")];
     for (let i = 0; i < data[0].length; ++i) {
-      lines.push([new Date(data[0][i] * 1000).toISOString(), ...data.slice(1).map((column) => column[i] ?? "")].join(","));
+      lines.push(
+        [new Date(data[0][i] * 1000).toISOString(), ...data.slice(1).map((column) => column[i] ?? "")].join(","),
+      );
     }
     save(this.name.replace(/\W+/g, "_") + ".csv", new Blob([lines.join("\n") + "\n"], {type: "text/csv"}));
   }
@@ -134,8 +184,30 @@ export class Plot {
 
 /** The buttons above a view's plots. */
 export function plotControls(hint = true) {
-  const span = el("select", {"aria-label": "Time shown", onchange: () => setSpan(Number(span.value))},
-    ...[[60, "1 min"], [180, "3 min"], [600, "10 min"]].map(([value, text]) => el("option", {value, selected: value === spanS}, text)));
-  return el("div", {class: "plotbar"}, el("button", {type: "button", "data-pause": "", "aria-pressed": "false", title: "Pause (p)", onclick: () => setPaused(!paused)}, "Pause"),
-    span, hint ? el("span", {class: "soft"}, "drag across a plot to zoom; cursors are linked") : null);
+  const span = el(
+    "select",
+    {"aria-label": "Time shown", onchange: () => setSpan(Number(span.value))},
+    ...[
+      [60, "1 min"],
+      [180, "3 min"],
+      [600, "10 min"],
+    ].map(([value, text]) => el("option", {value, selected: value === spanS}, text)),
+  );
+  return el(
+    "div",
+    {class: "plotbar"},
+    el(
+      "button",
+      {
+        type: "button",
+        "data-pause": "",
+        "aria-pressed": "false",
+        title: "Pause (p)",
+        onclick: () => setPaused(!paused),
+      },
+      "Pause",
+    ),
+    span,
+    hint ? el("span", {class: "soft"}, "drag across a plot to zoom; cursors are linked") : null,
+  );
 }

@@ -1,7 +1,7 @@
 // Everything the page knows. Histories are columns of numbers, cut to ten minutes: the page's memory is bounded.
 
 const kSpanMs = 600000;
-const kSlack = 400;  // rows beyond the span before they are cut, so that cutting is rare
+const kSlack = 400; // rows beyond the span before they are cut, so that cutting is rare
 
 /** A table kept as columns; the first one is the time in ms. */
 export class Table {
@@ -30,20 +30,37 @@ export class Table {
 }
 
 export const store = {
-  tick: null,          // the newest tick event
-  tickAt: 0,           // performance.now() of its arrival
+  tick: null, // the newest tick event
+  tickAt: 0, // performance.now() of its arrival
   tickNumber: -1,
   services: [],
   kinds: [],
   nav: new Table(["t"]),
   fixes: [],
-  series: new Map(),   // "sensor model" -> {sensor, model, source, table, dimensions}
+  series: new Map(), // "sensor model" -> {sensor, model, source, table, dimensions}
   detailNames: [],
   detail: new Table(["t"]),
   session: {role: "nobody", orders: false, name: "", tiles: false, waypoints: [], vehicle: ""},
 };
 
-const kVerdictColumns = ["t", "kind", "ratio", "latency", "i0", "s0", "i1", "s1", "i2", "s2", "i3", "s3", "i4", "s4", "i5", "s5"];
+const kVerdictColumns = [
+  "t",
+  "kind",
+  "ratio",
+  "latency",
+  "i0",
+  "s0",
+  "i1",
+  "s1",
+  "i2",
+  "s2",
+  "i3",
+  "s3",
+  "i4",
+  "s4",
+  "i5",
+  "s5",
+];
 
 function takeVerdicts(list) {
   for (const {sensor, model, source, rows} of list) {
@@ -61,7 +78,8 @@ function takeVerdicts(list) {
 }
 
 function takeFixes(rows) {
-  for (const [t, lat, lon, sigma, source, sensor, verdict] of rows) store.fixes.push({t, lat, lon, sigma, source, sensor, verdict});
+  for (const [t, lat, lon, sigma, source, sensor, verdict] of rows)
+    store.fixes.push({t, lat, lon, sigma, source, sensor, verdict});
   const newest = store.fixes[store.fixes.length - 1]?.t ?? 0;
   if (store.fixes.length > kSlack && store.fixes[kSlack].t < newest - kSpanMs) {
     store.fixes = store.fixes.filter((fix) => fix.t >= newest - kSpanMs);
