@@ -22,60 +22,48 @@ async function valuesEqualDds(page) {
     async () =>
       (await field(page, "lat")) !== "–" && (await store(page, "(s) => s.tick.status.navigation.mode")) === "gps_aided",
   );
-  const dds = (await ddsStatus()).navigation;
-  const at = Date.parse(dds.stamp_utc);
-  const shown = await until("the page's rows around the state that DDS gave", async () =>
-    between(
-      await store(
-        page,
-        `(s) => ({t: s.nav.columns[0], lat: s.nav.column("lat_deg"), lon: s.nav.column("lon_deg"), depth: s.nav.column("depth_m"), yaw: s.nav.column("yaw_deg")})`,
+  // A fix may move the state between two rows of the page, so that what lies between them is not on a line: asked again.
+  const difference = await until("the page to hold what DDS gave", async () => {
+    const dds = (await ddsStatus()).navigation;
+    const at = Date.parse(dds.stamp_utc);
+    const shown = await until("rows around that instant", async () =>
+      between(
+        await store(
+          page,
+          `(s) => ({t: s.nav.columns[0], lat: s.nav.column("lat_deg"), lon: s.nav.column("lon_deg"),
+            depth: s.nav.column("depth_m"), yaw: s.nav.column("yaw_deg")})`,
+        ),
+        at,
       ),
-      at,
-    ),
-  );
-  check(Math.abs(shown.lat - dds.lat_deg) < 2e-6, `latitude ${shown.lat} on the page, ${dds.lat_deg} on DDS`);
-  check(Math.abs(shown.lon - dds.lon_deg) < 2e-6, `longitude ${shown.lon} on the page, ${dds.lon_deg} on DDS`);
-  check(Math.abs(shown.depth - dds.depth_m) < 0.2, `depth ${shown.depth} on the page, ${dds.depth_m} on DDS`);
-  check(
-    Math.abs(((shown.yaw - dds.rpy_deg[2] + 540) % 360) - 180) < 1,
-    `heading ${shown.yaw} on the page, ${dds.rpy_deg[2]} on DDS`,
-  );
-  // What stands on the screen is what the newest event says, to its last digit.
-  const pair = await page.evaluate(async () => {
-    const {store} = await import("/js/store.js");
-    await new Promise((resolve) => {
-      // until an event has just been drawn
-      const before = store.tickNumber;
-      const look = () => (store.tickNumber > before + 1 ? resolve() : requestAnimationFrame(look));
-      look();
-    });
-    const text = (name) => document.querySelector(`[data-field="${name}"]`).textContent;
-    const {
-      lat_deg: lat,
-      depth_m: depth,
-      horizontal_95_m: h95,
-      rpy_deg: [roll],
-    } = store.tick.status.navigation;
-    return {
-      texts: [text("lat"), text("depth"), text("h95"), text("roll")].map(parseFloat),
-      values: [lat, depth, h95, roll],
+    );
+    const off = {
+      lat: Math.abs(shown.lat - dds.lat_deg),
+      lon: Math.abs(shown.lon - dds.lon_deg),
+      depth: Math.abs(shown.depth - dds.depth_m),
+      yaw: Math.abs(((shown.yaw - dds.rpy_deg[2] + 540) % 360) - 180),
     };
+    if (off.lat < 2e-6 && off.lon < 2e-6 && off.depth < 0.2 && off.yaw < 1) return off;
+    throw new Error(`off by ${JSON.stringify(off)}`);
   });
-  [5e-6, 0.4, 0.3, 2].forEach((tolerance, i) =>
-    check(
-      Math.abs(pair.texts[i] - pair.values[i]) <= tolerance,
-      `field ${i}: ${pair.texts[i]} on the screen, ${pair.values[i]} in the event`,
-    ),
+  // What stands on the screen is what the newest event says, to its last digit.
+  await until("the newest event on the screen", () =>
+    page.evaluate(async () => {
+      const {store} = await import("/js/store.js");
+      const shown = (name) => parseFloat(document.querySelector(`[data-field="${name}"]`).textContent);
+      const {lat_deg, depth_m, horizontal_95_m, rpy_deg} = store.tick.status.navigation;
+      const off = (name, value, digit) => Math.abs(shown(name) - value) <= 0.51 * digit;
+      const same = [off("lat", lat_deg, 1e-6), off("depth", depth_m, 0.1)];
+      return [...same, off("h95", horizontal_95_m, 0.01), off("roll", rpy_deg[0], 0.1)].every(Boolean);
+    }),
   );
-  said(
-    `values: latitude differs from DDS by ${Math.abs(shown.lat - dds.lat_deg).toExponential(1)} deg, longitude by ${Math.abs(shown.lon - dds.lon_deg).toExponential(1)} deg`,
-  );
+  const [lat, lon] = [difference.lat, difference.lon].map((value) => value.toExponential(1));
+  said(`values: latitude differs from DDS by ${lat} deg, longitude by ${lon} deg`);
 }
 
 async function outageAppears(pages) {
   for (const page of pages) {
     await until("the GPS outage", async () => /GPS gone/.test(await sentence(page)));
-    check(/\d/.test(await field(page, "outage")), "the outage clock runs");
+    await until("the outage clock to run", async () => /\d/.test(await field(page, "outage")));
     await page.waitForSelector('[data-alarm="gps_outage"]');
   }
   said(`outage: "${await sentence(pages[0])}"`);
@@ -229,37 +217,49 @@ async function manyClients(stage, address) {
   said("ten browsers at the same time are served");
 }
 
+/** How often this page has said "no navigation". */
+const losses = (page) => page.evaluate(() => Number(document.documentElement.dataset.losses ?? 0));
+const navigates = (page) =>
+  until("navigation", async () => (await page.getAttribute("html", "data-navigation")) === "there");
+
 async function killFusion(page) {
+  await navigates(page);
   const pid = await store(page, '(s) => s.tick.status.services.find((one) => one.name === "fusion").pid');
-  check((await page.getAttribute("html", "data-navigation")) === "there", "navigation is there");
+  const before = await losses(page);
   process.kill(pid, "SIGKILL");
-  await until("no navigation", async () => (await page.getAttribute("html", "data-navigation")) === "none");
-  check((await page.getAttribute("#trust", "data-level")) === "bad", "the line says so");
+  await until("no navigation", async () => (await losses(page)) > before);
   const {since, stamp} = await page.evaluate(() => ({...document.documentElement.dataset}));
   said(`kill -9 of fusion: "${await sentence(page)}", shown ${since - stamp} ms after the last state`);
-  await until("fusion to be back", async () => (await page.getAttribute("html", "data-navigation")) === "there");
   await until("a new process", () =>
     store(page, `(s) => s.tick.status.services.find((one) => one.name === "fusion").pid !== ${pid}`),
   );
+  await navigates(page);
   await until("the restart to be counted", () =>
     store(page, '(s) => s.services.find((one) => one.name === "fusion").restarts >= 1'),
   );
   said(`fusion is back: "${await sentence(page)}"`);
 }
 
-async function killConsole(stage, page) {
+async function killConsole(stage, pages) {
   stage.connectionMayFail = true;
-  const pid = await store(page, '(s) => s.tick.status.services.find((one) => one.name === "console").pid');
+  const pid = await store(pages[0], '(s) => s.tick.status.services.find((one) => one.name === "console").pid');
+  const before = await Promise.all(pages.map(losses));
   process.kill(pid, "SIGKILL");
-  await until("the page to notice", async () => /console has been silent/.test(await sentence(page)));
+  for (const [i, page] of pages.entries())
+    await until("the page to notice", async () => (await losses(page)) > before[i]);
   const dds = await ddsStatus();
   check(dds.services.find((one) => one.name === "fusion") !== undefined, "navigation goes on without its console");
-  await until(
-    "the page to be connected again",
-    async () => (await page.getAttribute("#link", "class")).includes("live") && !/silent/.test(await sentence(page)),
-  );
+  for (const page of pages) {
+    await until("a new console on the page", () =>
+      store(page, `(s) => s.tick.status.services.find((one) => one.name === "console").pid !== ${pid}`),
+    );
+    await until("the page to be connected again", async () =>
+      (await page.getAttribute("#link", "class")).includes("live"),
+    );
+    await navigates(page);
+  }
   stage.connectionMayFail = false;
-  said("the console was killed; the page said so and came back with it");
+  said("the console was killed; the pages said so and came back with it");
 }
 
 const demo = await startDemo();
@@ -280,7 +280,7 @@ try {
   await sourceIsSwitched(page);
   await manyClients(stage, demo.plain);
   await killFusion(page);
-  await killConsole(stage, page);
+  await killConsole(stage, [page, other]);
   check(stage.complaints.length === 0, "no complaints of the browser:\n" + stage.complaints.join("\n"));
   said("no error or warning in any browser's console");
 } catch (error) {

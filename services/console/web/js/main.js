@@ -22,6 +22,7 @@ let current = null;
 function show(index) {
   current = views[index];
   current.drawnAt = 0;
+  current.drawnTick = -1;
   views.forEach((view, i) => {
     view.root.hidden = view !== current;
     view.tab.toggleAttribute("data-on", view === current);
@@ -36,8 +37,9 @@ function show(index) {
 function draw() {
   if (!current || !store.tick) return;
   const now = performance.now();
-  if (now - (current.drawnAt ?? 0) < current.everyMs - 20) return;
+  if (now - (current.drawnAt ?? 0) < current.everyMs - 20 || current.drawnTick === store.tickNumber) return;
   current.drawnAt = now;
+  current.drawnTick = store.tickNumber;
   current.update(store.tick);
 }
 
@@ -80,6 +82,7 @@ function judge() {
   }
   if (lost !== (root.dataset.navigation === "none")) {
     root.dataset.navigation = lost ? "none" : "there";
+    if (lost) root.dataset.losses = String(Number(root.dataset.losses ?? 0) + 1);
     root.dataset.since = String(Date.now());
     root.dataset.stamp = String(Date.parse(store.tick?.status.navigation?.stamp_utc ?? 0));
   }
@@ -158,7 +161,10 @@ const link = openLink(token, {
 get("who").addEventListener("click", async () => {
   if (await signIn()) link.again();
 });
-setInterval(judge, 100);
+setInterval(() => {
+  judge();
+  draw(); // events that came in one heap are drawn up to the last of them
+}, 100);
 show(
   Math.max(
     0,
