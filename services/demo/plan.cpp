@@ -1,6 +1,8 @@
 #include "demo/plan.hpp"
 
 #include <algorithm>
+#include <fstream>
+#include <random>
 
 #include <nlohmann/json.hpp>
 
@@ -39,6 +41,25 @@ Places find_places() {
           std::filesystem::path(config::scenario_directory()).parent_path()};
 }
 
+// Of the operator console, plus the domain.
+constexpr int kConsolePort = 8420;
+
+std::string random_token() {
+  static constexpr std::string_view kDigits = "0123456789abcdef";
+  std::random_device random;
+  std::string token;
+  for (int i = 0; i < 32; ++i) token += kDigits[random() % kDigits.size()];
+  return token;
+}
+
+/// A file that nobody else may read.
+void write_private(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream(path).flush();
+  std::filesystem::permissions(path,
+                               std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  std::ofstream(path) << text;
+}
+
 class Builder {
  public:
   Builder(const Options& options, Plan& plan) : places_(find_places()), plan_(plan) {
@@ -57,7 +78,7 @@ class Builder {
   void add(const std::string& service, const Sets& sets, const std::filesystem::path& configuration = {}) {
     std::string executable = "fathom-" + service;
     std::replace(executable.begin(), executable.end(), '_', '-');
-    Program program{service, places_.executables / executable, {}};
+    Program program{service, places_.executables / executable, {}, false};
     program.arguments = {"--config", configuration.empty() ? file(service).string() : configuration.string()};
     const auto append = [&program](const Sets& list) {
       for (const std::string& set : list) {
@@ -69,6 +90,21 @@ class Builder {
     append(sets);
     plan_.programs.push_back(std::move(program));
     plan_.demands.services.push_back(service);
+  }
+
+  /// The operator console, where this build has one. Nothing of the run depends on it.
+  void add_console(int domain, const std::filesystem::path& run_directory) {
+    if (!std::filesystem::exists(places_.executables / "fathom-console")) return;
+    const std::string token = random_token();
+    const auto file = run_directory / "console_tokens.json";
+    write_private(file,
+                  json({{"tokens", {{{"name", "demo"}, {"role", "operator"}, {"token", token}}}}}).dump());
+    const int port = kConsolePort + domain;
+    add("console",
+        {"access.orders=true", "access.token_file=" + file.string(), "http.port=" + std::to_string(port)});
+    plan_.programs.back().optional = true;
+    plan_.demands.services.pop_back();
+    plan_.console = "http://127.0.0.1:" + std::to_string(port) + "/#token=" + token;
   }
 
   [[nodiscard]] const Places& places() const { return places_; }
@@ -166,6 +202,7 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   monitor.push_back("journal.path=" + (run_directory / "alarms.jsonl").string());
   monitor.push_back("metrics.port=" + std::to_string(kMetricsPort + options.domain));
   builder.add("monitor", monitor);
+  if (options.console) builder.add_console(options.domain, run_directory);
   // The simulator last: instruments speak when everyone listens.
   const auto simulator_at = std::find_if(plan.programs.begin(), plan.programs.end(),
                                          [](const Program& program) { return program.name == "simulator"; });

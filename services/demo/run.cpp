@@ -100,6 +100,7 @@ ExitCode run(const Options& options) {
   say("Starting " + plan.title + ": " + std::to_string(plan.programs.size()) + " services on DDS domain " +
       std::to_string(options.domain) + ", logs in " + directory.path().string());
   for (const Program& program : plan.programs) supervisor.start(program);
+  if (!plan.console.empty()) say("Console: " + plan.console);
 
   const SystemClock host;
   const TimeNs began_ns = clock->monotonic_ns();

@@ -82,7 +82,7 @@ std::vector<std::string> Supervisor::poll(TimeNs now_ns) {
       child.pid = -1;
       child.ended_ns = now_ns;
       child.hopeless = WIFEXITED(status) && WEXITSTATUS(status) == 2;
-      gave_up_ = gave_up_ || child.hopeless;
+      gave_up_ = gave_up_ || (child.hopeless && !child.program.optional);
       said.push_back(child.program.name + " " + how_it_ended(status) +
                      (child.hopeless ? ", it refused its configuration" : ", it will be started again"));
     }

@@ -16,6 +16,7 @@ struct Program {
   std::string name;  ///< service name, e.g. "gps_bridge"
   std::filesystem::path executable;
   std::vector<std::string> arguments;
+  bool optional = false;  ///< the run goes on without it
 };
 
 /// Starts services, notices when one ends, starts it again, and stops them all. A service ends with its
@@ -40,7 +41,7 @@ class Supervisor {
 
   /// How often each service was started again.
   [[nodiscard]] std::map<std::string, int> restarts() const;
-  /// A service refused its configuration (exit code 2): starting it again would not help.
+  /// A service that is needed refused its configuration (exit code 2): starting it again would not help.
   [[nodiscard]] bool gave_up() const { return gave_up_; }
   [[nodiscard]] std::filesystem::path log_of(const std::string& name) const;
 

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace fathom::console {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+/// One accepted TCP connection, closed with the object. Reading and writing have deadlines, and no more is
+/// read than is asked for: a peer that is slow, silent or endless costs its thread for a known time and no
+/// memory.
+class Connection {
+ public:
+  enum class Outcome { complete, closed, timed_out, oversized };
+
+  /// Takes over a non-blocking socket.
+  explicit Connection(int socket) : socket_(socket) {}
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  /// Reads up to and including the empty line.
+  [[nodiscard]] Outcome read_head(std::string& head, std::size_t most, SteadyTime deadline);
+  [[nodiscard]] Outcome read_body(std::string& body, std::size_t length, SteadyTime deadline);
+  /// Bytes of the next request are there already, or some of this one came before it was given up.
+  [[nodiscard]] bool has_started() const { return !buffer_.empty(); }
+
+  /// False when the peer is gone or takes nothing for `patience`.
+  [[nodiscard]] bool write(std::string_view bytes, std::chrono::milliseconds patience);
+  /// Ends the sending side and swallows what the peer is still sending for a moment: closing at once would
+  /// tear down the answer with it.
+  void linger();
+
+ private:
+  /// One read of what is there into the buffer.
+  [[nodiscard]] Outcome receive(SteadyTime deadline);
+
+  int socket_;
+  std::string buffer_;
+};
+
+}  // namespace fathom::console

@@ -1,0 +1,265 @@
+#include "console/http_server.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <list>
+#include <mutex>
+#include <thread>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace fathom::console {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+constexpr auto kWritePatience = 10s;
+
+const char* status_words(int status) {
+  switch (status) {
+    case 400:
+      return "Bad Request";
+    case 401:
+      return "Unauthorized";
+    case 403:
+      return "Forbidden";
+    case 404:
+      return "Not Found";
+    case 405:
+      return "Method Not Allowed";
+    case 408:
+      return "Request Timeout";
+    case 411:
+      return "Length Required";
+    case 413:
+      return "Content Too Large";
+    case 414:
+      return "URI Too Long";
+    case 415:
+      return "Unsupported Media Type";
+    case 417:
+      return "Expectation Failed";
+    case 421:
+      return "Misdirected Request";
+    case 431:
+      return "Request Header Fields Too Large";
+    case 505:
+      return "HTTP Version Not Supported";
+    default:
+      return "Service Unavailable";
+  }
+}
+
+}  // namespace
+
+std::string refusal_text(const Refusal& refusal) {
+  const std::string body = std::string(status_words(refusal.status)) + ": " + refusal.reason + "\n";
+  std::string out =
+      "HTTP/1.1 " + std::to_string(refusal.status) + " " + status_words(refusal.status) + "\r\n";
+  for (const auto& [name, value] : kSecurityHeaders)
+    out.append(name).append(": ").append(value).append("\r\n");
+  if (refusal.status == 405) out += "Allow: GET, HEAD, POST\r\n";
+  out += "Cache-Control: no-store\r\nContent-Type: text/plain\r\nConnection: close\r\nContent-Length: " +
+         std::to_string(body.size()) + "\r\n\r\n" + body;
+  return out;
+}
+
+struct HttpServer::Impl {
+  Impl(Options options_in, Serve serve_in, Refused refused_in)
+      : options(std::move(options_in)),
+        serve(std::move(serve_in)),
+        refused(std::move(refused_in)),
+        hosts(host_names(options.address, options.port, options.names)),
+        wake(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+  ~Impl() {
+    if (listener >= 0) close(listener);
+    close(wake);
+  }
+
+  /// One accepted connection with its thread. Its socket is shut down to end it from outside.
+  struct Session {
+    std::thread thread;
+    int socket = -1;
+    std::string peer;
+    std::atomic<bool> done{false};
+  };
+
+  void refuse(const Refusal& refusal, const std::string& peer) {
+    ++refusals;
+    refused(refusal, peer);
+  }
+
+  void accept_loop() {
+    while (!stopping) {
+      pollfd watched[2]{{listener, POLLIN, 0}, {wake, POLLIN, 0}};
+      poll(watched, 2, 1000);
+      reap();
+      if (stopping || (watched[0].revents & POLLIN) == 0) continue;
+      sockaddr_in from{};
+      socklen_t size = sizeof from;
+      const int socket =
+          accept4(listener, reinterpret_cast<sockaddr*>(&from), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
+      if (socket < 0) continue;
+      const int on = 1;
+      setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+      std::array<char, INET_ADDRSTRLEN> text{};
+      inet_ntop(AF_INET, &from.sin_addr, text.data(), text.size());
+      take(socket, text.data());
+    }
+  }
+
+  void take(int socket, const std::string& peer) {
+    const std::lock_guard lock(mutex);
+    std::size_t of_peer = 0;
+    for (const Session& session : sessions) of_peer += session.peer == peer ? 1 : 0;
+    if (sessions.size() >= options.most_connections || of_peer >= options.most_per_peer) {
+      const Refusal refusal{503, "too_many_connections"};
+      const std::string text = refusal_text(refusal);
+      (void)send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      close(socket);
+      refuse(refusal, peer);
+      return;
+    }
+    Session& session = sessions.emplace_back();
+    session.socket = socket;
+    session.peer = peer;
+    try {
+      session.thread = std::thread([this, &session] {
+        {
+          // The session keeps a descriptor of its own: it can be shut down without a race with its closing.
+          Connection connection(dup(session.socket));
+          converse(connection, session.peer);
+        }
+        shutdown(session.socket, SHUT_RDWR);
+        session.done = true;
+        const std::uint64_t one = 1;
+        (void)!::write(wake, &one, sizeof one);
+      });
+    } catch (const std::system_error&) {  // no more threads on this machine
+      close(socket);
+      sessions.pop_back();
+    }
+  }
+
+  void converse(Connection& connection, const std::string& peer) {
+    while (!stopping) {
+      const auto began = Clock::now();
+      std::string bytes;
+      const auto outcome = connection.read_head(bytes, kMostHeadBytes, began + options.head_deadline);
+      if (outcome != Connection::Outcome::complete) return give_up(connection, outcome, true, peer);
+      auto parsed = parse_head(bytes);
+      if (const auto* refusal = std::get_if<Refusal>(&parsed)) return answer(connection, *refusal, peer);
+      const auto& head = std::get<RequestHead>(parsed);
+      if (const auto refusal = judge_request(head, hosts)) return answer(connection, *refusal, peer);
+      std::string body;
+      const auto rest = connection.read_body(body, head.content_length, began + options.request_deadline);
+      if (rest != Connection::Outcome::complete) return give_up(connection, rest, false, peer);
+      ++requests;
+      if (!serve(head, body, peer, connection) || !head.keep_alive) return connection.linger();
+    }
+  }
+
+  void give_up(Connection& connection, Connection::Outcome outcome, bool in_head, const std::string& peer) {
+    // Closing between two requests, or never beginning one, is everyone's right.
+    if (in_head && !connection.has_started()) return;
+    if (outcome == Connection::Outcome::timed_out) answer(connection, {408, "too_slow"}, peer);
+    if (outcome == Connection::Outcome::oversized) answer(connection, {431, "oversized_head"}, peer);
+  }
+
+  void answer(Connection& connection, const Refusal& refusal, const std::string& peer) {
+    refuse(refusal, peer);
+    if (connection.write(refusal_text(refusal), kWritePatience)) connection.linger();
+  }
+
+  void reap() {
+    std::uint64_t ignored = 0;
+    (void)!::read(wake, &ignored, sizeof ignored);
+    const std::lock_guard lock(mutex);
+    for (auto session = sessions.begin(); session != sessions.end();) {
+      if (!session->done) {
+        ++session;
+        continue;
+      }
+      session->thread.join();
+      close(session->socket);
+      session = sessions.erase(session);
+    }
+  }
+
+  Options options;
+  Serve serve;
+  Refused refused;
+  HostNames hosts;
+  int listener = -1;
+  int wake;
+  std::atomic<bool> stopping{false};
+  std::atomic<std::uint64_t> requests{0};
+  std::atomic<std::uint64_t> refusals{0};
+  mutable std::mutex mutex;  ///< of the sessions
+  std::list<Session> sessions;
+  std::thread acceptor;
+};
+
+HttpServer::HttpServer(Options options, Serve serve, Refused refused)
+    : impl_(std::make_unique<Impl>(std::move(options), std::move(serve), std::move(refused))) {}
+
+HttpServer::~HttpServer() {
+  impl_->stopping = true;
+  const std::uint64_t one = 1;
+  (void)!::write(impl_->wake, &one, sizeof one);
+  if (impl_->acceptor.joinable()) impl_->acceptor.join();
+  for (auto& session : impl_->sessions) shutdown(session.socket, SHUT_RDWR);
+  for (auto& session : impl_->sessions) {
+    session.thread.join();
+    close(session.socket);
+  }
+}
+
+std::string HttpServer::start() {
+  Impl& impl = *impl_;
+  const std::string where = impl.options.address + ":" + std::to_string(impl.options.port);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(impl.options.port));
+  if (inet_pton(AF_INET, impl.options.address.c_str(), &address.sin_addr) != 1) {
+    return "cannot listen at " + where + ": expected an IPv4 address";
+  }
+  const int listener = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  const int on = 1;
+  setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  if (listener < 0 || bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
+      listen(listener, 64) != 0) {
+    const int error = errno;
+    if (listener >= 0) close(listener);
+    return "cannot listen at " + where + ": " + std::strerror(error);
+  }
+  impl.listener = listener;
+  impl.acceptor = std::thread([&impl] { impl.accept_loop(); });
+  return {};
+}
+
+bool HttpServer::running() const {
+  return impl_->listener >= 0;
+}
+
+HttpServer::Counters HttpServer::counters() const {
+  return {impl_->requests, impl_->refusals};
+}
+
+std::size_t HttpServer::connections() const {
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->sessions.size();
+}
+
+void HttpServer::refuse(const Refusal& refusal, const std::string& peer) {
+  impl_->refuse(refusal, peer);
+}
+
+}  // namespace fathom::console

@@ -1,0 +1,167 @@
+// The map: Leaflet moves and zooms, the chart draws.
+import {el, put} from "./dom.js";
+import {Chart, degreesOf, metresOf} from "./chart.js";
+import {onPrefs} from "./prefs.js";
+import {store} from "./store.js";
+import {onSession} from "./orders.js";
+import * as units from "./units.js";
+
+export function makeMap() {
+  let map = null;
+  let chart = null;
+  let origin = null;
+  let follow = true;
+  let measuring = false;
+  let measured = [];
+  let tiles = null;
+  const box = el("div", {class: "map", id: "map", role: "application", "aria-label": "Map"});
+  const followButton = el(
+    "button",
+    {
+      type: "button",
+      "aria-pressed": "true",
+      title: "Keep the vehicle in the middle (f)",
+      onclick: () => setFollow(!follow),
+    },
+    "Follow",
+  );
+  const measureButton = el(
+    "button",
+    {
+      type: "button",
+      "aria-pressed": "false",
+      title: "Distance between two clicks",
+      onclick: () => setMeasuring(!measuring),
+    },
+    "Measure",
+  );
+  const pointer = el("span", {class: "pointer", "data-field": "pointer"}, "–");
+  const distance = el("span", {class: "num", "data-field": "distance", role: "status"});
+  const root = el(
+    "div",
+    {class: "view mapview"},
+    el(
+      "div",
+      {class: "mapbar"},
+      followButton,
+      el("button", {type: "button", title: "Show the whole track", onclick: fit}, "Fit track"),
+      measureButton,
+      distance,
+      pointer,
+    ),
+    box,
+    el(
+      "div",
+      {class: "legend"},
+      el("span", {}, "▲ vehicle"),
+      el("span", {}, "— track, 10 min"),
+      el("span", {}, "◌ 95 % ellipse"),
+      el("span", {}, "○ GPS fix"),
+      el("span", {}, "◇ USBL fix"),
+      el("span", {}, "✕ refused fix"),
+      el("span", {}, "□ waypoint"),
+    ),
+  );
+
+  function setFollow(value) {
+    follow = value;
+    followButton.setAttribute("aria-pressed", String(value));
+    if (value) centre();
+  }
+  function setMeasuring(value) {
+    measuring = value;
+    measured = [];
+    put(distance, value ? "click two points" : "");
+    measureButton.setAttribute("aria-pressed", String(value));
+    chart?.draw();
+  }
+  function vehicle() {
+    const nav = store.tick?.status.navigation;
+    return nav && nav.lat_deg !== null ? L.latLng(nav.lat_deg, nav.lon_deg) : null;
+  }
+  function centre() {
+    const at = vehicle();
+    if (at) map?.setView(at, map.getZoom(), {animate: false});
+  }
+  function fit() {
+    const lat = store.nav.column("lat_deg").filter((v) => v !== null);
+    const lon = store.nav.column("lon_deg").filter((v) => v !== null);
+    if (!map || lat.length === 0) return;
+    setFollow(false);
+    const range = (values) =>
+      values.reduce(([low, high], v) => [Math.min(low, v), Math.max(high, v)], [Infinity, -Infinity]);
+    const [south, north] = range(lat);
+    const [west, east] = range(lon);
+    map.fitBounds(L.latLngBounds([south, west], [north, east]).pad(0.15), {animate: false, maxZoom: 20});
+  }
+  function choose(event) {
+    if (!measuring) return;
+    if (measured.length >= 2) measured = [];
+    measured.push(event.latlng);
+    if (measured.length === 2) {
+      const {north, east} = metresOf(measured[0], measured[1]);
+      put(
+        distance,
+        `${units.length(Math.hypot(north, east), 1)} at ${units.bearing((Math.atan2(east, north) * 180) / Math.PI)}`,
+      );
+    } else {
+      put(distance, "click the second point");
+    }
+    chart.draw();
+  }
+  function point(event) {
+    const local = origin ? metresOf(origin, event.latlng) : null;
+    put(
+      pointer,
+      `${units.latitude(event.latlng.lat)} ${units.longitude(event.latlng.lng)}` +
+        (local ? ` · ${units.length(local.north, 0)} N ${units.length(local.east, 0)} E of the first position` : ""),
+    );
+  }
+  function useTiles() {
+    if (!map || tiles || !store.session.tiles) return;
+    tiles = L.tileLayer("/tiles/{z}/{x}/{y}.png", {maxZoom: 22, maxNativeZoom: 18}).addTo(map);
+    chart.draw();
+  }
+  function begin() {
+    map = L.map(box, {
+      zoomControl: true,
+      attributionControl: false,
+      zoomSnap: 0.25,
+      minZoom: 3,
+      maxZoom: 22,
+      keyboard: true,
+      fadeAnimation: false,
+      zoomAnimation: false,
+    });
+    map.setView(vehicle() ?? [0, 0], vehicle() ? 19 : 3);
+    L.control.scale({imperial: units.lengthUnit() === "ft", metric: units.lengthUnit() === "m"}).addTo(map);
+    chart = new Chart({origin: () => origin, grid: () => !tiles, measured: () => measured}).addTo(map);
+    map.on("click", choose);
+    map.on("mousemove", point);
+    map.on("dragstart", () => setFollow(false));
+    useTiles();
+  }
+  onPrefs(() => chart?.draw());
+  onSession(useTiles);
+
+  return {
+    root,
+    name: "Map",
+    key: "map",
+    everyMs: 200,
+    shown() {
+      if (!map) begin();
+      map.invalidateSize({animate: false});
+    },
+    keys: {f: () => setFollow(!follow)},
+    update() {
+      const lat = store.nav.column("lat_deg").findIndex((v) => v !== null);
+      if (!origin && lat >= 0) {
+        origin = L.latLng(store.nav.column("lat_deg")[lat], store.nav.column("lon_deg")[lat]);
+        if (map.getZoom() < 10) map.setView(degreesOf(origin, {north: 0, east: 0}), 19, {animate: false});
+      }
+      if (follow) centre();
+      chart.draw();
+    },
+  };
+}

@@ -1,0 +1,94 @@
+// What the console costs: navigation states at 400 Hz, three browsers. Prints figures; a machine that is busy
+// with other things is no reason to fail.
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "bus/writer.hpp"
+#include "integration/console/console_fixture.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double kMeasuredS = 20.0;
+
+/// Processor time that a process has had so far.
+double processor_s(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  std::istringstream fields(text.substr(text.rfind(')') + 2));
+  std::string skipped;
+  for (int i = 0; i < 11; ++i) fields >> skipped;
+  double user = 0.0;
+  double system = 0.0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+double resident_MB(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/statm");
+  double size = 0.0;
+  double resident = 0.0;
+  file >> size >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+}
+
+class ConsoleBench : public ConsoleTest {};
+
+TEST_F(ConsoleBench, FourHundredHertzAndThreeBrowsers) {
+  start_and_wait(221);
+  std::array<std::atomic<int>, 3> ticks{};
+  std::atomic<bool> over{false};
+  std::vector<std::thread> threads;
+  for (auto& count : ticks) {
+    threads.emplace_back([this, &count, &over] {
+      HttpPeer peer(port);
+      peer.say("GET /api/live HTTP/1.1\r\nHost: " + host() + "\r\n\r\n");
+      while (!over && peer.event("tick")) ++count;
+    });
+  }
+  std::atomic<int> states{0};
+  threads.emplace_back([&] {
+    bus::Writer<Verdict> verdicts(network->participant());
+    auto next = Clock::now();
+    while (!over) {
+      network->nav();
+      if (++states % 13 == 0) {
+        Verdict verdict;
+        verdict.header = network->header("dvl");
+        verdict.source = SourceKind::dvl;
+        verdict.model = "dvl_velocity";
+        verdict.dimensions = 3;
+        verdicts.write(verdict);
+      }
+      next += std::chrono::microseconds(2500);
+      std::this_thread::sleep_until(next);
+    }
+  });
+  EXPECT_TRUE(wait_until([&] { return ticks[0] > 10 && ticks[1] > 10 && ticks[2] > 10; }, kPatienceS));
+  const auto began = Clock::now();
+  const double used_before_s = processor_s(console->pid());
+  const int states_before = states;
+  const int ticks_before = ticks[0];
+  std::this_thread::sleep_for(std::chrono::duration<double>(kMeasuredS));
+  const double span_s = std::chrono::duration<double>(Clock::now() - began).count();
+  const double share = (processor_s(console->pid()) - used_before_s) / span_s;
+  std::printf(
+      "{\"rows\": [{\"name\": \"console, 3 browsers, %.0f Hz\", \"unit\": \"%% of a core\", \"value\": "
+      "%.2f}, "
+      "{\"name\": \"console, updates to each browser\", \"unit\": \"Hz\", \"value\": %.2f}, "
+      "{\"name\": \"console, resident memory\", \"unit\": \"MB\", \"value\": %.1f}]}\n",
+      (states - states_before) / span_s, 100.0 * share, (ticks[0] - ticks_before) / span_s,
+      resident_MB(console->pid()));
+  over = true;
+  for (auto& thread : threads) thread.join();
+}
+
+}  // namespace
+}  // namespace fathom::test

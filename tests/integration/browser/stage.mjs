@@ -1,0 +1,124 @@
+// The stage that the tests play on: the demonstration, Chromium, pages, and patience.
+import {spawn, execFile} from "node:child_process";
+import {createRequire} from "node:module";
+import {readFileSync} from "node:fs";
+import {setTimeout as pause} from "node:timers/promises";
+
+const require = createRequire(process.env.FATHOM_NPM_DIR + "/package.json");
+const {chromium} = require("playwright-core");
+const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+const bin = process.env.FATHOM_BIN;
+const domain = process.env.FATHOM_DOMAIN;
+
+/** What is awaited may take this long: the machine may have other things to do on every core. */
+export const kPatienceMs = 240000;
+export const kShots = process.env.FATHOM_SHOTS;
+
+export function check(condition, what) {
+  if (!condition) throw new Error("NOT AS EXPECTED: " + what);
+}
+
+/** Waits until `ask` gives something true, and returns it. */
+export async function until(what, ask, patienceMs = kPatienceMs) {
+  const end = Date.now() + patienceMs;
+  let last;
+  while (Date.now() < end) {
+    try {
+      last = await ask();
+      if (last) return last;
+    } catch (error) {
+      last = error.message;
+    }
+    await pause(100);
+  }
+  throw new Error(`NOT WITHIN ${patienceMs / 1000} s: ${what}; last: ${JSON.stringify(last)}`);
+}
+
+/** The demonstration, started; `address` is what it printed. */
+export async function startDemo() {
+  const demo = spawn(bin + "/fathom-demo", ["--domain", domain, "--duration", "1600"], {
+    stdio: ["ignore", "pipe", "pipe"],
+  });
+  let output = "";
+  for (const stream of [demo.stdout, demo.stderr]) stream.on("data", (bytes) => (output += bytes));
+  const ended = new Promise((resolve) => demo.on("exit", resolve));
+  const address = await until("the console's address", () => output.match(/Console: (\S+)/)?.[1]);
+  return {
+    address,
+    plain: address.replace(/#.*/, ""),
+    output: () => output,
+    async stop() {
+      demo.kill("SIGINT");
+      await ended;
+    },
+  };
+}
+
+/** What `fathom status --json` says. */
+export const ddsStatus = () =>
+  new Promise((resolve, reject) => {
+    execFile(bin + "/fathom", ["status", "--json", "--domain", domain, "--timeout", "60"], (error, out) => {
+      try {
+        resolve(JSON.parse(out));
+      } catch {
+        reject(error ?? new Error("no JSON: " + out));
+      }
+    });
+  });
+
+/** A browser whose pages' complaints are collected. */
+export async function startBrowser() {
+  const browser = await chromium.launch({
+    executablePath: process.env.FATHOM_CHROMIUM,
+    timeout: kPatienceMs,
+    args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
+  });
+  const complaints = [];
+  const stage = {
+    complaints,
+    connectionMayFail: false,
+    /** A page in a browser profile of its own. */
+    async open(address, options = {}) {
+      const context = await browser.newContext({
+        viewport: {width: 1280, height: 720},
+        colorScheme: "light",
+        ...options,
+      });
+      context.setDefaultTimeout(kPatienceMs);
+      const page = await context.newPage();
+      const complain = (text) => {
+        // A console that is not there is complained about by the browser itself, whatever the page does.
+        if (!(stage.connectionMayFail && /net::ERR_|Failed to (load|fetch)/.test(text))) complaints.push(text);
+      };
+      page.on("console", (message) => ["error", "warning"].includes(message.type()) && complain(message.text()));
+      page.on("pageerror", (error) => complain(String(error.stack)));
+      await page.goto(address, {timeout: kPatienceMs});
+      await page.waitForSelector("#link.live");
+      await until("the first data on the page", () =>
+        page.evaluate(async () => (await import("/js/store.js")).store.tick !== null),
+      );
+      return page;
+    },
+    close: () => browser.close(),
+  };
+  return stage;
+}
+
+export const field = (page, name) => page.textContent(`[data-field="${name}"]`);
+export const sentence = (page) => page.textContent("#sentence");
+export const view = (page, name) => page.click(`[data-view="${name}"]`);
+
+/** Serious findings of axe-core, as one text each. */
+export async function findings(page) {
+  await page.evaluate(axeSource);
+  const result = await page.evaluate(() => globalThis.axe.run());
+  return result.violations
+    .filter((one) => ["serious", "critical"].includes(one.impact))
+    .map(
+      (one) =>
+        `${one.id}: ${one.help}: ${one.nodes
+          .map((node) => node.html.slice(0, 160))
+          .slice(0, 3)
+          .join(" | ")}`,
+    );
+}

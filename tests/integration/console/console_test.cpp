@@ -1,0 +1,185 @@
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "console_fixture.hpp"
+
+namespace fathom::test {
+namespace {
+
+using nlohmann::json;
+const std::string kLive = "GET /api/live HTTP/1.1\r\nConnection: close\r\nHost: ";
+
+TEST_F(ConsoleTest, ThePageComesWholeAndWithItsGuards) {
+  start_and_wait(210);
+  const HttpAnswer page = get("/");
+  for (const char* header :
+       {"Content-Security-Policy: default-src 'none'; script-src 'self'", "frame-ancestors 'none'",
+        "X-Content-Type-Options: nosniff", "Referrer-Policy: no-referrer", "Cache-Control: no-cache",
+        "Content-Type: text/html", "ETag: "}) {
+    EXPECT_NE(page.head.find(header), std::string::npos) << header << "\n" << page.head;
+  }
+  // Every file that the page names is there.
+  std::set<std::string> files;
+  for (const char* mark : {"src=\"", "href=\"/"}) {
+    for (std::size_t at = page.body.find(mark); at != std::string::npos; at = page.body.find(mark, at + 1)) {
+      const std::size_t from = page.body.find('"', at) + 1;
+      files.insert(page.body.substr(from, page.body.find('"', from) - from));
+    }
+  }
+  EXPECT_GE(files.size(), 8U);
+  for (const std::string& file : files) EXPECT_EQ(get(file).status, 200) << file;
+  EXPECT_EQ(page.body.find("http://"), std::string::npos) << "nothing from elsewhere";
+
+  const std::size_t etag = page.head.find("ETag: ") + 6;
+  const std::string known = page.head.substr(etag, page.head.find("\r\n", etag) - etag);
+  EXPECT_EQ(get("/", "If-None-Match: " + known + "\r\n").status, 304);
+  EXPECT_EQ(get("/nothing.js").status, 404);
+  EXPECT_NE(get("/nothing.js").head.find("nosniff"), std::string::npos);
+}
+
+TEST_F(ConsoleTest, ABrowserSeesWhatDdsSays) {
+  start_and_wait(211);
+  HttpPeer peer(port);
+  peer.say(kLive + host() + "\r\n\r\n");
+  const auto snapshot = peer.event("snapshot");
+  ASSERT_TRUE(snapshot.has_value() && snapshot->is_object());
+  keep_navigating(true);
+  json tick;
+  const auto next_until = [&](const std::function<bool()>& condition) {
+    return wait_until(
+        [&] {
+          network->monitor(true);
+          network->life_sign("fusion");
+          const auto event = peer.event("tick");
+          if (!event || !event->is_object()) return false;
+          tick = *event;
+          return condition();
+        },
+        kPatienceS);
+  };
+  ASSERT_TRUE(next_until([&] { return tick["trust"]["level"] == "good"; })) << tick.dump();
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  EXPECT_NEAR(tick["status"]["navigation"]["lat_deg"].get<double>(), 0.6 / kDegree, 1e-9);
+  EXPECT_NEAR(tick["status"]["navigation"]["lon_deg"].get<double>(), 2.2 / kDegree, 1e-9);
+  EXPECT_GT(tick["tick"].get<std::int64_t>(), (*snapshot)["tick"].get<std::int64_t>());
+
+  network->alarm("gps_outage", true);
+  EXPECT_TRUE(next_until([&] { return tick["status"]["alarms"].size() == 1; }));
+  network->gps(true);
+  EXPECT_TRUE(next_until([&] { return tick["fixes"].size() == 1; }));
+
+  // The last state becomes older and older; nobody else has to say so.
+  keep_navigating(false);
+  EXPECT_TRUE(
+      next_until([&] { return tick["trust"]["sentence"].get<std::string>().starts_with("No navigation"); }));
+  const double age_s = tick["status"]["navigation"]["age_s"].get<double>();
+  RecordProperty("no_navigation_after_s", std::to_string(age_s));
+
+  // Somebody who comes now gets what was before.
+  HttpPeer later(port);
+  later.say(kLive + host() + "\r\n\r\n");
+  const auto history = later.event("snapshot");
+  ASSERT_TRUE(history.has_value());
+  EXPECT_GE((*history)["nav"].size(), 1U);
+  EXPECT_EQ((*history)["fixes"].size(), 1U);
+}
+
+TEST_F(ConsoleTest, OrdersNeedAnOperatorAndLeaveATrace) {
+  start_and_wait(212, {"access.orders=true"});
+  std::mutex mutex;
+  std::vector<Command> heard;
+  const bus::Reader<Command> ear(network->participant(), [&](const Command& command, const bus::SampleInfo&) {
+    const std::lock_guard lock(mutex);
+    heard.push_back(command);
+  });
+  ASSERT_TRUE(wait_until([&] { return ear.matched_writers() > 1; }, kPatienceS))
+      << "the console's and the network's own";
+  const json acknowledge = {{"kind", "acknowledge_alarm"}, {"target", "gps_outage"}};
+  EXPECT_EQ(order(acknowledge, "").status, 401);
+  EXPECT_EQ(order(acknowledge, "wrong-0123456789012").status, 401);
+  EXPECT_EQ(order(acknowledge, kViewerToken).status, 403);
+  EXPECT_EQ(order({{"kind", "self_destruct"}}, kOperatorToken).status, 400);
+  const HttpAnswer taken = order(acknowledge, kOperatorToken);
+  EXPECT_EQ(taken.status, 200) << taken.body;
+  ASSERT_TRUE(wait_until(
+      [&] {
+        const std::lock_guard lock(mutex);
+        return !heard.empty();
+      },
+      kPatienceS));
+  const std::lock_guard lock(mutex);
+  ASSERT_EQ(heard.size(), 1U) << "the refused ones did not reach the vehicle";
+  EXPECT_EQ(heard[0].kind, CommandKind::acknowledge_alarm);
+  EXPECT_EQ(heard[0].target, Name("gps_outage"));
+  EXPECT_EQ(heard[0].header.sensor, Name("console:bridge"));
+  EXPECT_EQ(heard[0].header.vehicle, Name("auv"));
+  const std::string log = console->err();
+  EXPECT_NE(log.find("passed on an order of bridge (operator) from 127.0.0.1: acknowledge_alarm gps_outage"),
+            std::string::npos)
+      << log;
+  EXPECT_NE(log.find("refused an order of guest (viewer)"), std::string::npos) << log;
+  for (const char* secret : {kOperatorToken, kViewerToken, "wrong-0123456789012"}) {
+    EXPECT_EQ(log.find(secret), std::string::npos) << "tokens stay out of the log";
+  }
+}
+
+TEST_F(ConsoleTest, OrdersAreOffUnlessSwitchedOn) {
+  start_and_wait(213);
+  EXPECT_EQ(order({{"kind", "realign"}}, kOperatorToken).status, 403);
+  const auto session =
+      json::parse(get("/api/session", std::string("Authorization: Bearer ") + kOperatorToken + "\r\n").body);
+  EXPECT_EQ(session["role"], "operator");
+  EXPECT_EQ(session["orders"], false);
+}
+
+TEST_F(ConsoleTest, SeeingMayNeedATokenAsWell) {
+  start_and_wait(214, {"access.view_needs_token=true"});
+  EXPECT_EQ(get("/").status, 200) << "the page itself says nothing";
+  EXPECT_EQ(get("/api/session").status, 401);
+  EXPECT_EQ(get("/api/live").status, 401);
+  EXPECT_EQ(get("/api/live", "Authorization: Bearer wrong-0123456789012\r\n").status, 401);
+  HttpPeer peer(port);
+  peer.say(kLive + host() + "\r\nAuthorization: Bearer " + kViewerToken + "\r\n\r\n");
+  EXPECT_TRUE(peer.event("snapshot").has_value());
+}
+
+TEST_F(ConsoleTest, APortThatIsTakenIsTriedAgain) {
+  start(215);
+  console->kill(SIGTERM);
+  (void)console->wait();
+  const int taken = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  const int on = 1;
+  setsockopt(taken, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(bind(taken, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(listen(taken, 1), 0);
+  network.reset();
+  std::filesystem::remove(token_file);
+  start(215);
+  EXPECT_TRUE(wait_until(
+      [&] { return console->err().find("cannot listen at 127.0.0.1") != std::string::npos; }, kPatienceS))
+      << console->err();
+  close(taken);
+  EXPECT_TRUE(wait_until([&] { return get("/").status == 200; }, kPatienceS)) << console->err();
+}
+
+TEST(Console, ATokenFileThatOthersMayReadEndsIt) {
+  const auto file =
+      std::filesystem::temp_directory_path() / ("fathom-console-open-" + std::to_string(getpid()));
+  std::ofstream(file) << "{}";
+  chmod(file.c_str(), 0644);
+  setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
+  Process console("fathom-console",
+                  {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/console.json", "--set",
+                   "bus.domain=216", "--set", "access.token_file=" + file.string()});
+  EXPECT_EQ(console.wait(), 2);
+  EXPECT_NE(console.err().find("expected mode 0600"), std::string::npos) << console.err();
+  std::filesystem::remove(file);
+}
+
+}  // namespace
+}  // namespace fathom::test

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <nlohmann/json.hpp>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+namespace fathom::test {
+
+struct HttpAnswer {
+  int status = 0;  ///< 0: none came
+  std::string head;
+  std::string body;
+};
+
+/// A socket that says whatever it is told, as no browser would.
+class HttpPeer {
+ public:
+  explicit HttpPeer(int port, int receive_buffer = 0)
+      : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    if (receive_buffer > 0)
+      setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+    const timeval patience{120, 0};
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  }
+  ~HttpPeer() { close(socket_); }
+  HttpPeer(const HttpPeer&) = delete;
+  HttpPeer& operator=(const HttpPeer&) = delete;
+
+  [[nodiscard]] bool connected() const { return connected_; }
+  /// What the other side closed meanwhile takes no more; the answer tells.
+  void say(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t sent = send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      if (sent <= 0) return;
+      bytes.remove_prefix(static_cast<std::size_t>(sent));
+    }
+  }
+  /// Everything until the other side closes.
+  [[nodiscard]] HttpAnswer hear() {
+    while (receive()) {
+    }
+    HttpAnswer answer;
+    const std::size_t end = heard_.find("\r\n\r\n");
+    if (!heard_.starts_with("HTTP/1.1 ") || end == std::string::npos) return answer;
+    answer.status = std::atoi(heard_.c_str() + 9);
+    answer.head = heard_.substr(0, end + 2);
+    answer.body = heard_.substr(end + 4);
+    return answer;
+  }
+  [[nodiscard]] HttpAnswer exchange(std::string_view request) {
+    say(request);
+    return hear();
+  }
+  /// Of a live stream: the next event of a kind. Nothing when the stream ended.
+  [[nodiscard]] std::optional<nlohmann::json> event(const std::string& kind) {
+    const std::string mark = "event: " + kind + "\ndata: ";
+    while (true) {
+      const std::size_t begin = heard_.find(mark);
+      const std::size_t end = begin == std::string::npos ? begin : heard_.find("\n\n", begin);
+      if (end != std::string::npos) {
+        const std::size_t from = begin + mark.size();
+        auto value = nlohmann::json::parse(heard_.substr(from, end - from), nullptr, false);
+        heard_.erase(0, end + 2);
+        return value;
+      }
+      if (!receive()) return std::nullopt;
+    }
+  }
+
+ private:
+  bool receive() {
+    char chunk[65536];
+    const ssize_t got = recv(socket_, chunk, sizeof chunk, 0);
+    if (got <= 0) return false;
+    heard_.append(chunk, static_cast<std::size_t>(got));
+    return true;
+  }
+
+  int socket_;
+  bool connected_ = false;
+  std::string heard_;
+};
+
+}  // namespace fathom::test

@@ -1,0 +1,225 @@
+#include "console/picture.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "console/fan_out.hpp"
+#include "console/picture_json.hpp"
+
+namespace fathom::console {
+namespace {
+
+constexpr TimeNs kUtc = 1'700'000'000 * kNsPerSecond;
+constexpr double kDegree = M_PI / 180.0;
+
+/// A vehicle seen by a console, with its own clock.
+struct Scene {
+  Picture picture{{"auv", 3, 0.7}};
+  health::Instant now{kNsPerSecond, kUtc};
+
+  void wait(double seconds) {
+    now.monotonic_ns += from_seconds(seconds);
+    now.utc_ns += from_seconds(seconds);
+  }
+  template <class T>
+  void add(T sample, const char* sensor, const char* vehicle = "auv") {
+    sample.header.vehicle = vehicle;
+    sample.header.sensor = sensor;
+    if (sample.header.stamp_ns == 0) sample.header.stamp_ns = now.utc_ns;
+    if (sample.header.received_ns == 0) sample.header.received_ns = now.utc_ns;
+    picture.add(sample, now);
+  }
+  void nav() {
+    NavState state;
+    state.mode = NavMode::gps_aided;
+    state.latitude_rad = 36.4 * kDegree;
+    state.longitude_rad = 127.4 * kDegree;
+    state.position_covariance_N_m2 = {4, 1, 0, 1, 9, 0, 0, 0, 9};
+    add(state, "fusion");
+  }
+  void gps(TimeNs stamp_ns) {
+    GpsSample sample;
+    sample.header.stamp_ns = stamp_ns;
+    sample.fix = GpsFix::fix_3d;
+    sample.latitude_rad = 36.4 * kDegree;
+    sample.longitude_rad = 127.4 * kDegree;
+    add(sample, "gps");
+  }
+  void verdict(TimeNs stamp_ns, VerdictKind kind, const char* sensor = "gps") {
+    Verdict out;
+    out.header.stamp_ns = stamp_ns;
+    out.header.received_ns = stamp_ns + 80 * kNsPerMillisecond;
+    out.source = SourceKind::gps;
+    out.model = "gps_position";
+    out.kind = kind;
+    out.dimensions = 2;
+    out.innovation = {0.5, -0.25};
+    out.innovation_sigma = {1.0, 2.0};
+    out.test_ratio = 0.125;
+    add(out, sensor);
+  }
+  nlohmann::json tick() { return nlohmann::json::parse(tick_json(picture.tick(now))); }
+  nlohmann::json snapshot() { return nlohmann::json::parse(snapshot_json(picture.snapshot())); }
+};
+
+TEST(Picture, WithNothingHeardEverythingIsUnknownAndStillJson) {
+  Scene scene;
+  const auto tick = scene.tick();
+  EXPECT_EQ(tick["tick"], 1);
+  EXPECT_EQ(tick["trust"]["level"], "bad");
+  EXPECT_TRUE(tick["status"]["navigation"].is_null());
+  EXPECT_EQ(tick["status"]["domain"], 3);
+  EXPECT_TRUE(tick["nav"].empty());
+  const auto snapshot = scene.snapshot();
+  EXPECT_EQ(snapshot["tick"], 1);
+  EXPECT_EQ(snapshot["nav_columns"].size(), kNavColumns.size());
+  EXPECT_EQ(snapshot["verdict_kinds"].size(), kVerdictKinds);
+}
+
+TEST(Picture, ATickSaysWhatDdsSaid) {
+  Scene scene;
+  scene.nav();
+  scene.wait(0.05);
+  const auto tick = scene.tick();
+  EXPECT_NEAR(tick["status"]["navigation"]["lat_deg"].get<double>(), 36.4, 1e-9);
+  EXPECT_NEAR(tick["status"]["navigation"]["age_s"].get<double>(), 0.05, 1e-6);
+  EXPECT_EQ(tick["horizontal_covariance_m2"], nlohmann::json::array({4, 1, 9}));
+  ASSERT_EQ(tick["nav"].size(), 1U);
+  ASSERT_EQ(tick["nav"][0].size(), 1 + kNavColumns.size());
+  EXPECT_NEAR(tick["nav"][0][1].get<double>(), 36.4, 1e-8);
+  EXPECT_TRUE(tick["nav"][0][3].is_null()) << "an altitude that is unknown";
+  EXPECT_TRUE(scene.tick()["nav"].empty()) << "said once";
+  EXPECT_EQ(scene.snapshot()["nav"].size(), 1U);
+}
+
+TEST(Picture, NavigationThatStoppedIsGoneBeforeASecondIsOver) {
+  Scene scene;
+  scene.nav();
+  scene.wait(0.6);
+  EXPECT_EQ(scene.tick()["trust"]["sentence"].get<std::string>().find("No navigation"), std::string::npos);
+  scene.wait(0.2);
+  EXPECT_EQ(scene.tick()["trust"]["sentence"].get<std::string>().find("No navigation"), 0U);
+}
+
+TEST(Picture, AFixIsShownWithItsVerdictWhicheverCameFirst) {
+  Scene scene;
+  scene.gps(kUtc);
+  EXPECT_TRUE(scene.tick()["fixes"].empty()) << "waits for its verdict";
+  scene.verdict(kUtc, VerdictKind::rejected);
+  const auto rejected = scene.tick()["fixes"];
+  ASSERT_EQ(rejected.size(), 1U);
+  EXPECT_EQ(rejected[0][6], static_cast<int>(VerdictKind::rejected));
+  EXPECT_EQ(rejected[0][4], "gps");
+  scene.verdict(kUtc + 2 * kNsPerSecond, VerdictKind::used);
+  scene.gps(kUtc + 2 * kNsPerSecond);
+  EXPECT_EQ(scene.tick()["fixes"][0][6], 0);
+  scene.gps(kUtc + 4 * kNsPerSecond);
+  scene.wait(3.0);
+  EXPECT_TRUE(scene.tick()["fixes"][0][6].is_null()) << "fusion never mentioned it";
+}
+
+TEST(Picture, SourcesAreCountedAndAged) {
+  Scene scene;
+  scene.verdict(kUtc, VerdictKind::used);
+  scene.wait(1.5);
+  scene.verdict(kUtc + kNsPerSecond, VerdictKind::rejected);
+  const auto source = scene.tick()["sources"][0];
+  EXPECT_EQ(source["sensor"], "gps");
+  EXPECT_EQ(source["last"], "rejected");
+  EXPECT_NEAR(source["since_used_s"].get<double>(), 1.5, 1e-6);
+  EXPECT_NEAR(source["latency_s"].get<double>(), 0.08, 1e-6);
+  EXPECT_EQ(source["counts"][0], 1);
+  EXPECT_EQ(source["counts"][1], 1);
+  const auto series = scene.snapshot()["verdicts"][0];
+  EXPECT_EQ(series["model"], "gps_position");
+  EXPECT_EQ(series["rows"][0].size(), 4U + 2U * 2U);
+  EXPECT_EQ(series["rows"][0][4], 0.5);
+}
+
+TEST(Picture, OtherVehiclesAreNotShown) {
+  Scene scene;
+  NavState foreign;
+  scene.add(foreign, "fusion", "other");
+  GpsSample fix;
+  fix.fix = GpsFix::fix_3d;
+  fix.latitude_rad = fix.longitude_rad = 0.1;
+  scene.add(fix, "gps", "other");
+  scene.wait(5.0);
+  const auto tick = scene.tick();
+  EXPECT_TRUE(tick["status"]["navigation"].is_null());
+  EXPECT_TRUE(tick["fixes"].empty());
+}
+
+TEST(Picture, ARestartIsCounted) {
+  Scene scene;
+  ServiceStatus status;
+  status.pid = 100;
+  status.started_ns = kUtc;
+  status.counters.push_back({"bus_incompatible_qos", 2});
+  scene.add(status, "fusion");
+  status.pid = 101;
+  status.started_ns = kUtc + 1;
+  scene.add(status, "fusion");
+  const auto service = scene.tick()["services"][0];
+  EXPECT_EQ(service["name"], "fusion");
+  EXPECT_EQ(service["restarts"], 1);
+  EXPECT_EQ(service["counters"][0][1], 2);
+}
+
+TEST(Picture, TextFromTheNetworkIsEscaped) {
+  Scene scene;
+  Alarm alarm;
+  alarm.alarm = "odd";
+  alarm.active = true;
+  alarm.text = "<script>\"\n\xff";
+  scene.add(alarm, "monitor");
+  EXPECT_EQ(tick_json(scene.picture.tick(scene.now)).find('\n'), std::string::npos)
+      << "one line: an event ends with the line";
+  EXPECT_EQ(scene.tick()["status"]["alarms"].size(), 1U);
+}
+
+TEST(Picture, ARelativeFixIsPlacedFromItsStation) {
+  Scene scene;
+  UsblSample sample;
+  sample.frame = UsblFrame::vessel_frd;
+  sample.relative_m = {100.0, 0.0, 20.0};
+  sample.station_latitude_rad = 36.4 * kDegree;
+  sample.station_longitude_rad = 127.4 * kDegree;
+  sample.station_rpy_rad = {0.0, 0.0, 90.0 * kDegree};
+  scene.add(sample, "usbl");
+  scene.wait(3.0);
+  const auto fix = scene.tick()["fixes"][0];
+  EXPECT_NEAR(fix[1].get<double>(), 36.4, 1e-6) << "the ship heads east: forward is east";
+  EXPECT_NEAR((fix[2].get<double>() - 127.4) * 111195 * std::cos(36.4 * kDegree), 100.0, 0.5);
+}
+
+TEST(FanOut, ASlowClientLosesItsOldestAndNobodyElseDoes) {
+  FanOut events(3, 2);
+  const auto slow = events.join();
+  const auto quick = events.join();
+  EXPECT_EQ(events.join(), nullptr) << "no more than two";
+  for (int i = 0; i < 5; ++i) {
+    events.publish(std::make_shared<const std::string>(std::to_string(i)));
+    EXPECT_EQ(*quick->wait(std::chrono::milliseconds(0)), std::to_string(i));
+  }
+  EXPECT_EQ(events.dropped(), 2U);
+  EXPECT_EQ(*slow->wait(std::chrono::milliseconds(0)), "2");
+  EXPECT_EQ(slow->wait(std::chrono::milliseconds(0)).use_count(), 1) << "the bytes are shared and let go";
+}
+
+TEST(FanOut, WhoLeavesMakesRoomAndClosingWakesEveryone) {
+  FanOut events(3, 1);
+  auto first = events.join();
+  first.reset();
+  const auto second = events.join();
+  ASSERT_NE(second, nullptr);
+  events.close();
+  EXPECT_EQ(second->wait(std::chrono::hours(1)), nullptr);
+  EXPECT_TRUE(second->closed());
+  EXPECT_EQ(events.join(), nullptr);
+}
+
+}  // namespace
+}  // namespace fathom::console

@@ -1,0 +1,98 @@
+// The parts of the console's page that need no browser: what it keeps, and how it writes numbers.
+import assert from "node:assert/strict";
+import test from "node:test";
+
+// What the modules ask a browser for.
+globalThis.localStorage = {getItem: () => null, setItem: () => {}};
+globalThis.matchMedia = () => ({matches: false, addEventListener: () => {}});
+globalThis.document = {documentElement: {dataset: {}}};
+globalThis.getComputedStyle = () => ({getPropertyValue: () => ""});
+
+const web = new URL("../../../services/console/web/js/", import.meta.url);
+const {store, takeSnapshot, takeTick, Table} = await import(new URL("store.js", web));
+const units = await import(new URL("units.js", web));
+const {setPref} = await import(new URL("prefs.js", web));
+
+const snapshot = (tick = 0) => ({
+  tick,
+  nav_columns: ["lat_deg", "lon_deg"],
+  verdict_kinds: ["used", "rejected"],
+  nav: [],
+  fixes: [],
+  verdicts: [],
+  detail_names: ["gyro_bias_x_rad_s"],
+  detail: [],
+});
+const tick = (number, ms, more = {}) => ({
+  tick: number,
+  nav: [[ms, 36.4, 127.4]],
+  fixes: [[ms, 36.4, 127.4, 1, "gps", "gps", 0]],
+  verdicts: [{index: 0, sensor: "dvl", model: "dvl_velocity", source: "dvl", rows: [[ms, 0, 0.1, 0.2, 1, 2, 3, 4]]}],
+  services: [],
+  detail: [[ms, 1, 2]],
+  ...more,
+});
+
+test("twelve hours take no more memory than ten minutes", () => {
+  takeSnapshot(snapshot());
+  let most = 0;
+  for (let i = 1; i <= 12 * 3600 * 5; ++i) {
+    takeTick(tick(i, i * 200));
+    most = Math.max(most, store.nav.length, store.fixes.length, store.detail.length);
+  }
+  assert.ok(most <= 3000 + 401, `${most} rows at most`);
+  assert.ok(store.series.get("dvl dvl_velocity").table.length <= 3401);
+  assert.equal(store.series.get("dvl dvl_velocity").dimensions, 2);
+});
+
+test("a tick that the snapshot holds already is left out", () => {
+  takeSnapshot(snapshot(10));
+  assert.equal(takeTick(tick(10, 1000)), false);
+  assert.equal(takeTick(tick(11, 1200)), true);
+  assert.equal(store.nav.length, 1);
+});
+
+test("other states begin anew", () => {
+  takeSnapshot(snapshot());
+  takeTick(tick(1, 1000));
+  takeTick(tick(2, 3000, {detail_names: ["a", "b"], detail: [[3000, 1, 2, 3, 4]]}));
+  assert.equal(store.detail.length, 1);
+  assert.deepEqual(store.detail.column("b"), [3]);
+});
+
+test("a table without such a column has an empty one", () => assert.deepEqual(new Table(["t"]).column("x"), []));
+
+test("numbers in the units that were chosen", () => {
+  assert.equal(units.length(10), "10.0 m");
+  assert.equal(units.speed(1), "1.00 m/s");
+  assert.equal(units.length(null), "–");
+  assert.equal(units.fixed(-0.001), "0.0");
+  assert.equal(units.latitude(-36.4), "-36.400000°");
+  setPref("length", "ft");
+  setPref("speed", "kn");
+  setPref("angle", "dms");
+  assert.equal(units.length(10), "32.8 ft");
+  assert.equal(units.speed(1), "1.94 kn");
+  assert.equal(units.latitude(-36.5), "36° 30′ 00.00″ S");
+  assert.equal(units.longitude(127.999999999), "128° 00′ 00.00″ E");
+  assert.equal(units.latitude(0), "0° 00′ 00.00″ N");
+});
+
+test("bearings lie between 0 and 360", () => {
+  assert.equal(units.bearing(-10), "350.0°");
+  assert.equal(units.bearing(359.96), "000.0°");
+  assert.equal(units.bearing(7.31), "007.3°");
+});
+
+test("durations read as the service writes them", () => {
+  assert.equal(units.duration(12.34), "12.3 s");
+  assert.equal(units.duration(252.4), "4 min 12 s");
+  assert.equal(units.duration(7385), "2 h 03 min");
+});
+
+test("states are grouped and get the units that people know", () => {
+  const {group, name, unit} = units.stateName("gyro_bias_x_rad_s");
+  assert.deepEqual([group, name, unit], ["gyro bias", "x", "deg/h"]);
+  assert.equal(units.stateName("current_north_m_s").unit, "m/s");
+  assert.equal(units.stateName("dvl_scale").unit, "‰");
+});
