@@ -12,6 +12,7 @@ namespace fathom::console {
 namespace {
 
 using namespace std::chrono_literals;
+constexpr std::size_t kMostSwallowed = 1'000'000;
 
 /// False when `events` did not come before the deadline.
 bool wait_for(int socket, short events, SteadyTime deadline) {
@@ -88,7 +89,7 @@ void Connection::linger() {
   shutdown(socket_, SHUT_WR);
   const auto deadline = std::chrono::steady_clock::now() + 1s;
   std::array<char, 4096> swallowed{};
-  for (std::size_t total = 0; total < 1024 * 1024;) {
+  for (std::size_t total = 0; total < kMostSwallowed;) {
     if (!wait_for(socket_, POLLIN, deadline)) return;
     const ssize_t got = recv(socket_, swallowed.data(), swallowed.size(), 0);
     if (got <= 0) return;

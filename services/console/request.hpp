@@ -10,8 +10,8 @@
 
 namespace fathom::console {
 
-inline constexpr std::size_t kMostHeadBytes = 16 * 1024;
-inline constexpr std::size_t kMostBodyBytes = 64 * 1024;
+inline constexpr std::size_t kMostHeadBytes = std::size_t{16} * 1024;
+inline constexpr std::size_t kMostBodyBytes = std::size_t{64} * 1024;
 
 /// Why a request is not answered as it hoped.
 struct Refusal {

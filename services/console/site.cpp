@@ -97,7 +97,7 @@ struct Site::Impl {
     router.set_default_headers(std::move(headers));
     router.set_payload_max_length(kMostBodyBytes);
     router.set_exception_handler(
-        [](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+        [](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) {
           put_json(response, 500, {{"text", "The console failed to answer."}});
         });
     router.Get("/api/session", [this](const auto& request, auto& response) { session(request, response); });
