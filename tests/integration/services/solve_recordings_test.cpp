@@ -54,7 +54,8 @@ TEST_F(SolveRecordings, RealVehicleStaysWithinOnePercentOfItsReference) {
     ++count;
   }
   ASSERT_GT(count, 0);
-  if (!kSanitized) EXPECT_LT(sum / count, 0.25);  // of them all
+  const double mean_limit = kSanitized ? 0.45 : 0.25;  // of one, of them all
+  EXPECT_LT(sum / count, mean_limit);
 }
 
 // The fixes of these recordings are stamped some hundredths of a second off their instant, and the reference
