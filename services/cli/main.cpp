@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   fathom::cli::add_simulate(app, exit_code);
   fathom::cli::add_study(app, exit_code);
   fathom::cli::add_bench(app, exit_code);
+  fathom::cli::add_doctor(app, exit_code);
 
   try {
     app.parse(argc, argv);

@@ -1,6 +1,8 @@
 #include "bus/detail/peer_book.hpp"
 
 #include <algorithm>
+#include <array>
+#include <tuple>
 
 namespace fathom::bus::detail {
 GuidPrefix prefix_of(const WriterGuid& guid) {
@@ -118,6 +120,48 @@ std::vector<std::string> PeerBook::type_conflicts(const std::string& topic, cons
     }
   }
   return conflicts;
+}
+
+Peer PeerBook::peer_locked(const WriterGuid& guid) const {
+  const auto found = participants_.find(prefix_of(guid));
+  Peer peer = found == participants_.end() ? Peer{} : found->second.peer;
+  if (peer.name.empty()) peer.name = hex(guid);
+  return peer;
+}
+
+std::vector<NetworkEndpoint> PeerBook::endpoints() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<NetworkEndpoint> out;
+  for (const auto& [guid, one] : writers_) out.push_back({peer_locked(guid), one.topic, one.type, true});
+  for (const auto& [guid, one] : readers_) out.push_back({peer_locked(guid), one.topic, one.type, false});
+  std::sort(out.begin(), out.end(), [](const NetworkEndpoint& a, const NetworkEndpoint& b) {
+    return std::tie(a.topic, b.writes, a.owner.name) < std::tie(b.topic, a.writes, b.owner.name);
+  });
+  return out;
+}
+
+std::vector<NetworkConflict> PeerBook::conflicts() const {
+  constexpr std::array kPolicies{Policy::reliability, Policy::durability, Policy::deadline, Policy::ownership,
+                                 Policy::liveliness};
+  const std::lock_guard lock(mutex_);
+  std::vector<NetworkConflict> out;
+  for (const auto& [writer_guid, writer] : writers_) {
+    for (const auto& [reader_guid, reader] : readers_) {
+      if (reader.topic != writer.topic) continue;
+      const Peer from = peer_locked(writer_guid);
+      const Peer to = peer_locked(reader_guid);
+      if (reader.type != writer.type) {
+        out.push_back({writer.topic, "type", from, writer.type, to, reader.type});
+        continue;
+      }
+      for (const Policy policy : kPolicies) {
+        if (!conflict(policy, writer.qos, reader.qos)) continue;
+        out.push_back({writer.topic, to_string(policy), from, value_text(policy, writer.qos), to,
+                       value_text(policy, reader.qos)});
+      }
+    }
+  }
+  return out;
 }
 
 }  // namespace fathom::bus::detail

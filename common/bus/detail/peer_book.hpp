@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bus/detail/qos_summary.hpp"
+#include "bus/network_map.hpp"
 #include "bus/participant.hpp"
 
 namespace fathom::bus::detail {
@@ -49,6 +50,9 @@ class PeerBook {
   /// Who uses this topic with another type than `type`, each as "type 'x' of name".
   [[nodiscard]] std::vector<std::string> type_conflicts(const std::string& topic,
                                                         const std::string& type) const;
+  /// Everything that others read and write, and what keeps any two of them apart.
+  [[nodiscard]] std::vector<NetworkEndpoint> endpoints() const;
+  [[nodiscard]] std::vector<NetworkConflict> conflicts() const;
 
  private:
   struct Known {
@@ -58,6 +62,7 @@ class PeerBook {
   static constexpr std::size_t kRemembered = 256;  ///< participants that left
 
   [[nodiscard]] std::string name_locked(const WriterGuid& guid) const;
+  [[nodiscard]] Peer peer_locked(const WriterGuid& guid) const;
 
   mutable std::mutex mutex_;
   std::map<GuidPrefix, Known> participants_;
