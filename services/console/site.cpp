@@ -105,7 +105,7 @@ struct Site::Impl {
     router.Post("/api/order", [this](const auto& request, auto& response) { order(request, response); });
     router.Get(R"(/tiles/(\d{1,2})/(\d{1,7})/(\d{1,7})\.png)",
                [this](const auto& request, auto& response) { tile(request, response); });
-    router.Get("/.*", [this](const auto& request, auto& response) { file(request, response); });
+    router.Get("/.*", [](const auto& request, auto& response) { file(request, response); });
     // Whatever no route takes, a POST elsewhere above all.
     router.set_error_handler([](const httplib::Request&, httplib::Response& response) {
       if (response.body.empty()) put_json(response, response.status, {{"text", "There is nothing here."}});

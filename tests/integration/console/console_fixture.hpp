@@ -88,7 +88,7 @@ class ConsoleTest : public ::testing::Test {
                "Content-Length: " + std::to_string(text.size()) + "\r\n\r\n" + text);
   }
 
-  const SystemClock clock;
+  SystemClock clock;
   int port = 0;
   std::filesystem::path token_file;
   std::unique_ptr<VehicleNetwork> network;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -117,7 +118,7 @@ class VehicleNetwork {
 
   const Clock& clock_;
   TimeNs began_ns_;
-  std::uint64_t sequence_ = 0;
+  std::atomic<std::uint64_t> sequence_{0};  ///< samples may be written from several threads
   bus::Participant participant_;
   bus::Writer<GpsSample> gps_{participant_};
   bus::Writer<NavState> nav_{participant_};
