@@ -12,6 +12,7 @@
 
 #include "dataset/dataset.hpp"
 #include "support/process.hpp"
+#include "support/sanitized.hpp"
 
 namespace fathom::test {
 namespace {
@@ -78,6 +79,7 @@ TEST_P(RecordedHeading, IsFoundWithoutHelpAndNeverConfidentlyWrong) {
 }
 
 TEST_P(RecordedHeading, FromWhereverTheRecordingIsCut) {
+  if (kSanitized) GTEST_SKIP() << "sanitized: the whole recording runs through the same code";
   const Vehicle& vehicle = GetParam();
   const dataset::Dataset whole =
       dataset::read(std::string(FATHOM_DATASETS) + "/" + vehicle.name, {dataset::kDefaultEpochNs, "auv"});
@@ -99,6 +101,7 @@ TEST_P(RecordedHeading, FromWhereverTheRecordingIsCut) {
 }
 
 TEST_P(RecordedHeading, CostsNoPositionDuringOutages) {
+  if (kSanitized) GTEST_SKIP() << "sanitized: the whole recording runs through the same code";
   const Vehicle& vehicle = GetParam();
   const auto metrics =
       solve(std::string(FATHOM_DATASETS) + "/" + vehicle.name, {"--gps-outage", vehicle.windows});

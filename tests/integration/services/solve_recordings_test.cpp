@@ -7,15 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "solve_fixture.hpp"
+#include "support/sanitized.hpp"
 
 namespace fathom::test {
 namespace {
-
-#ifdef FATHOM_SANITIZED
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 class SolveRecordings : public SolveTest {
  protected:
