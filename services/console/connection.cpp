@@ -49,6 +49,10 @@ Connection::Outcome Connection::receive(SteadyTime deadline) {
   }
 }
 
+bool Connection::wait_for_request(SteadyTime deadline) {
+  return has_started() || receive(deadline) == Outcome::complete;
+}
+
 Connection::Outcome Connection::read_head(std::string& head, std::size_t most, SteadyTime deadline) {
   while (true) {
     const std::size_t end = buffer_.find("\r\n\r\n");

@@ -22,6 +22,8 @@ class Connection {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
+  /// Waits for the first byte of a request. False when none came by then, or the peer is gone.
+  [[nodiscard]] bool wait_for_request(SteadyTime deadline);
   /// Reads up to and including the empty line.
   [[nodiscard]] Outcome read_head(std::string& head, std::size_t most, SteadyTime deadline);
   [[nodiscard]] Outcome read_body(std::string& body, std::size_t length, SteadyTime deadline);

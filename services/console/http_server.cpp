@@ -150,25 +150,24 @@ struct HttpServer::Impl {
 
   void converse(Connection& connection, const std::string& peer) {
     while (!stopping) {
+      if (!connection.wait_for_request(Clock::now() + options.idle_deadline)) return;
       const auto began = Clock::now();
       std::string bytes;
       const auto outcome = connection.read_head(bytes, kMostHeadBytes, began + options.head_deadline);
-      if (outcome != Connection::Outcome::complete) return give_up(connection, outcome, true, peer);
+      if (outcome != Connection::Outcome::complete) return give_up(connection, outcome, peer);
       auto parsed = parse_head(bytes);
       if (const auto* refusal = std::get_if<Refusal>(&parsed)) return answer(connection, *refusal, peer);
       const auto& head = std::get<RequestHead>(parsed);
       if (const auto refusal = judge_request(head, hosts)) return answer(connection, *refusal, peer);
       std::string body;
       const auto rest = connection.read_body(body, head.content_length, began + options.request_deadline);
-      if (rest != Connection::Outcome::complete) return give_up(connection, rest, false, peer);
+      if (rest != Connection::Outcome::complete) return give_up(connection, rest, peer);
       ++requests;
       if (!serve(head, body, peer, connection) || !head.keep_alive) return connection.linger();
     }
   }
 
-  void give_up(Connection& connection, Connection::Outcome outcome, bool in_head, const std::string& peer) {
-    // Closing between two requests, or never beginning one, is everyone's right.
-    if (in_head && !connection.has_started()) return;
+  void give_up(Connection& connection, Connection::Outcome outcome, const std::string& peer) {
     if (outcome == Connection::Outcome::timed_out) answer(connection, {408, "too_slow"}, peer);
     if (outcome == Connection::Outcome::oversized) answer(connection, {431, "oversized_head"}, peer);
   }

@@ -23,7 +23,9 @@ class HttpServer {
     std::vector<std::string> names;  ///< besides the address, of this host
     std::size_t most_connections = 128;
     std::size_t most_per_peer = 96;
-    std::chrono::milliseconds head_deadline{5000};
+    /// A browser opens connections ahead of its requests, and keeps them for the next.
+    std::chrono::milliseconds idle_deadline{30000};
+    std::chrono::milliseconds head_deadline{5000};  ///< from its first byte
     std::chrono::milliseconds request_deadline{10000};
   };
   struct Counters {

@@ -93,6 +93,11 @@ export async function startBrowser() {
       page.on("console", (message) => ["error", "warning"].includes(message.type()) && complain(message.text()));
       page.on("pageerror", (error) => complain(String(error.stack)));
       await page.goto(address, {timeout: kPatienceMs});
+      // On a machine that stands still for seconds a browser may give up a file of the page; a person reloads then.
+      for (let tries = 0; tries < 3; ++tries) {
+        if (await page.waitForSelector("#link.live", {timeout: kPatienceMs / 4}).then(() => true, () => false)) break;
+        await page.reload({timeout: kPatienceMs});
+      }
       await page.waitForSelector("#link.live");
       await until("the first data on the page", () =>
         page.evaluate(async () => (await import("/js/store.js")).store.tick !== null),
