@@ -68,7 +68,15 @@ TEST_F(FusionRestart, GoesOnFromItsCheckpointWithTheFirstInertialSample) {
   begin_and_kill(166);
   vehicle->run(100, false);  // a second of the vehicle that nobody saw
   launch();
-  // The dead one may still count as a reader: what the vehicle says now may go to nobody.
+  // The dead one may still count as a reader, and the vehicle's time must not run far ahead of a slow start:
+  // it waits for the new one's life sign, and speaks until it is heard.
+  ASSERT_TRUE(wait_until(
+      [&] {
+        const auto status = ear->service();
+        return status && status->pid == static_cast<std::uint32_t>(fusion->pid());
+      },
+      60.0))
+      << fusion->err();
   ASSERT_TRUE(wait_until(
       [&] {
         vehicle->run(5, false);
