@@ -24,6 +24,15 @@ export function card(kind, title, tools, ...content) {
   return el("section", {class: "card " + kind, "aria-label": title}, head, ...content);
 }
 
+/** A table with its heads over `body`; a head that ends in "#" stands over numbers. */
+export function tableOf(heads, body) {
+  const cells = heads.map((head) => {
+    const numbers = head.endsWith("#");
+    return el("th", {scope: "col", class: numbers ? "n" : null}, numbers ? head.slice(0, -1) : head);
+  });
+  return el("table", {}, el("thead", {}, el("tr", {}, ...cells)), body);
+}
+
 /** A table in a box of its own that scrolls, reachable by keyboard. */
 export const scroller = (label, ...content) =>
   el("div", {class: "scroll", tabindex: 0, role: "group", "aria-label": label}, ...content);

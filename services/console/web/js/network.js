@@ -1,9 +1,9 @@
 // Services and what they say about the vehicle network.
-import {card, el, put, reconcile, scroller} from "./dom.js";
+import {card, el, put, reconcile, scroller, tableOf} from "./dom.js";
 import {store} from "./store.js";
 import * as units from "./units.js";
 
-const kHead = ["Service", "State", "Heard", "Up for", "Restarts", "Process", "Version", "QoS mismatches", "Lost"];
+const kHead = ["Service", "State", "Heard#", "Up for#", "Restarts#", "Process", "Version", "QoS mismatches#", "Lost#"];
 const kStates = {
   healthy: ["✔", "good-text"],
   degraded: ["✖", "bad-text"],
@@ -13,35 +13,14 @@ const kStates = {
 
 export function makeNetwork() {
   const rows = el("tbody");
-  const table = el(
-    "table",
-    {},
-    el(
-      "thead",
-      {},
-      el(
-        "tr",
-        {},
-        ...kHead.map((text, i) => el("th", {scope: "col", class: [2, 3, 4, 7, 8].includes(i) ? "n" : null}, text)),
-      ),
-    ),
-    rows,
-  );
+  const table = tableOf(kHead, rows);
   const counters = el("tbody");
   let chosen = null;
   const side = card(
     "",
     "Counters",
     [],
-    scroller(
-      "Counters",
-      el(
-        "table",
-        {},
-        el("thead", {}, el("tr", {}, el("th", {}, "Counter"), el("th", {class: "n"}, "Value"))),
-        counters,
-      ),
-    ),
+    scroller("Counters", tableOf(["Counter", "Value#"], counters)),
   );
   const sideTitle = side.querySelector("h2");
   const root = el("div", {class: "view network"}, card("", "Services", [], scroller("Services", table)), side);
@@ -51,7 +30,7 @@ export function makeNetwork() {
       "tr",
       {"data-service": line.name},
       el("td", {}, el("button", {type: "button", onclick: () => (chosen = line.name)}, units.words(line.name))),
-      ...kHead.slice(1).map((_, i) => el("td", {class: [1, 2, 3, 6, 7].includes(i) ? "n" : null})),
+      ...kHead.slice(1).map((head) => el("td", {class: head.endsWith("#") ? "n" : null})),
     );
 
   function update(row, line) {

@@ -1,6 +1,6 @@
 // What one reads first: numbers, alarms, alignment, the GPS clock, and when each source was last used.
 import {makeAttitude} from "./attitude.js";
-import {card, el, field, put, reconcile, scroller, verdictLook} from "./dom.js";
+import {card, el, field, put, reconcile, scroller, tableOf, verdictLook} from "./dom.js";
 import {ForecastCurve} from "./forecast.js";
 import {ask, mayOrder, onSession, order} from "./orders.js";
 import {store} from "./store.js";
@@ -76,26 +76,7 @@ export function makeOverview() {
     "sources",
     "Sources",
     [],
-    scroller(
-      "Sources",
-      el(
-        "table",
-        {},
-        el(
-          "thead",
-          {},
-          el(
-            "tr",
-            {},
-            el("th", {}, "Source"),
-            el("th", {}, "Last verdict"),
-            el("th", {class: "n"}, "Used"),
-            el("th", {class: "n"}, "Rate"),
-          ),
-        ),
-        ages,
-      ),
-    ),
+    scroller("Sources", tableOf(["Source", "Last verdict", "Used#", "Rate#"], ages)),
   );
   const root = el("div", {class: "view overview"}, place, gps, alarms, motion, alignment, sources);
 

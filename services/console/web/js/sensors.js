@@ -1,5 +1,5 @@
 // Each source: how it is, what fusion makes of it, and the switch.
-import {card, el, put, reconcile, scroller, verdictLook} from "./dom.js";
+import {card, el, put, reconcile, scroller, tableOf, verdictLook} from "./dom.js";
 import {ask, mayOrder, order} from "./orders.js";
 import {Plot, plotControls} from "./plot.js";
 import {store} from "./store.js";
@@ -9,14 +9,14 @@ const kHead = [
   "Source",
   "Kind",
   "Presence",
-  "Rate",
-  "Latency",
-  "Last used",
+  "Rate#",
+  "Latency#",
+  "Last used#",
   "Last verdict",
-  "Used",
-  "Not used",
-  "Test ratio",
-  "",
+  "Used#",
+  "Not used#",
+  "Test ratio#",
+  "Switch",
 ];
 const kPresence = {
   present: ["✔", "good-text"],
@@ -28,22 +28,7 @@ const kPresence = {
 export function makeSensors() {
   let chosen = null;
   const rows = el("tbody");
-  const table = el(
-    "table",
-    {},
-    el(
-      "thead",
-      {},
-      el(
-        "tr",
-        {},
-        ...kHead.map((text, i) =>
-          el("th", {class: i >= 3 && i !== 6 && i < 10 ? "n" : null, scope: "col"}, text || "Switch"),
-        ),
-      ),
-    ),
-    rows,
-  );
+  const table = tableOf(kHead, rows);
   const plotCard = card("", "Test ratio", [plotControls(false)]);
   const title = plotCard.querySelector("h2");
   const plot = new Plot(plotCard, {
@@ -65,24 +50,8 @@ export function makeSensors() {
     [],
     scroller(
       "Verdicts",
-      el("table", {}, el("thead", {}, el("tr", {}, el("th", {}, "Reason"), el("th", {class: "n"}, "Count"))), reasons),
-      el(
-        "table",
-        {},
-        el(
-          "thead",
-          {},
-          el(
-            "tr",
-            {},
-            el("th", {}, "UTC"),
-            el("th", {}, "Model"),
-            el("th", {}, "Verdict"),
-            el("th", {class: "n"}, "Ratio"),
-          ),
-        ),
-        last,
-      ),
+      tableOf(["Reason", "Count#"], reasons),
+      tableOf(["UTC", "Model", "Verdict", "Ratio#"], last),
     ),
   );
   const root = el(
@@ -120,7 +89,7 @@ export function makeSensors() {
 
   function makeRow(line) {
     const name = el("button", {type: "button", onclick: () => choose(line.name)}, line.name);
-    const cells = kHead.slice(1, 10).map((text, i) => el("td", {class: i >= 2 && i !== 5 ? "n" : null}));
+    const cells = kHead.slice(1, 10).map((head) => el("td", {class: head.endsWith("#") ? "n" : null}));
     const toggle = el("button", {type: "button", onclick: () => toggleSource(line.name)}, "Disable …");
     return el(
       "tr",
