@@ -20,9 +20,11 @@
 #include <unistd.h>
 
 #include "bus/detail/dds_log.hpp"
+#include "bus/detail/discovery.hpp"
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos.hpp"
 #include "bus/detail/sample_type.hpp"
+#include "bus/detail/security.hpp"
 
 namespace fathom::bus {
 namespace {
@@ -129,6 +131,10 @@ dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
   transports = {transport};
   qos.transport().use_builtin_transports = false;
 
+  if (detail::uses_servers(options)) {
+    detail::discover_through_servers(qos, options);
+    return qos;
+  }
   auto& builtin = qos.wire_protocol().builtin;
   for (const std::string& peer : options.peers) builtin.initialPeersList.push_back(locator("peer", peer));
   if (std::all_of(options.interfaces.begin(), options.interfaces.end(), loopback)) {
@@ -147,6 +153,7 @@ dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
 Peer to_peer(const rtps::ParticipantProxyData& data) {
   Peer peer;
   peer.name = data.m_participantName.to_string();
+  peer.offers_identity = !data.identity_token_.is_nil();
   const auto& user = data.m_userData.data_vec();
   const std::string text(user.begin(), user.end());
   const std::size_t host = text.find("host=");
@@ -190,6 +197,12 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
   const std::string profiles_dir = detail::find_profiles_dir(options.profiles_dir);
   detail::load_profiles(profiles_dir);
   dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);
+  if (!options.security.folder.empty()) {
+    credentials = detail::credentials_of(options);
+    detail::protect(qos, *credentials);
+    errors_.emplace([this](const std::string& message) { on_dds_error(message); });
+  }
+  if (!options.discovery_listen.empty()) detail::outlast_predecessor(qos);
   number_ = participant_numbers().take();
   qos.wire_protocol().participant_id = number_;
 
@@ -287,7 +300,11 @@ void Participant::Impl::on_participant_discovery(dds::DomainParticipant*,
   switch (info.status) {
     case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
     case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:
-      peers.participant_seen(prefix, to_peer(info.info));
+      if (credentials) {
+        meet(prefix, to_peer(info.info), info.info);  // one of the peers when it has proved who it is
+      } else {
+        peers.participant_seen(prefix, to_peer(info.info));
+      }
       return;
     case rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT:
       participant_dropped(prefix);
@@ -296,6 +313,7 @@ void Participant::Impl::on_participant_discovery(dds::DomainParticipant*,
       break;
   }
   peers.participant_gone(prefix);
+  if (credentials) part(prefix);
   const std::lock_guard lock(mutex_);
   std::erase_if(unmatched_, [&](const Unmatched& entry) { return detail::prefix_of(entry.guid) == prefix; });
 }
@@ -326,6 +344,7 @@ Participant::Participant(const ParticipantOptions& options) : impl_(std::make_un
 Participant::~Participant() = default;
 
 BusCounters Participant::counters() const {
+  impl_->judge_waiting();
   return impl_->events.counters();
 }
 
@@ -341,6 +360,22 @@ std::string Participant::writer_name(const WriterGuid& writer) const {
 }
 std::vector<Peer> Participant::peers() const {
   return impl_->peers.present();
+}
+std::vector<Stranger> Participant::strangers() const {
+  return impl_->strangers.present();
+}
+std::optional<TimeNs> Participant::credentials_until_ns() const {
+  if (!impl_->credentials) return std::nullopt;
+  return impl_->credentials->validity.until_ns;
+}
+std::optional<DurationNs> Participant::longest_silence_ns() const {
+  if (!impl_->credentials) return std::nullopt;
+  return detail::kProtectedLease_s * kNsPerSecond;
+}
+std::string Participant::credentials_warning(TimeNs now) const {
+  if (!impl_->credentials) return {};
+  const std::string ending = security::expiry_text(impl_->credentials->validity.until_ns, now);
+  return ending.empty() ? "" : "identity " + impl_->credentials->identity + " " + ending;
 }
 
 }  // namespace fathom::bus

@@ -16,6 +16,8 @@
 #include "samples/imu.hpp"
 #include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/replication.hpp"
+#include "samples/route.hpp"
 #include "samples/truth.hpp"
 #include "samples/usbl.hpp"
 #include "samples/verdict.hpp"
@@ -34,7 +36,7 @@ std::span<const TopicInfo> all_topics() {
   static const auto topics =
       infos<ImuSample, DvlSample, GpsSample, DepthSample, HeadingSample, UsblSample, AirspeedSample,
             PropulsionSample, FinsSample, NavState, NavDetail, Verdict, AlignmentStatus, Forecast, Alarm,
-            MonitorStatus, ServiceStatus, Command, Truth>();
+            MonitorStatus, ServiceStatus, Command, ReplicaStatus, EngineStatePart, Route, Truth>();
   return topics;
 }
 

@@ -14,6 +14,8 @@ struct WriterOptions {
   std::optional<DurationNs> deadline_ns;
   /// Exclusive topics: the strongest living writer is heard.
   std::int32_t ownership_strength = 0;
+  /// It falls silent by intent, while another writer speaks for it: its own missed deadlines are no event.
+  bool may_rest = false;
 };
 
 /// Publishes plain samples of type T on the topic of T (bus/topics/). Instantiated for every topic's type;

@@ -8,6 +8,7 @@
 
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
+#include "client/route_publisher.hpp"
 
 namespace fathom {
 namespace {
@@ -19,9 +20,13 @@ bus::ParticipantOptions participant_options(const ClientOptions& options) {
   out.interfaces = options.interfaces;
   out.peers = options.peers;
   out.profiles_dir = options.profiles_dir;
+  out.discovery_servers = options.discovery_servers;
   const char* environment = std::getenv("FATHOM_DDS_DIR");
   if (out.profiles_dir.empty() && environment != nullptr) out.profiles_dir = environment;
   if (out.profiles_dir.empty()) out.profiles_dir = options.package_profiles_dir;
+  out.security = {options.security.folder, options.security.identity};
+  const char* credentials = std::getenv("FATHOM_SECURITY_DIR");
+  if (out.security.folder.empty() && credentials != nullptr) out.security.folder = credentials;
   return out;
 }
 
@@ -51,7 +56,11 @@ struct Client::Impl {
       : options(client_options),
         clock(client_options.clock != nullptr ? *client_options.clock : system_clock),
         vehicle(client_options.vehicle),
-        participant(participant_options(client_options)) {
+        participant(participant_options(client_options)),
+        route_publisher(participant, clock, client_options.name, [this] {
+          const std::lock_guard lock(mutex);
+          return vehicle;
+        }) {
     nav_reader.emplace(participant, [this](const NavState& state, const bus::SampleInfo&) { take(state); });
     alignment_reader.emplace(participant, [this](const AlignmentStatus& status, const bus::SampleInfo&) {
       const std::lock_guard lock(mutex);
@@ -76,10 +85,19 @@ struct Client::Impl {
     return header.vehicle == vehicle;
   }
 
+  /// When one fusion service takes over from another, a state of the one may come in behind newer ones of the
+  /// other. Precondition: mutex held.
+  [[nodiscard]] bool overtaken(const NavState& state) const {
+    if (!latest || state.header.sensor == latest->header.sensor) return false;
+    const DurationNs behind_ns = latest->header.stamp_ns - state.header.stamp_ns;
+    return behind_ns > 0 && behind_ns < kNsPerSecond;
+  }
+
   void take(const NavState& state) {
     {
       const std::lock_guard lock(mutex);
       if (!ours(state.header)) return;
+      if (overtaken(state)) return;
       // A state that repeats its stamp is no news: its age goes on.
       if (!latest || latest->header.stamp_ns != state.header.stamp_ns) {
         arrived_ns = clock.monotonic_ns();
@@ -113,6 +131,7 @@ struct Client::Impl {
   Callback<Alarm> on_alarm;
 
   bus::Participant participant;
+  RoutePublisher route_publisher;
   // Last: their handlers use all of the above.
   std::optional<bus::Reader<NavState>> nav_reader;
   std::optional<bus::Reader<AlignmentStatus>> alignment_reader;
@@ -149,6 +168,10 @@ std::optional<NavState> Client::wait_next(double timeout_s) {
   if (!arrived) return std::nullopt;
   impl_->returned = impl_->arrivals;
   return impl_->latest;
+}
+
+void Client::publish_route(Route route) {
+  impl_->route_publisher.publish(std::move(route));
 }
 
 NavHealth Client::health() const {

@@ -1,8 +1,34 @@
 #include "config/common_config.hpp"
 
+#include <arpa/inet.h>
+
 #include "config/service_schema.hpp"
 
 namespace fathom::config {
+
+void describe(Schema<BusSecurityConfig>& s) {
+  s.field("folder", &BusSecurityConfig::folder,
+          "folder of the credentials that fathom keygen makes; empty: the network is not protected");
+  s.field("identity", &BusSecurityConfig::identity,
+          "whose credentials in the folder; empty: those of the service's name");
+  s.check([](const BusSecurityConfig& security) -> std::pair<std::string, std::string> {
+    if (security.folder.empty() && !security.identity.empty())
+      return {"folder", "one, because an identity is named"};
+    return {};
+  });
+}
+
+bool is_address_and_port(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return false;
+  in_addr address{};
+  if (inet_pton(AF_INET, text.substr(0, colon).c_str(), &address) != 1) return false;
+  const std::string port = text.substr(colon + 1);
+  if (port.empty() || port.size() > 5 || port.find_first_not_of("0123456789") != std::string::npos)
+    return false;
+  const int number = std::stoi(port);
+  return number >= 1 && number <= 65535;
+}
 
 void describe(Schema<BusConfig>& s) {
   s.field("domain", &BusConfig::domain, "DDS domain; services of one vehicle share it").range(0, 232);
@@ -11,8 +37,16 @@ void describe(Schema<BusConfig>& s) {
   s.field("peers", &BusConfig::peers, "addresses asked for discovery besides multicast");
   s.field("profiles_dir", &BusConfig::profiles_dir,
           "folder of the QoS XML files; empty: found beside the executable or where installed");
+  s.field("security", &BusConfig::security, "proof of identity, permissions and encryption");
+  s.field(
+      "discovery_servers", &BusConfig::discovery_servers,
+      "address:port of each fathom-discovery; others are then found through them alone, without multicast "
+      "and peers");
   s.check([](const BusConfig& bus) -> std::pair<std::string, std::string> {
     if (bus.interfaces.empty()) return {"interfaces", "at least one address"};
+    for (const std::string& server : bus.discovery_servers) {
+      if (!is_address_and_port(server)) return {"discovery_servers", kAddressAndPort};
+    }
     return {};
   });
 }
@@ -41,11 +75,22 @@ void describe(Schema<ClockConfig>& s) {
   });
 }
 
+void describe(Schema<RealtimeConfig>& s) {
+  s.field("policy", &RealtimeConfig::policy,
+          "scheduling of all threads of the service: as it was started, or SCHED_FIFO")
+      .words({{"other", SchedulingPolicy::other}, {"fifo", SchedulingPolicy::fifo}});
+  s.field("priority", &RealtimeConfig::priority, "of SCHED_FIFO, 1 is the lowest").range(1, 99);
+  s.field("lock_memory", &RealtimeConfig::lock_memory,
+          "keep what the service has in memory from being paged out");
+}
+
 void describe(Schema<CommonConfig>& s) {
   s.field("vehicle", &CommonConfig::vehicle, "name of the vehicle, the first key of every topic");
   s.field("bus", &CommonConfig::bus, "the vehicle network");
   s.field("log", &CommonConfig::log, "the service's log on standard error");
   s.field("clock", &CommonConfig::clock, "what the service calls now");
+  s.field("realtime", &CommonConfig::realtime,
+          "scheduling and memory; what is refused is said, and goes on without");
   s.check([](const CommonConfig& common) -> std::pair<std::string, std::string> {
     if (common.vehicle.empty() || common.vehicle.size() > Name::kCapacity) {
       return {"vehicle", "1 to " + std::to_string(Name::kCapacity) + " characters"};

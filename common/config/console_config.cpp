@@ -35,6 +35,22 @@ void describe(Schema<ConsoleHttpConfig>& s) {
   });
 }
 
+void describe(Schema<ConsoleTlsConfig>& s) {
+  s.field("certificate_file", &ConsoleTlsConfig::certificate_file,
+          "PEM file with the certificate and its chain; empty: http in clear");
+  s.field("key_file", &ConsoleTlsConfig::key_file,
+          "PEM file with the certificate's private key, mode 0600 or 0640, without a passphrase");
+  s.check([](const ConsoleTlsConfig& tls) -> Fault {
+    if (!tls.certificate_file.empty() && tls.key_file.empty()) {
+      return {"key_file", "a file, because certificate_file names one"};
+    }
+    if (tls.certificate_file.empty() && !tls.key_file.empty()) {
+      return {"certificate_file", "a file, because key_file names one"};
+    }
+    return {};
+  });
+}
+
 void describe(Schema<ConsoleAccessConfig>& s) {
   s.field("orders", &ConsoleAccessConfig::orders, "operators may give orders from the page");
   s.field("view_needs_token", &ConsoleAccessConfig::view_needs_token,
@@ -65,6 +81,7 @@ void describe(Schema<ConsoleMapConfig>& s) {
 void describe(Schema<ConsoleConfig>& s) {
   s.include(&ConsoleConfig::common);
   s.field("http", &ConsoleConfig::http, "where browsers find the console");
+  s.field("tls", &ConsoleConfig::tls, "https instead of http");
   s.field("access", &ConsoleConfig::access, "who may see and who may give orders");
   s.field("map", &ConsoleConfig::map, "the map");
   s.field("updates_hz", &ConsoleConfig::updates_hz,

@@ -19,6 +19,12 @@ struct ConsoleHttpConfig {
   int most_streams = 48;
 };
 
+/// Section "tls": both files, or none for http in clear.
+struct ConsoleTlsConfig {
+  std::string certificate_file;  ///< PEM, with its chain
+  std::string key_file;          ///< PEM, without a passphrase
+};
+
 /// Section "access": who may see and who may give orders.
 struct ConsoleAccessConfig {
   bool orders = false;            ///< orders from the page are taken at all
@@ -42,6 +48,7 @@ struct ConsoleMapConfig {
 struct ConsoleConfig {
   CommonConfig common;
   ConsoleHttpConfig http;
+  ConsoleTlsConfig tls;
   ConsoleAccessConfig access;
   ConsoleMapConfig map;
   double updates_hz = 10.0;  ///< to each browser

@@ -84,8 +84,20 @@ void describe(Schema<CheckpointConfig>& s) {
   s.field("sync", &CheckpointConfig::sync, "onto the disk each time, before the next");
 }
 
+void describe(Schema<StandbyConfig>& s) {
+  s.field("enabled", &StandbyConfig::enabled,
+          "this is one of several fusion services of the vehicle that keep the same state: the one of the "
+          "greatest ownership_strength leads, another one takes over when it falls silent");
+  s.field("listen_s", &StandbyConfig::listen_s,
+          "how long it listens for another one before it leads, after its start and after a silence")
+      .unit("s")
+      .range(0.05, 60);
+}
+
 void describe(Schema<FusionConfig>& s) {
   s.include(&FusionConfig::common);
+  s.field("instance", &FusionConfig::instance,
+          "name of this service; of several fusion services on one vehicle each has its own");
   s.field("imu_sensor", &FusionConfig::imu_sensor,
           "name of the inertial unit that is listened to; empty: the first one heard");
   s.field("ownership_strength", &FusionConfig::ownership_strength,
@@ -93,10 +105,14 @@ void describe(Schema<FusionConfig>& s) {
       .range(0, 1'000'000);
   s.field("start", &FusionConfig::start, "how navigation begins");
   s.field("checkpoint", &FusionConfig::checkpoint, "the state that a fusion started anew goes on from");
+  s.field("standby", &FusionConfig::standby, "several fusion services of one vehicle");
   s.field("engine", &FusionConfig::engine, "the estimator and its instruments").required();
   s.check([](const FusionConfig& config) -> std::pair<std::string, std::string> {
     if (config.imu_sensor.size() > Name::kCapacity) {
       return {"imu_sensor", "at most " + std::to_string(Name::kCapacity) + " characters"};
+    }
+    if (config.instance.empty() || config.instance.size() > Name::kCapacity) {
+      return {"instance", "1 to " + std::to_string(Name::kCapacity) + " characters"};
     }
     if (starts_from_state(config.start.mode) && !config.start.state) {
       return {"start.state", "the state to start from, because start.mode is \"given\" or \"air_drop\""};
@@ -120,8 +136,21 @@ ConfigKind fusion_kind() {
 estimation::EngineConfig engine_config(const FusionConfig& config) {
   estimation::EngineConfig engine = config.engine;
   engine.vehicle = config.common.vehicle;
+  engine.sensor = config.instance;
   engine.alignment.mode = config.start.mode;
   return engine;
+}
+
+std::string estimation_hash(const FusionConfig& config) {
+  FusionConfig shared = config;
+  shared.common.bus = {};
+  shared.common.log = {};
+  shared.common.realtime = {};
+  shared.instance = FusionConfig().instance;
+  shared.ownership_strength = 0;
+  shared.checkpoint = {};
+  shared.standby = {};
+  return runtime::hex_hash(canonical(shared));
 }
 
 estimation::InitialState initial_state(const FusionConfig& config) {

@@ -49,13 +49,21 @@ struct CheckpointConfig {
   bool sync = false;        ///< onto the disk each time, to survive a power cut; wears a flash memory
 };
 
+/// Section "standby": this fusion is one of several that keep the same state.
+struct StandbyConfig {
+  bool enabled = false;
+  double listen_s = 0.5;  ///< for another one, before this one leads
+};
+
 /// deploy/config/fusion.json, and what `fathom solve --config` reads: the same engine from the same file.
 struct FusionConfig {
   CommonConfig common;
+  std::string instance = "fusion";      ///< its name among the services, and in NavState
   std::string imu_sensor;               ///< the inertial unit that is listened to; empty: the first one heard
   std::int32_t ownership_strength = 0;  ///< of NavState: the strongest living fusion is heard
   StartConfig start;
   CheckpointConfig checkpoint;
+  StandbyConfig standby;
   estimation::EngineConfig engine;  ///< as in the file; use engine_config() to build an engine
 };
 
@@ -67,6 +75,10 @@ template <>
 
 /// The engine's configuration with what stands elsewhere in the file: vehicle and start mode.
 [[nodiscard]] estimation::EngineConfig engine_config(const FusionConfig& config);
+
+/// Hash of what the estimate follows from: equal for two services whose engines make the same of the same
+/// samples, however they are named and wherever they run.
+[[nodiscard]] std::string estimation_hash(const FusionConfig& config);
 
 /// The configured state for FusionEngine::start_from(). Precondition: config.start.state.
 [[nodiscard]] estimation::InitialState initial_state(const FusionConfig& config);

@@ -16,6 +16,7 @@ using Fault = std::pair<std::string, std::string>;
 }  // namespace
 
 void describe(Schema<Waypoint>& s) {
+  s.field("name", &Waypoint::name, "by which people call it; empty: its number in the mission");
   s.field("lat_deg", &Waypoint::latitude_rad, "latitude, in a geodetic frame")
       .unit("deg")
       .range(-90, 90)
@@ -67,6 +68,9 @@ void describe(Schema<GuidanceConfig>& s) {
     if (config.waypoints.empty()) return {"waypoints", "at least one waypoint"};
     const bool local = config.frame == WaypointFrame::local;
     for (const Waypoint& point : config.waypoints) {
+      if (point.name.size() > Name::kCapacity) {
+        return {"waypoints", "names of at most " + std::to_string(Name::kCapacity) + " bytes"};
+      }
       const bool has_local = known(point.north_m) && known(point.east_m);
       const bool has_geodetic = known(point.latitude_rad) && known(point.longitude_rad);
       const bool has_other = local ? known(point.latitude_rad) || known(point.longitude_rad)

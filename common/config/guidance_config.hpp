@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "base/unknown.hpp"
@@ -16,6 +17,7 @@ enum class WaypointFrame : std::uint8_t {
 };
 
 struct Waypoint {
+  std::string name;  ///< for people; empty: its number
   double latitude_rad = kUnknown;
   double longitude_rad = kUnknown;
   double north_m = kUnknown;

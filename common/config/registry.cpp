@@ -4,6 +4,7 @@
 
 #include "config/bridge_config.hpp"
 #include "config/console_config.hpp"
+#include "config/discovery_config.hpp"
 #include "config/fusion_config.hpp"
 #include "config/guidance_config.hpp"
 #include "config/hydro_config.hpp"
@@ -18,7 +19,7 @@ std::span<const ConfigKind> config_kinds() {
                                  depth_bridge_kind(),    heading_bridge_kind(), usbl_bridge_kind(),
                                  actuator_bridge_kind(), fusion_kind(),         hydro_kind(),
                                  monitor_kind(),         guidance_kind(),       simulator_kind(),
-                                 scenario_kind(),        console_kind()};
+                                 scenario_kind(),        console_kind(),        discovery_kind()};
   return kKinds;
 }
 

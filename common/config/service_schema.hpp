@@ -10,9 +10,14 @@
 
 namespace fathom::config {
 
+/// Whether `text` is an IPv4 address and a port, as in 192.168.2.1:11811.
+[[nodiscard]] bool is_address_and_port(const std::string& text);
+inline constexpr const char* kAddressAndPort = "an IPv4 address and a port such as 192.168.2.1:11811";
+
 void describe(Schema<BusConfig>& s);
 void describe(Schema<LogConfig>& s);
 void describe(Schema<ClockConfig>& s);
+void describe(Schema<RealtimeConfig>& s);
 void describe(Schema<CommonConfig>& s);
 
 template <class T>

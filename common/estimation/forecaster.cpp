@@ -72,11 +72,14 @@ Forecaster::Forecaster(const Setup& setup) : setup_(&setup), filter_(setup.index
 
 void Forecaster::remember(int sensor, const AnySample& sample) {
   last_[static_cast<std::size_t>(sensor)] = sample;
+  remembered_[static_cast<std::size_t>(sensor)] = true;
 }
 
 bool Forecaster::aids(const Core& core, int sensor) const {
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(sensor)];
   if (config.kind == SourceKind::gps || config.kind == SourceKind::usbl) return false;
+  // What a restored state was aided by may not have been heard here yet.
+  if (!remembered_[static_cast<std::size_t>(sensor)]) return false;
   const TimeNs used = core.sensor(sensor).used_ns;
   return core.sensor(sensor).enabled && used != 0 &&
          to_seconds(core.now_ns() - used) <= setup_->config.velocity_timeout_s;

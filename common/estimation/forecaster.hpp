@@ -41,6 +41,7 @@ class Forecaster {
   double yaw_rad_ = 0.0;
   MotionMemory::Second still_;  ///< where nothing is remembered yet: straight ahead
   std::array<AnySample, kMaxSensors> last_{};
+  std::array<bool, kMaxSensors> remembered_{};
 };
 
 }  // namespace fathom::estimation

@@ -174,6 +174,9 @@ class FusionEngine::Impl final : public VerdictSink {
     nav_.header.sequence = head.sequence;
     filled_ = false;
     pending_start_.reset();
+    history_.for_each_event([this](const Measurement& one) {
+      if (!one.command) forecaster_.remember(one.sensor, one.sample);
+    });
     return true;
   }
 

@@ -37,6 +37,11 @@ class History {
 
   [[nodiscard]] const Core& core() const { return core_; }
   [[nodiscard]] bool started() const { return started_; }
+  /// Every event that is held, oldest first.
+  template <class Visit>
+  void for_each_event(Visit&& visit) const {
+    for (std::size_t rank = 0; rank < event_count_; ++rank) visit(pool_[order_[rank]]);
+  }
 
   /// Takes an event in; it acts with the next step.
   Placing insert(const Measurement& measurement);

@@ -73,6 +73,7 @@ void VehicleHealth::add(const ServiceStatus& status, const Instant& now) {
   if (!ours(status.header)) return;
   services_.add(status, now);
   stamps_.add(status, now);
+  intruders_.add(status, now);
 }
 
 void VehicleHealth::add(const Verdict& verdict, const Instant& now) {
@@ -107,6 +108,7 @@ void VehicleHealth::evaluate(const Instant& now) {
   refusal_.report(book_, now);
   sensors_.report(book_, now);
   services_.report(book_, now);
+  intruders_.report(book_, now);
 }
 
 void VehicleHealth::follow_utc(const Instant& now) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "health/alarm_book.hpp"
@@ -8,6 +10,7 @@
 #include "health/gps_outage.hpp"
 #include "health/instant.hpp"
 #include "health/interference_watch.hpp"
+#include "health/intruder_watch.hpp"
 #include "health/nav_watch.hpp"
 #include "health/refusal_watch.hpp"
 #include "health/sensor_watch.hpp"
@@ -51,6 +54,10 @@ class VehicleHealth {
   void add(const ServiceStatus& status, const Instant& now);
   void add(const Verdict& verdict, const Instant& now);
   void add(const Forecast& forecast, const Instant& now);
+  /// See IntruderWatch::strangers().
+  void strangers(std::vector<std::string> present, const Instant& now) {
+    intruders_.strangers(std::move(present), now);
+  }
   /// Acknowledgements; other commands are not for the monitor. Returns how many alarms were acknowledged.
   int apply(const Command& command, const Instant& now);
   /// See AlarmBook::restore().
@@ -86,6 +93,7 @@ class VehicleHealth {
   RefusalWatch refusal_;
   SensorWatch sensors_;
   ServiceWatch services_;
+  IntruderWatch intruders_;
 };
 
 }  // namespace fathom::health

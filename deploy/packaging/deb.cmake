@@ -21,7 +21,7 @@ set(CPACK_DEBIAN_FATHOM_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/conffi
 set(CPACK_DEBIAN_FATHOM_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME fathom-client-dev)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_CLIENT_PACKAGE_DEPENDS "libfastrtps-dev, libfastcdr-dev")
+set(CPACK_DEBIAN_CLIENT_PACKAGE_DEPENDS "libfastrtps-dev, libfastcdr-dev, libssl-dev, libtinyxml2-dev")
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "What guidance software needs to receive fathom's navigation state
  Library, headers, CMake package and QoS profiles.")
 

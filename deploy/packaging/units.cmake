@@ -34,6 +34,7 @@ fathom_unit(fathom-usbl-bridge usbl_bridge "acoustic positioning onto the vehicl
 fathom_unit(fathom-actuator-bridge actuator_bridge "propulsor and fins onto the vehicle network" SERIAL)
 fathom_unit(fathom-fusion fusion "navigation state" MEMORY 256M)
 fathom_unit(fathom-monitor monitor "alarms and health")
+fathom_unit(fathom-discovery discovery "introduces services of several machines to each other")
 if(TARGET fathom-console)
   fathom_unit(fathom-console console "operator console" MEMORY 512M CPU 50%)
 endif()

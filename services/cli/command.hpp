@@ -37,5 +37,6 @@ void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_study(CLI::App& app, ExitCode& exit_code);
 void add_bench(CLI::App& app, ExitCode& exit_code);
 void add_doctor(CLI::App& app, ExitCode& exit_code);
+void add_keygen(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli

@@ -16,6 +16,7 @@
 #include "cli/command.hpp"
 #include "cli/doctor_checks.hpp"
 #include "cli/doctor_host.hpp"
+#include "cli/security_options.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -58,13 +59,18 @@ class LifeSigns {
 };
 
 NetworkFacts look_at_network(const DoctorOptions& options) {
-  bus::Participant participant(options.bus);
+  bus::ParticipantOptions presence = options.bus;
+  presence.discover_everything = true;  // a server tells others only of the topics they share
+  bus::Participant participant(presence);
   const LifeSigns signs(participant);
   std::this_thread::sleep_for(std::chrono::duration<double>(options.seconds));
+  (void)participant.counters();  // judges those who never proved an identity
   NetworkFacts out;
   out.domain = options.bus.domain;
   out.interfaces = options.bus.interfaces;
   out.participants = participant.peers();
+  out.is_protected = participant.credentials_until_ns().has_value();
+  out.strangers = participant.strangers();
   out.endpoints = bus::endpoints(participant);
   out.conflicts = bus::conflicts(participant);
   out.services = signs.all();
@@ -125,7 +131,10 @@ void add_doctor(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_option("--peer", options->bus.peers, "Addresses to look for the vehicle at")
       ->capture_default_str();
+  command->add_option("--discovery-server", options->bus.discovery_servers,
+                      "address:port of each fathom-discovery, where the vehicle uses them");
   command->add_option("--profiles", options->bus.profiles_dir, "Folder of the QoS XML files");
+  add_security_options(*command, options->bus.security);
   command->add_option("--seconds", options->seconds, "How long to listen")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();

@@ -67,13 +67,40 @@ void examine_presence(const NetworkFacts& network, const HostFacts& host, Report
     report.problem(
         "Nobody is on DDS domain " + std::to_string(network.domain) + ".",
         "Start the services; check that they use this domain (bus.domain), that bus.interfaces name "
-        "a network that reaches here, and that bus.peers name the other machines.");
+        "a network that reaches here, and that bus.peers or bus.discovery_servers name the other machines.");
     return;
   }
   std::set<std::string> hosts;
   for (const bus::Peer& peer : network.participants) hosts.insert(peer.host.empty() ? "?" : peer.host);
   report.good(std::to_string(network.participants.size()) + " participants on domain " +
               std::to_string(network.domain) + ", on " + joined(hosts) + ".");
+}
+
+void examine_security(const NetworkFacts& network, Report& report) {
+  report.subject("security");
+  if (network.is_protected) {
+    for (const bus::Stranger& one : network.strangers) {
+      report.problem(
+          "Somebody is not spoken to: " + to_string(one) + ".",
+          "Give it credentials if it is one of yours (fathom keygen --service), else find and remove it.");
+    }
+    if (network.strangers.empty()) report.good("Everybody who is here has proved an identity.");
+    return;
+  }
+  std::set<std::string> asking;
+  for (const bus::Peer& one : network.participants) {
+    if (one.offers_identity) asking.insert(who(one));
+  }
+  if (asking.empty()) {
+    report.good("The network asks for no identity: whoever reaches it may read and write.");
+  } else if (asking.size() < network.participants.size()) {
+    report.problem("Some ask for an identity and others have none: they do not hear each other (" +
+                       joined(asking) + " ask).",
+                   "Give every service bus.security.folder, or none.");
+  } else {
+    report.problem("The network asks for an identity, and this command has none: it hears nothing.",
+                   "Say --security DIR, the folder that fathom keygen made.");
+  }
 }
 
 void examine_qos(const NetworkFacts& network, Report& report) {
@@ -137,16 +164,27 @@ void examine_topics(const NetworkFacts& network, Report& report) {
 void examine_writers(const NetworkFacts& network, Report& report) {
   report.subject("writers");
   // Topics that many write by nature.
-  const std::set<std::string> shared{"fathom/v1/service_status", "fathom/v1/command"};
+  const std::set<std::string> shared{"fathom/v1/service_status", "fathom/v1/command", "fathom/v1/route"};
+  // Topics of fusion, of which several may stand by for each other; they say so.
+  constexpr const char* kReplicas = "fathom/v1/replica_status";
+  const std::set<std::string> of_fusion{
+      kReplicas,           "fathom/v1/engine_state", "fathom/v1/nav_state", "fathom/v1/nav_detail",
+      "fathom/v1/verdict", "fathom/v1/alignment",    "fathom/v1/forecast"};
   std::map<std::string, std::set<std::string>> writers;
   for (const bus::NetworkEndpoint& one : network.endpoints) {
     if (one.writes && one.topic.compare(0, kOurs.size(), kOurs) == 0 && shared.count(one.topic) == 0) {
       writers[one.topic].insert(who(one.owner));
     }
   }
+  const std::set<std::string> replicas = writers[kReplicas];
+  const auto stand_by = [&](const std::string& topic, const std::set<std::string>& names) {
+    return of_fusion.count(topic) != 0 &&
+           std::includes(replicas.begin(), replicas.end(), names.begin(), names.end());
+  };
+  if (replicas.size() > 1) report.good("Stand by for each other: " + joined(replicas) + ".");
   bool single = true;
   for (const auto& [topic, names] : writers) {
-    if (names.size() < 2) continue;
+    if (names.size() < 2 || stand_by(topic, names)) continue;
     single = false;
     report.notice("Several write " + topic + ": " + joined(names) + ".",
                   "Right for several instruments of a kind under names of their own; else stop the one that "
@@ -247,7 +285,8 @@ void examine_limits(const HostFacts& host, Report& report) {
   if (host.realtime_priority && *host.realtime_priority == 0) {
     well = false;
     report.notice("This user may not ask for real-time scheduling.",
-                  "Only needed for deploy/systemd/realtime.conf.example, which grants it to the service.");
+                  "Only needed where a configuration says \"realtime\"; deploy/systemd/realtime.conf.example "
+                  "grants it to a service.");
   }
   if (well) report.good("Limits of files, buffers and scheduling suffice.");
 }
@@ -263,6 +302,7 @@ std::vector<Finding> examine(const NetworkFacts& network, const HostFacts& host)
   std::vector<Finding> out;
   Report report(out);
   examine_presence(network, host, report);
+  if (!network.participants.empty() || !network.strangers.empty()) examine_security(network, report);
   if (!network.participants.empty()) {
     examine_qos(network, report);
     examine_topics(network, report);

@@ -41,7 +41,9 @@ struct HeardService {
 struct NetworkFacts {
   std::uint32_t domain = 0;
   std::vector<std::string> interfaces;  ///< asked for
+  bool is_protected = false;            ///< looked at with an identity
   std::vector<bus::Peer> participants;
+  std::vector<bus::Stranger> strangers;  ///< whom nobody speaks to
   std::vector<bus::NetworkEndpoint> endpoints;
   std::vector<bus::NetworkConflict> conflicts;
   std::vector<HeardService> services;
@@ -52,7 +54,8 @@ enum class FindingLevel : std::uint8_t { good, notice, problem };
 
 struct Finding {
   FindingLevel level = FindingLevel::good;
-  std::string subject;  ///< "network", "qos", "topics", "writers", "services", "clock", "memory" or "limits"
+  std::string subject;  ///< "network", "security", "qos", "topics", "writers", "services", "clock", "memory"
+                        ///< or "limits"
   std::string text;     ///< what was found, one sentence
   std::string remedy;   ///< what to do about it; empty where nothing is to be done
 };

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/exit_code.hpp"
+#include "bus/participant.hpp"
 #include "cli/command.hpp"
 #include "config/error.hpp"
 #include "runtime/build_info.hpp"
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   fathom::cli::add_study(app, exit_code);
   fathom::cli::add_bench(app, exit_code);
   fathom::cli::add_doctor(app, exit_code);
+  fathom::cli::add_keygen(app, exit_code);
 
   try {
     app.parse(argc, argv);
@@ -45,6 +47,8 @@ int main(int argc, char** argv) {
   } catch (const fathom::cli::Failure& failure) {
     return fail(failure.code(), failure.what());
   } catch (const fathom::config::ConfigError& error) {
+    return fail(ExitCode::bad_configuration, error.what());
+  } catch (const fathom::bus::CredentialsError& error) {
     return fail(ExitCode::bad_configuration, error.what());
   } catch (const std::exception& error) {
     return fail(ExitCode::runtime_failure, error.what());

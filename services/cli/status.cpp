@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "cli/command.hpp"
+#include "cli/security_options.hpp"
 #include "cli/status_listener.hpp"
 #include "cli/status_view.hpp"
 
@@ -145,7 +146,10 @@ void add_status(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_option("--peer", options->bus.peers, "Addresses to look for the vehicle at")
       ->capture_default_str();
+  command->add_option("--discovery-server", options->bus.discovery_servers,
+                      "address:port of each fathom-discovery, where the vehicle uses them");
   command->add_option("--profiles", options->bus.profiles_dir, "Folder of the QoS XML files");
+  add_security_options(*command, options->bus.security);
   command->add_option("--timeout", options->timeout_s, "Seconds to listen at most")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();

@@ -1,7 +1,9 @@
 #include "console/console_service.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +12,10 @@
 #include "base/clock.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
-#include "config/error.hpp"
 #include "console/http_server.hpp"
 #include "console/picture.hpp"
 #include "console/picture_json.hpp"
+#include "console/precautions.hpp"
 #include "console/refusal_log.hpp"
 #include "console/site.hpp"
 
@@ -23,6 +25,7 @@ namespace {
 constexpr int kFirstPort = 8420;
 constexpr DurationNs kRetryNs = 3 * kNsPerSecond;
 constexpr DurationNs kRefusalPeriodNs = 10 * kNsPerSecond;
+constexpr DurationNs kDayNs = 24 * std::int64_t{3600} * kNsPerSecond;
 // Ten seconds at ten updates a second: more than a browser that is busy with itself takes to come back.
 constexpr std::size_t kQueueDepth = 100;
 
@@ -30,20 +33,12 @@ int port_of(const config::ConsoleConfig& config) {
   return config.http.port != 0 ? config.http.port : kFirstPort + config.common.bus.domain;
 }
 
-TokenBook tokens_of(const config::ConsoleConfig& config) {
-  if (config.access.token_file.empty()) return {};
-  try {
-    return TokenBook::load(config.access.token_file);
-  } catch (const TokenError& error) {
-    throw config::ConfigError("access.token_file", error.what());
-  }
-}
-
 Site::Options site_options(const config::ConsoleConfig& config) {
   Site::Options out;
   out.title = config.common.vehicle;
   out.orders_enabled = config.access.orders;
   out.view_needs_token = config.access.view_needs_token;
+  out.secure = !config.tls.certificate_file.empty();
   out.tiles_dir = config.map.tiles_dir;
   nlohmann::json waypoints = nlohmann::json::array();
   for (const config::ConsoleWaypoint& point : config.map.waypoints) {
@@ -51,7 +46,7 @@ Site::Options site_options(const config::ConsoleConfig& config) {
         {{"name", point.name}, {"lat_deg", point.latitude_deg}, {"lon_deg", point.longitude_deg}});
   }
   out.waypoints_json = waypoints.dump();
-  out.tokens = tokens_of(config);
+  out.tokens = tokens_of(config, "configuration");
   return out;
 }
 
@@ -60,6 +55,7 @@ HttpServer::Options server_options(const config::ConsoleConfig& config) {
   out.address = config.http.address;
   out.port = port_of(config);
   out.names = config.http.names;
+  out.tls = identity_of(config, "configuration");
   out.most_connections = static_cast<std::size_t>(config.http.most_connections);
   out.most_per_peer = static_cast<std::size_t>(config.http.most_connections_per_peer);
   return out;
@@ -71,6 +67,7 @@ struct ConsoleService::Impl {
   Impl(host::ServiceHost& host_in, const config::ConsoleConfig& config_in)
       : host(host_in),
         config(config_in),
+        http(server_options(config)),
         picture({config.common.vehicle, config.common.bus.domain, config.fresh_s}),
         events(kQueueDepth, static_cast<std::size_t>(config.http.most_streams)),
         commands(host.participant()),
@@ -82,7 +79,7 @@ struct ConsoleService::Impl {
               [this](const Refusal& refusal, const std::string& peer) { server.refuse(refusal, peer); }},
              events),
         server(
-            server_options(config),
+            http,
             [this](const RequestHead& head, const std::string& body, const std::string& peer,
                    Connection& connection) { return site.serve(head, body, peer, connection); },
             [this](const Refusal& refusal, const std::string& peer) { say_refused(refusal, peer); }) {
@@ -96,6 +93,12 @@ struct ConsoleService::Impl {
     listen_to<Alarm>();
     listen_to<GpsSample>();
     listen_to<UsblSample>();
+    readers.push_back(std::make_shared<bus::Reader<Route>>(
+        host.participant(), [this](const Route& route, const auto& info) {
+          take(route, host.participant().writer_name(info.writer_guid));
+        }));
+    exposure = exposure_warning(config);
+    if (!exposure.empty()) host.log().warning(exposure);
     listen();
     host.on_status([this](ServiceStatus& status) { fill(status); });
     // Of the host's time: an accelerated vehicle does not make the browsers work more.
@@ -121,12 +124,23 @@ struct ConsoleService::Impl {
         }));
   }
 
+  /// Any thread of the bus.
+  void take(const Route& route, const std::string& writer) {
+    std::unique_lock lock(mutex);
+    const auto fault = picture.add(route, now());
+    lock.unlock();
+    if (!fault) return;
+    if (const auto line = bad_routes.add({0, *fault}, writer, monotonic.monotonic_ns()))
+      host.log().warning(*line);
+  }
+
   void listen() {
     tried_ns = monotonic.monotonic_ns();
     const std::string trouble = server.start();
     if (trouble.empty()) {
-      host.log().info("console at http://" + config.http.address + ":" + std::to_string(port_of(config)) +
-                      "/, orders " + (config.access.orders ? "on" : "off"));
+      host.log().info(std::string("console at ") + (http.tls ? "https://" : "http://") + config.http.address +
+                      ":" + std::to_string(port_of(config)) + "/, orders " +
+                      (config.access.orders ? "on" : "off"));
     } else if (trouble != said) {
       host.log().error(trouble);
     }
@@ -190,25 +204,60 @@ struct ConsoleService::Impl {
         status.state = ServiceState::degraded;
         status.text = said.substr(0, 240);
       }
+      count_refused_routes(status);
     }
-    const HttpServer::Counters http = server.counters();
+    if (http.tls) fill_validity(status);
+    if (status.text.empty()) status.text = exposure.substr(0, exposure.find(". ") + 1);
+    const HttpServer::Counters counted = server.counters();
     status.counters.push_back({"pages_open", events.clients()});
     status.counters.push_back({"connections", server.connections()});
-    status.counters.push_back({"requests", http.requests});
-    status.counters.push_back({"requests_refused", http.refused});
+    status.counters.push_back({"requests", counted.requests});
+    status.counters.push_back({"requests_refused", counted.refused});
     status.counters.push_back({"events_dropped", events.dropped()});
     status.counters.push_back({"orders_given", orders_given});
     status.counters.push_back({"orders_refused", orders_refused});
   }
 
+  /// All of them, and each reason that there was. Precondition: mutex held.
+  void count_refused_routes(ServiceStatus& status) const {
+    std::uint64_t all = 0;
+    const auto& refused = picture.routes().refused();
+    for (std::size_t i = 0; i < refused.size(); ++i) {
+      all += refused[i];
+      if (refused[i] == 0) continue;
+      const std::string name = "routes_refused_" + std::string(RouteBook::word(i));
+      status.counters.push_back({std::string_view(name), refused[i]});
+    }
+    status.counters.push_back({"routes_refused", all});
+  }
+
+  /// Said in the life sign while it lasts, and in the log once a day.
+  void fill_validity(ServiceStatus& status) {
+    const TimeNs utc_ns = monotonic.utc_ns();
+    const DurationNs left_ns = std::max<DurationNs>(0, http.tls->valid_until_ns() - utc_ns);
+    status.counters.push_back({"certificate_days_left", static_cast<std::uint64_t>(left_ns / kDayNs)});
+    const auto note = validity_note(http.tls->valid_from_ns(), http.tls->valid_until_ns(), utc_ns);
+    if (!note) return;
+    if (!note->usable) status.state = ServiceState::degraded;
+    if (status.text.empty()) status.text = note->text;
+    const TimeNs now_ns = monotonic.monotonic_ns();
+    if (warned_ns && now_ns - *warned_ns < kDayNs) return;
+    warned_ns = now_ns;
+    note->usable ? host.log().warning(note->text) : host.log().error(note->text);
+  }
+
   host::ServiceHost& host;
   config::ConsoleConfig config;
+  HttpServer::Options http;
+  std::string exposure;             ///< what is risky about where this listens; empty: nothing
+  std::optional<TimeNs> warned_ns;  ///< of the certificate's end; monotonic
   SystemClock monotonic;
   std::mutex mutex;  ///< of the picture and of what was said
   Picture picture;
   std::string said;  ///< why nobody can reach the console; empty: all is well
   TimeNs tried_ns = 0;
-  RefusalLog refusals{kRefusalPeriodNs};
+  RefusalLog refusals{kRefusalPeriodNs, "a request"};
+  RefusalLog bad_routes{kRefusalPeriodNs, "a route"};
   std::atomic<std::uint64_t> orders_given{0};
   std::atomic<std::uint64_t> orders_refused{0};
   std::atomic<std::uint64_t> sequence{0};

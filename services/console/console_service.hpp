@@ -12,7 +12,7 @@ namespace fathom::console {
 class ConsoleService {
  public:
   /// Installs its tick and its life sign in `host`, which must outlive it. Throws bus::BusError and
-  /// config::ConfigError for a token file that cannot be used.
+  /// config::ConfigError for tokens or a certificate that cannot be used.
   ConsoleService(host::ServiceHost& host, const config::ConsoleConfig& config);
   ~ConsoleService();
   ConsoleService(const ConsoleService&) = delete;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <list>
 #include <mutex>
@@ -21,6 +22,16 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 constexpr auto kWritePatience = 10s;
+constexpr const char* kPlainHttp = "plain_http";
+constexpr unsigned char kTlsHandshake = 22;  // what every TLS connection begins with, and no HTTP request
+
+/// A peer that left must not end the process: the TLS library writes without MSG_NOSIGNAL. On this thread.
+void ignore_broken_pipes() {
+  sigset_t pipe;
+  sigemptyset(&pipe);
+  sigaddset(&pipe, SIGPIPE);
+  pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
+}
 
 const char* status_words(int status) {
   switch (status) {
@@ -59,12 +70,14 @@ const char* status_words(int status) {
 
 }  // namespace
 
-std::string refusal_text(const Refusal& refusal) {
-  const std::string body = std::string(status_words(refusal.status)) + ": " + refusal.reason + "\n";
+std::string refusal_text(const Refusal& refusal, bool secure) {
+  std::string body = std::string(status_words(refusal.status)) + ": " + refusal.reason + "\n";
+  if (refusal.reason == kPlainHttp) body += "This console speaks https only.\n";
   std::string out =
       "HTTP/1.1 " + std::to_string(refusal.status) + " " + status_words(refusal.status) + "\r\n";
   for (const auto& [name, value] : kSecurityHeaders)
     out.append(name).append(": ").append(value).append("\r\n");
+  if (secure) out.append(kStrictTransport.first).append(": ").append(kStrictTransport.second).append("\r\n");
   if (refusal.status == 405) out += "Allow: GET, HEAD, POST\r\n";
   out += "Cache-Control: no-store\r\nContent-Type: text/plain\r\nConnection: close\r\nContent-Length: " +
          std::to_string(body.size()) + "\r\n\r\n" + body;
@@ -121,8 +134,10 @@ struct HttpServer::Impl {
     for (const Session& session : sessions) of_peer += session.peer == peer ? 1 : 0;
     if (sessions.size() >= options.most_connections || of_peer >= options.most_per_peer) {
       const Refusal refusal{503, "too_many_connections"};
-      const std::string text = refusal_text(refusal);
-      (void)send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      if (!options.tls) {  // where there is TLS nothing can be said before a handshake, and that is work
+        const std::string text = refusal_text(refusal, false);
+        (void)send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+      }
       close(socket);
       refuse(refusal, peer);
       return;
@@ -132,6 +147,7 @@ struct HttpServer::Impl {
     session.peer = peer;
     try {
       session.thread = std::thread([this, &session] {
+        ignore_broken_pipes();
         {
           // The session keeps a descriptor of its own: it can be shut down without a race with its closing.
           Connection connection(dup(session.socket));
@@ -148,7 +164,23 @@ struct HttpServer::Impl {
     }
   }
 
+  /// The handshake, within the same time as the head of a request. False when the connection is over.
+  bool secure(Connection& connection, const std::string& peer) {
+    const auto first = connection.peek(Clock::now() + options.idle_deadline);
+    if (!first) return false;
+    if (*first != kTlsHandshake) {
+      refuse({400, kPlainHttp}, peer);
+      if (connection.write(refusal_text({400, kPlainHttp}, false), kWritePatience)) connection.linger();
+      return false;
+    }
+    const auto outcome = connection.secure(*options.tls, Clock::now() + options.head_deadline);
+    if (outcome == Connection::Outcome::timed_out) refuse({408, "tls_too_slow"}, peer);
+    if (outcome == Connection::Outcome::closed) refuse({400, "tls_handshake"}, peer);
+    return outcome == Connection::Outcome::complete;
+  }
+
   void converse(Connection& connection, const std::string& peer) {
+    if (options.tls && !secure(connection, peer)) return;
     while (!stopping) {
       if (!connection.wait_for_request(Clock::now() + options.idle_deadline)) return;
       const auto began = Clock::now();
@@ -158,7 +190,8 @@ struct HttpServer::Impl {
       auto parsed = parse_head(bytes);
       if (const auto* refusal = std::get_if<Refusal>(&parsed)) return answer(connection, *refusal, peer);
       const auto& head = std::get<RequestHead>(parsed);
-      if (const auto refusal = judge_request(head, hosts)) return answer(connection, *refusal, peer);
+      if (const auto refusal = judge_request(head, hosts, options.tls.has_value()))
+        return answer(connection, *refusal, peer);
       std::string body;
       const auto rest = connection.read_body(body, head.content_length, began + options.request_deadline);
       if (rest != Connection::Outcome::complete) return give_up(connection, rest, peer);
@@ -174,7 +207,8 @@ struct HttpServer::Impl {
 
   void answer(Connection& connection, const Refusal& refusal, const std::string& peer) {
     refuse(refusal, peer);
-    if (connection.write(refusal_text(refusal), kWritePatience)) connection.linger();
+    const std::string text = refusal_text(refusal, options.tls.has_value());
+    if (connection.write(text, kWritePatience)) connection.linger();
   }
 
   void reap() {

@@ -5,11 +5,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "console/connection.hpp"
 #include "console/request.hpp"
+#include "console/tls.hpp"
 
 namespace fathom::console {
 
@@ -21,11 +24,12 @@ class HttpServer {
     std::string address = "127.0.0.1";
     int port = 8420;
     std::vector<std::string> names;  ///< besides the address, of this host
+    std::optional<TlsIdentity> tls;  ///< none: in clear; else by nothing but TLS
     std::size_t most_connections = 128;
     std::size_t most_per_peer = 96;
     /// A browser opens connections ahead of its requests, and keeps them for the next.
     std::chrono::milliseconds idle_deadline{30000};
-    std::chrono::milliseconds head_deadline{5000};  ///< from its first byte
+    std::chrono::milliseconds head_deadline{5000};  ///< from its first byte; the handshake of TLS as well
     std::chrono::milliseconds request_deadline{10000};
   };
   struct Counters {
@@ -57,8 +61,9 @@ class HttpServer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A whole answer to a request that is not served, with the headers that every answer has.
-[[nodiscard]] std::string refusal_text(const Refusal& refusal);
+/// A whole answer to a request that is not served, with the headers that every answer has. `secure`: it goes
+/// through TLS.
+[[nodiscard]] std::string refusal_text(const Refusal& refusal, bool secure);
 
 /// What every answer carries: nothing but the console's own files may run in or around the page.
 inline constexpr std::array<std::pair<const char*, const char*>, 5> kSecurityHeaders{{
@@ -71,5 +76,9 @@ inline constexpr std::array<std::pair<const char*, const char*>, 5> kSecurityHea
     {"Referrer-Policy", "no-referrer"},
     {"Cross-Origin-Resource-Policy", "same-origin"},
 }};
+
+/// Besides, where there is TLS: browsers that have been here ask this host by https only, for thirty days.
+inline constexpr std::pair<const char*, const char*> kStrictTransport{"Strict-Transport-Security",
+                                                                      "max-age=2592000"};
 
 }  // namespace fathom::console

@@ -1,5 +1,6 @@
 #include "config/console_config.hpp"
 #include "console/console_service.hpp"
+#include "console/precautions.hpp"
 #include "host/run.hpp"
 
 int main(int argc, char** argv) {
@@ -10,5 +11,6 @@ int main(int argc, char** argv) {
       [](host::ServiceHost& host, const config::ConsoleConfig& config) {
         const console::ConsoleService service(host, config);
         return host.run();
-      });
+      },
+      console::verify);
 }

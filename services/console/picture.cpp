@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kMostNames = 64;  // names come from the network: bounded
 constexpr std::size_t kMostWaiting = 64;
-constexpr std::uint64_t kServicesEvery = 10;
+constexpr std::uint64_t kServicesEvery = 10;  // ticks; routes as well
 // Fusion judges a fix within its horizon; what it never mentions is shown as it is.
 constexpr DurationNs kFixPatienceNs = 2 * kNsPerSecond;
 
@@ -80,6 +80,11 @@ void Picture::add(const UsblSample& sample, const health::Instant& at) {
   if (auto fix = place_of(sample)) add_fix(*fix, at);
 }
 
+std::optional<std::string> Picture::add(const Route& route, const health::Instant& at) {
+  if (route.header.vehicle.view() != options_.vehicle) return std::nullopt;
+  return routes_.add(route, at);
+}
+
 void Picture::add_fix(FixRow fix, const health::Instant& at) {
   for (std::size_t i = 0; i < judged_.size(); ++i) {
     const Judged& judged = judged_[i];
@@ -136,6 +141,7 @@ Tick Picture::tick(const health::Instant& at) {
   if (ticks_ % kServicesEvery == 1) {
     for (const auto& [name, line] : services_) out.services.push_back(line);
   }
+  if (routes_.take_changed() || ticks_ % kServicesEvery == 1) out.routes = routes_.lines(at);
   const auto states = std::min<std::size_t>(detail_.count, NavDetail::kMaxStates);
   for (std::size_t i = 0; i < states; ++i) {
     if (detail_.states[i].name.view().starts_with("current_")) out.current.push_back(detail_.states[i]);

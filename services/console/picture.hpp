@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/status_book.hpp"
 #include "console/history.hpp"
+#include "console/route_book.hpp"
 #include "console/trust.hpp"
 #include "health/instant.hpp"
 #include "samples/gps.hpp"
@@ -41,8 +43,9 @@ struct Tick {
   Trust trust;
   double nav_latency_s = kUnknown;
   std::vector<SourceLine> sources;
-  std::vector<ServiceLine> services;   ///< in every tenth tick, else empty
-  std::vector<StateEstimate> current;  ///< water current, as far as it is estimated
+  std::vector<ServiceLine> services;             ///< in every tenth tick, else empty
+  std::optional<std::vector<RouteLine>> routes;  ///< when one changed, and in every tenth tick
+  std::vector<StateEstimate> current;            ///< water current, as far as it is estimated
   Fresh fresh;
   std::vector<VerdictSeries> fresh_series;  ///< names of the series that fresh rows belong to; no rows
   std::vector<Name> detail_names;           ///< only when they changed
@@ -75,10 +78,13 @@ class Picture {
   void add(const Alarm& alarm, const health::Instant& at);
   void add(const GpsSample& sample, const health::Instant& at);
   void add(const UsblSample& sample, const health::Instant& at);
+  /// A sentence when it was refused.
+  std::optional<std::string> add(const Route& route, const health::Instant& at);
 
   [[nodiscard]] Tick tick(const health::Instant& at);
   [[nodiscard]] Snapshot snapshot() const { return {ticks_, history_}; }
   [[nodiscard]] const History& history() const { return history_; }
+  [[nodiscard]] const RouteBook& routes() const { return routes_; }
 
  private:
   struct Source {
@@ -107,6 +113,7 @@ class Picture {
   std::map<Name, ServiceLine> services_;
   std::vector<WaitingFix> waiting_;
   Ring<Judged> judged_{64};  ///< verdicts that came before their fix
+  RouteBook routes_;
   NavDetail detail_;
   double nav_latency_s_ = kUnknown;
   TimeNs began_ns_ = 0;

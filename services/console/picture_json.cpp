@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string_view>
 #include <type_traits>
 
@@ -12,6 +13,13 @@
 
 namespace fathom::console {
 namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
+/// Longitude in [-180, 180] degrees, as the map wants it; unknown stays unknown.
+double wrapped_deg(double longitude_rad) {
+  return std::remainder(longitude_rad * kDegrees, 360.0);
+}
 
 // Rows of numbers are written by hand: ten minutes are a million of them, and building a tree of JSON values
 // first takes ten times as long as writing the text.
@@ -208,6 +216,50 @@ void write_services(Rows& out, const Tick& tick) {
   out.close(']');
 }
 
+void write(Rows& out, const RouteWaypoint& point) {
+  out.open('[');
+  out.text(point.name.view());
+  out.number(point.latitude_rad * kDegrees, 10);
+  out.number(wrapped_deg(point.longitude_rad), 11);
+  out.number(point.depth_m);
+  out.number(point.speed_m_s);
+  out.close(']');
+}
+
+void write_routes(Rows& out, const std::vector<RouteLine>& lines) {
+  out.key("routes");
+  out.open('[');
+  for (const RouteLine& line : lines) {
+    const Route& route = line.route;
+    out.open('{');
+    out.key("publisher");
+    out.text(route.header.sensor.view());
+    out.key("age_s");
+    out.number(line.age_s, 5);
+    out.key("old");
+    out.raw(line.old ? "true" : "false");
+    out.key("active");
+    out.whole(route.active);
+    out.key("repeats");
+    out.raw(route.repeats ? "true" : "false");
+    out.key("first_number");
+    out.whole(route.first_number);
+    out.key("mission_count");
+    out.whole(route.mission_count);
+    out.key("leg_start");
+    out.open('[');
+    out.number(route.leg_start_latitude_rad * kDegrees, 10);
+    out.number(wrapped_deg(route.leg_start_longitude_rad), 11);
+    out.close(']');
+    out.key("points");
+    out.open('[');
+    for (const RouteWaypoint& point : route.waypoints) write(out, point);
+    out.close(']');
+    out.close('}');
+  }
+  out.close(']');
+}
+
 /// Two by two of the horizontal covariance: the page draws the ellipse.
 void write_covariance(Rows& out, const Tick& tick) {
   out.key("horizontal_covariance_m2");
@@ -263,6 +315,7 @@ std::string tick_json(const Tick& tick) {
   out.close(']');
   write_sources(out, tick);
   write_services(out, tick);
+  if (tick.routes) write_routes(out, *tick.routes);
   out.key("nav");
   out.open('[');
   for (const NavRow& row : tick.fresh.nav) write(out, row);

@@ -137,6 +137,11 @@ HostNames host_names(const std::string& address, int port, const std::vector<std
   const std::string suffix = ":" + std::to_string(port);
   HostNames out{"127.0.0.1" + suffix, "localhost" + suffix, "[::1]" + suffix};
   if (address != "0.0.0.0") out.push_back(lower(address) + suffix);
+  if (port == 80 || port == 443) {  // browsers leave out the usual port
+    for (std::size_t i = 0, count = out.size(); i < count; ++i) {
+      out.push_back(out[i].substr(0, out[i].size() - suffix.size()));
+    }
+  }
   for (const std::string& name : names) {
     out.push_back(lower(name));  // behind a proxy on the usual port
     out.push_back(lower(name) + suffix);
@@ -144,14 +149,15 @@ HostNames host_names(const std::string& address, int port, const std::vector<std
   return out;
 }
 
-std::optional<Refusal> judge_request(const RequestHead& head, const HostNames& hosts) {
+std::optional<Refusal> judge_request(const RequestHead& head, const HostNames& hosts, bool secure) {
   if (head.method != "GET" && head.method != "HEAD" && head.method != "POST") return Refusal{405, "method"};
   const std::string host = lower(head.header("host"));
   if (host.empty()) return Refusal{400, "malformed"};
   if (std::find(hosts.begin(), hosts.end(), host) == hosts.end()) return Refusal{421, "foreign_host"};
   if (head.method == "POST") {
     const std::string origin = lower(head.header("origin"));
-    if (origin != "http://" + host && origin != "https://" + host) return Refusal{403, "foreign_origin"};
+    const bool ours = origin == "https://" + host || (!secure && origin == "http://" + host);
+    if (!ours) return Refusal{403, "foreign_origin"};
     if (!head.header("sec-fetch-site").empty() && head.header("sec-fetch-site") != "same-origin") {
       return Refusal{403, "foreign_origin"};
     }

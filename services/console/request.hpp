@@ -43,7 +43,9 @@ using HostNames = std::vector<std::string>;
 [[nodiscard]] HostNames host_names(const std::string& address, int port,
                                    const std::vector<std::string>& names);
 
-/// Method, host and origin. An order (POST) must come from the console's own page.
-[[nodiscard]] std::optional<Refusal> judge_request(const RequestHead& head, const HostNames& hosts);
+/// Method, host and origin. An order (POST) must come from the console's own page: by https where the console
+/// itself has TLS (`secure`), by either where a proxy may have it.
+[[nodiscard]] std::optional<Refusal> judge_request(const RequestHead& head, const HostNames& hosts,
+                                                   bool secure);
 
 }  // namespace fathom::console

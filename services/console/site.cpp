@@ -94,6 +94,7 @@ struct Site::Impl {
       : options(std::move(options_in)), hooks(std::move(hooks_in)), events(events_in) {
     httplib::Headers headers;
     for (const auto& [name, value] : kSecurityHeaders) headers.emplace(name, value);
+    if (options.secure) headers.emplace(kStrictTransport.first, kStrictTransport.second);
     router.set_default_headers(std::move(headers));
     router.set_payload_max_length(kMostBodyBytes);
     router.set_exception_handler(

@@ -20,6 +20,7 @@ class Site {
     std::string title;  ///< vehicle, for the page
     bool orders_enabled = false;
     bool view_needs_token = false;
+    bool secure = false;         ///< answers go through TLS
     std::string tiles_dir;       ///< empty: none
     std::string waypoints_json;  ///< an array for the map
     TokenBook tokens;

@@ -25,9 +25,21 @@ Parsed parse(int argc, char** argv) {
       ->check(CLI::Range(1.0, 1e6));
   app.add_option("--speed", options.speed, "vehicle seconds per second")->check(CLI::Range(0.1, 100.0));
   app.add_option("--report", options.report, "write the report to this file");
+  app.add_option("--commands", options.commands,
+                 "start nothing: write the services' command lines to commands.txt in this folder")
+      ->check(CLI::ExistingDirectory);
   app.add_option("--domain", options.domain, "DDS domain")->check(CLI::Range(0, 230));
+  app.add_option("--interface", options.interfaces, "address of this host that DDS binds; may be repeated")
+      ->check(CLI::ValidIPV4)
+      ->capture_default_str();
+  app.add_option("--peer", options.peers, "address asked for discovery besides multicast; may be repeated")
+      ->check(CLI::ValidIPV4)
+      ->capture_default_str();
   app.add_flag("--console,!--no-console", options.console,
                "with the operator console, where this build has one");
+  app.add_flag("--standby", options.standby, "with a second fusion that takes over when the first one dies");
+  app.add_flag("--secure", options.secure,
+               "on a protected network: identities, permissions and encryption, made for this run");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& answered) {

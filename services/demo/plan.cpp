@@ -13,6 +13,7 @@
 #include "config/service_config.hpp"
 #include "dataset/dataset.hpp"
 #include "demo/recording.hpp"
+#include "security/keygen.hpp"
 #include "sim/device_encoder.hpp"
 
 namespace fathom::demo {
@@ -52,6 +53,17 @@ std::string random_token() {
   return token;
 }
 
+/// Credentials of this run. Nobody will renew them: the authorities' keys are not kept.
+std::string make_credentials(int domain, const std::filesystem::path& run_directory) {
+  security::KeygenOptions options;
+  options.folder = (run_directory / "credentials").string();
+  options.domains = {static_cast<std::uint32_t>(domain), static_cast<std::uint32_t>(domain)};
+  options.days = 60;  // longer than what services warn of
+  security::make_credentials(options, SystemClock().utc_ns());
+  std::filesystem::remove_all(security::CredentialFolder(options.folder).authority());
+  return options.folder;
+}
+
 /// A file that nobody else may read.
 void write_private(const std::filesystem::path& path, const std::string& text) {
   std::ofstream(path).flush();
@@ -64,6 +76,9 @@ class Builder {
  public:
   Builder(const Options& options, Plan& plan) : places_(find_places()), plan_(plan) {
     common_.push_back("bus.domain=" + std::to_string(options.domain));
+    common_.push_back("bus.interfaces=" + json(options.interfaces).dump());
+    common_.push_back("bus.peers=" + json(options.peers).dump());
+    if (!plan.credentials.empty()) common_.push_back("bus.security.folder=" + plan.credentials);
     if (options.speed != 1.0) {
       plan.epoch_ns = SystemClock().utc_ns();
       common_.push_back("clock.rate=" + json(options.speed).dump());
@@ -76,9 +91,15 @@ class Builder {
   }
 
   void add(const std::string& service, const Sets& sets, const std::filesystem::path& configuration = {}) {
+    add_instance(service, service, sets, configuration);
+  }
+
+  /// One of several services of a kind, by a name of its own.
+  void add_instance(const std::string& name, const std::string& service, const Sets& sets,
+                    const std::filesystem::path& configuration = {}) {
     std::string executable = "fathom-" + service;
     std::replace(executable.begin(), executable.end(), '_', '-');
-    Program program{service, places_.executables / executable, {}, false};
+    Program program{name, places_.executables / executable, {}, false};
     program.arguments = {"--config", configuration.empty() ? file(service).string() : configuration.string()};
     const auto append = [&program](const Sets& list) {
       for (const std::string& set : list) {
@@ -89,7 +110,27 @@ class Builder {
     append(common_);
     append(sets);
     plan_.programs.push_back(std::move(program));
-    plan_.demands.services.push_back(service);
+    plan_.demands.services.push_back(name);
+  }
+
+  /// Fusion, twice where the second one is to stand by. One that dies goes on from its checkpoint, or from
+  /// what the other one knows, when it is started again.
+  void add_fusion(Sets sets, const std::filesystem::path& configuration, bool standby,
+                  const std::filesystem::path& run_directory) {
+    sets.emplace_back("checkpoint.period_s=0.2");
+    if (standby) sets.emplace_back("standby.enabled=true");
+    const auto add_one = [&](const std::string& name, int strength) {
+      Sets own = sets;
+      own.push_back("checkpoint.path=" + (run_directory / (name + ".checkpoint")).string());
+      if (standby) {
+        own.push_back("instance=" + name);
+        if (!plan_.credentials.empty()) own.emplace_back("bus.security.identity=fusion");
+        own.push_back("ownership_strength=" + std::to_string(strength));
+      }
+      add_instance(name, "fusion", own, configuration);
+    };
+    add_one("fusion", 10);
+    if (standby) add_one("fusion_standby", 5);
   }
 
   /// The operator console, where this build has one. Nothing of the run depends on it.
@@ -145,6 +186,7 @@ Sets monitor_sets(const Plan& plan, const sim::Scenario& scenario, const std::ve
 
 Plan make_plan(const Options& options, const std::filesystem::path& run_directory) {
   Plan plan;
+  if (options.secure) plan.credentials = make_credentials(options.domain, run_directory);
   Builder builder(options, plan);
   // A recorded vehicle's instruments get the devices of the survey scenario.
   sim::Scenario scenario = config::load_scenario({config::scenario_file(options.scenario), {}});
@@ -192,10 +234,7 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   fusion.insert(fusion.end(), scenario_fusion.begin(), scenario_fusion.end());
 
   for (const std::string& kind : bridges) builder.add(kind + "_bridge", overrides[kind + "_bridge"]);
-  // A fusion that dies goes on from here when it is started again.
-  fusion.push_back("checkpoint.path=" + (run_directory / "fusion.checkpoint").string());
-  fusion.emplace_back("checkpoint.period_s=0.2");
-  builder.add("fusion", fusion, fusion_file);
+  builder.add_fusion(fusion, fusion_file, options.standby, run_directory);
   builder.add("guidance_example", overrides["guidance_example"]);
   builder.add("simulator", simulator);
   Sets monitor = monitor_sets(plan, scenario, bridges, overrides["monitor"]);

@@ -84,6 +84,24 @@ void leave_in_time(ExitCode code) {
   alarm(kPatienceS);
 }
 
+/// As a word of a shell's command line.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+/// One line per service, name and command, for whoever wants to run them by hand or on several machines.
+void write_commands(const Plan& plan, const std::filesystem::path& file) {
+  std::ofstream out(file);
+  for (const Program& program : plan.programs) {
+    out << program.name << '\t' << quoted(program.executable.string());
+    for (const std::string& argument : program.arguments) out << ' ' << quoted(argument);
+    out << '\n';
+  }
+  if (!out.flush()) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
 }  // namespace
 
 ExitCode run(const Options& options) {
@@ -92,6 +110,11 @@ ExitCode run(const Options& options) {
   std::signal(SIGHUP, request_stop);
   std::signal(SIGPIPE, SIG_IGN);
 
+  if (!options.commands.empty()) {
+    const std::filesystem::path folder = std::filesystem::absolute(options.commands);
+    write_commands(make_plan(options, folder), folder / "commands.txt");
+    return ExitCode::done;
+  }
   RunDirectory directory;
   Plan plan = make_plan(options, directory.path());
   std::unique_ptr<Clock> clock;
@@ -105,11 +128,18 @@ ExitCode run(const Options& options) {
   bus::ParticipantOptions presence;
   presence.name = "demo";
   presence.domain = static_cast<std::uint32_t>(options.domain);
+  presence.interfaces = options.interfaces;
+  presence.peers = options.peers;
+  presence.security = {plan.credentials, "cli"};
   bus::Participant participant(presence);
   Observer observer(participant, *clock, plan.observer);
   Supervisor supervisor(directory.path(), kRestartAfterNs);
   say("Starting " + plan.title + ": " + std::to_string(plan.programs.size()) + " services on DDS domain " +
       std::to_string(options.domain) + ", logs in " + directory.path().string());
+  if (!plan.credentials.empty()) {
+    say("Protected: look with FATHOM_SECURITY_DIR=" + plan.credentials + " fathom status --domain " +
+        std::to_string(options.domain));
+  }
   for (const Program& program : plan.programs) supervisor.start(program);
   if (!plan.console.empty()) say("Console: " + plan.console);
 

@@ -7,55 +7,34 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
 
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "estimation/fusion_engine.hpp"
 #include "fusion/arrival_book.hpp"
+#include "fusion/arrival_log.hpp"
 #include "fusion/checkpoint.hpp"
 #include "fusion/checkpoint_keeper.hpp"
+#include "fusion/life_sign.hpp"
+#include "fusion/replica_link.hpp"
 
 namespace fathom::fusion {
 namespace {
-
-// What the life sign counts; guarded by the engine's mutex.
-struct Counts {
-  std::array<std::uint64_t, kVerdictKinds> verdicts{};
-  std::uint64_t imu_samples = 0;
-  std::uint64_t nav_states = 0;
-  std::uint64_t other_vehicle = 0;
-  std::uint64_t commands = 0;
-};
-
-constexpr SourceKind source_of(const GpsSample&) {
-  return SourceKind::gps;
-}
-constexpr SourceKind source_of(const DvlSample&) {
-  return SourceKind::dvl;
-}
-constexpr SourceKind source_of(const DepthSample&) {
-  return SourceKind::depth;
-}
-constexpr SourceKind source_of(const HeadingSample&) {
-  return SourceKind::heading;
-}
-constexpr SourceKind source_of(const UsblSample&) {
-  return SourceKind::usbl;
-}
-constexpr SourceKind source_of(const AirspeedSample&) {
-  return SourceKind::airspeed;
-}
-constexpr SourceKind source_of(const PropulsionSample&) {
-  return SourceKind::propulsion;
-}
-constexpr SourceKind source_of(const FinsSample&) {
-  return SourceKind::fins;
-}
 
 bus::WriterOptions nav_state_options(const host::ServiceHost& host, const config::FusionConfig& config) {
   bus::WriterOptions options;
   options.deadline_ns = host.host_duration(from_seconds(3.0 / config.engine.imu.nominal_rate_hz));
   options.ownership_strength = config.ownership_strength;
+  options.may_rest = config.standby.enabled;
+  return options;
+}
+
+bus::WriterOptions slow_options(const config::FusionConfig& config) {
+  bus::WriterOptions options;
+  options.may_rest = config.standby.enabled;  // the one that leads speaks for both
   return options;
 }
 
@@ -107,10 +86,11 @@ struct FusionService::Impl {
         imu_sensor(config.imu_sensor),
         start(started(the_host, config, label)),
         nav_states(host.participant(), nav_state_options(host, config)),
-        details(host.participant()),
+        details(host.participant(), slow_options(config)),
         verdicts(host.participant()),
-        alignments(host.participant()),
-        forecasts(host.participant()),
+        alignments(host.participant(), slow_options(config)),
+        forecasts(host.participant(), slow_options(config)),
+        link(replica_link(config)),
         gps(host.participant(), aiding<GpsSample>()),
         dvl(host.participant(), aiding<DvlSample>()),
         depth(host.participant(), aiding<DepthSample>()),
@@ -123,6 +103,7 @@ struct FusionService::Impl {
                  [this](const Command& command, const bus::SampleInfo&) { on_command(command); }),
         imu(host.participant(),
             [this](const ImuSample& sample, const bus::SampleInfo& info) { on_imu(sample, info); }) {
+    if (link) link->begin();
     host.on_tick(kNsPerSecond, [this] { publish_slow(); });
     host.on_status([this](ServiceStatus& status) { fill(status); });
     if (!config.checkpoint.path.empty()) {
@@ -130,6 +111,13 @@ struct FusionService::Impl {
           config.checkpoint, label, host.log(),
           [this](TimeNs& stamp_ns, std::vector<std::byte>& image) { return save(stamp_ns, image); });
     }
+  }
+
+  std::unique_ptr<ReplicaLink> replica_link(const config::FusionConfig& config) {
+    if (!config.standby.enabled) return nullptr;
+    CheckpointLabel shared = label;
+    shared.configuration = config::estimation_hash(config);
+    return std::make_unique<ReplicaLink>(host, config, std::move(shared), replica_hooks());
   }
 
   ~Impl() {
@@ -140,6 +128,7 @@ struct FusionService::Impl {
   template <class T>
   typename bus::Reader<T>::Handler aiding() {
     return [this](const T& sample, const bus::SampleInfo& info) {
+      std::uint64_t missed = 0;
       {
         const std::lock_guard lock(mutex);
         if (sample.header.vehicle != vehicle) {
@@ -147,8 +136,11 @@ struct FusionService::Impl {
           return;
         }
         arrivals.note(source_of(sample), sample.header, info.writer_guid);
+        log.note(sample);
+        missed = gaps.note(source_of(sample), sample.header);
         engine.add(sample);
       }
+      if (link && missed > 0) link->missed(missed);
       publish_verdicts();
     };
   }
@@ -158,6 +150,7 @@ struct FusionService::Impl {
     bool fresh = false;
     AlignmentStatus alignment;
     bool alignment_changed = false;
+    std::uint64_t missed = 0;
     bool other_unit = false;
     {
       const std::lock_guard lock(mutex);
@@ -172,20 +165,26 @@ struct FusionService::Impl {
     {
       const std::lock_guard lock(mutex);
       imu_writer = info.writer_guid;
+      log.note(sample);
+      missed = gaps.note(SourceKind::imu, sample.header);
       ++counts.imu_samples;
       fresh = engine.add(sample);
       if (fresh) {
         state = engine.nav_state();
-        ++counts.nav_states;
         newest_nav_state_ns = host.clock().monotonic_ns();
         alignment_changed = state.alignment != phase;
         phase = state.alignment;
         if (alignment_changed) engine.fill(alignment);
       }
     }
-    if (fresh) nav_states.write(state);
+    if (link && missed > 0) link->missed(missed);
+    if (fresh && (!link || link->own(state))) {
+      nav_states.write(state);
+      const std::lock_guard lock(mutex);
+      ++counts.nav_states;
+    }
     if (alignment_changed) {
-      alignments.write(alignment);
+      if (speaks()) alignments.write(alignment);
       host.log().info("alignment: " + std::string(to_string(alignment.phase)));
     }
     publish_verdicts();
@@ -223,6 +222,7 @@ struct FusionService::Impl {
   }
 
   bool save(TimeNs& stamp_ns, std::vector<std::byte>& image) {
+    if (link && !link->in_step()) return false;  // the one on the disk may be better
     const std::lock_guard lock(mutex);
     if (!engine.save(image)) return false;
     stamp_ns = engine.nav_state().header.stamp_ns;
@@ -245,6 +245,7 @@ struct FusionService::Impl {
           if (writer) verdict.writer = Name(host.participant().writer_name(*writer));
         }
       }
+      if (!speaks()) continue;
       for (const Verdict& verdict : std::span(batch).first(count)) verdicts.write(verdict);
     } while (count == batch.size());
   }
@@ -253,10 +254,11 @@ struct FusionService::Impl {
     NavDetail detail;
     AlignmentStatus alignment;
     Forecast forecast;
+    if (!speaks()) return;
     bool any = false;
     {
       const std::lock_guard lock(mutex);
-      any = counts.nav_states > 0;
+      any = newest_nav_state_ns != 0;
       if (any) {
         engine.fill(detail);
         engine.fill(alignment);
@@ -270,62 +272,71 @@ struct FusionService::Impl {
   }
 
   void fill(ServiceStatus& status) {
-    Counts now;
-    TimeNs newest = 0;
-    AlignmentPhase present = AlignmentPhase::none;
-    Name unit;
+    LifeSign::Moment moment;
     {
       const std::lock_guard lock(mutex);
-      now = counts;
-      newest = newest_nav_state_ns;
-      present = phase;
-      unit = imu_sensor;
+      moment = {counts, newest_nav_state_ns, phase, imu_sensor, start.how};
     }
-    const TimeNs clock_ns = host.clock().monotonic_ns();
-    // A second of the vehicle's time; in an accelerated run a second of the host's, whose scheduling is no
-    // faster than otherwise.
-    const DurationNs patience = from_seconds(std::max(1.0, host.clock().rate()));
-    const std::string from = unit.empty() ? "" : " from " + unit.str();
-    status.text.clear();
-    if (now.nav_states == 0) {
-      status.state = ServiceState::starting;
-      status.text = now.imu_samples == 0 ? "waiting for inertial samples" + from
-                                         : "no inertial sample" + from + " could be used yet";
-    } else if (clock_ns - newest > patience) {
-      status.state = ServiceState::degraded;
-      std::array<char, 96> text{};
-      std::snprintf(text.data(), text.size(), "no usable inertial sample%s for %.1f s", from.c_str(),
-                    to_seconds(clock_ns - newest));
-      status.text = text.data();
-    } else if (present == AlignmentPhase::timed_out || present == AlignmentPhase::lost) {
-      status.state = ServiceState::degraded;
-      status.text = "alignment " + std::string(present == AlignmentPhase::lost ? "lost" : "timed out");
-    } else {
-      status.state = ServiceState::healthy;
-      status.text = start.how;
-    }
-    const double span_s = to_seconds(clock_ns - last_status_ns);
-    if (last_status_ns != 0 && span_s > 0.0) {
-      status.rates.push_back({"imu", static_cast<double>(now.imu_samples - last.imu_samples) / span_s});
-      status.rates.push_back({"nav_state", static_cast<double>(now.nav_states - last.nav_states) / span_s});
-    }
-    status.counters.push_back({"imu_samples", now.imu_samples});
-    status.counters.push_back({"nav_states", now.nav_states});
-    for (std::size_t kind = 0; kind < kVerdictKinds; ++kind) {
-      status.counters.push_back({to_string(static_cast<VerdictKind>(kind)), now.verdicts[kind]});
-    }
-    status.counters.push_back({"other_vehicle", now.other_vehicle});
-    status.counters.push_back({"commands", now.commands});
-    if (keeper) {
-      const CheckpointKeeper::Counts kept = keeper->counts();
-      status.counters.push_back({"checkpoints", kept.written});
-      status.counters.push_back({"checkpoints_failed", kept.failed});
-      if (!kept.failure.empty())
-        status.text += (status.text.empty() ? "checkpoint " : "; checkpoint ") + kept.failure;
-    }
-    last = now;
-    last_status_ns = clock_ns;
+    life_sign.fill(moment, host.clock(), status);
+    if (link) link->fill(status);
+    if (!keeper) return;
+    const CheckpointKeeper::Counts kept = keeper->counts();
+    status.counters.push_back({"checkpoints", kept.written});
+    status.counters.push_back({"checkpoints_failed", kept.failed});
+    if (!kept.failure.empty())
+      status.text += (status.text.empty() ? "checkpoint " : "; checkpoint ") + kept.failure;
   }
+
+  // What arrived since the state was saved is told the engine again. What comes of it has been said by the
+  // one that saved it.
+  Result<std::string> restore(const SharedState& state) {
+    const std::lock_guard lock(mutex);
+    if (std::string why = gap_between(state, log); !why.empty())
+      return Error{"does not reach this one: " + why};
+    if (!engine.restore(state.image)) return Error{"is none of this engine"};
+    if (imu_sensor.empty()) imu_sensor = state.imu_sensor;
+    gaps.go_on_from(state.last);
+    int told_again = 0;
+    for (const ArrivalLog::Sample& sample : log.samples()) {
+      std::visit(
+          [&]<class T>(const T& one) {
+            if constexpr (std::is_same_v<T, ImuSample>) {
+              if (one.header.stamp_ns <= engine.nav_state().header.stamp_ns) return;
+            }
+            engine.add(one);
+            ++told_again;
+          },
+          sample);
+      for (Verdict verdict; engine.next_verdict(verdict);) continue;
+    }
+    phase = engine.nav_state().alignment;
+    return "and " + std::to_string(told_again) + " samples since";
+  }
+
+  bool share(SharedState& state) {
+    const std::lock_guard lock(mutex);
+    state.image.clear();
+    if (!engine.save(state.image)) return false;
+    state.stamp_ns = engine.nav_state().header.stamp_ns;
+    state.imu_sensor = imu_sensor;
+    state.last = gaps.last();
+    return true;
+  }
+
+  [[nodiscard]] ReplicaLink::Hooks replica_hooks() {
+    ReplicaLink::Hooks hooks;
+    hooks.save = [this](SharedState& state) { return share(state); };
+    hooks.restore = [this](const SharedState& state) { return restore(state); };
+    hooks.keep_arrivals = [this](bool on) {
+      const std::lock_guard lock(mutex);
+      log.keep(on);
+    };
+    hooks.leads_now = [this] { publish_slow(); };
+    return hooks;
+  }
+
+  // Of several fusion services the one that leads speaks for all but the navigation state.
+  [[nodiscard]] bool speaks() const { return !link || link->leads(); }
 
   host::ServiceHost& host;
   const Name vehicle;
@@ -338,18 +349,22 @@ struct FusionService::Impl {
   estimation::FusionEngine& engine = start.engine;
   ArrivalBook arrivals;
   bus::WriterGuid imu_writer{};
-  Counts counts;
+  LifeSign::Counts counts;
   AlignmentPhase phase = AlignmentPhase::none;
   TimeNs newest_nav_state_ns = 0;
 
-  Counts last;  // at the life sign before; used by the thread of the life sign only
-  TimeNs last_status_ns = 0;
+  ArrivalLog log;
+  SampleGaps gaps;
+
+  LifeSign life_sign;  // used by the thread of the life sign only
 
   bus::Writer<NavState> nav_states;
   bus::Writer<NavDetail> details;
   bus::Writer<Verdict> verdicts;
   bus::Writer<AlignmentStatus> alignments;
   bus::Writer<Forecast> forecasts;
+
+  std::unique_ptr<ReplicaLink> link;  // none where this is the only fusion
 
   // Readers end first: their handlers use everything above.
   bus::Reader<GpsSample> gps;

@@ -13,6 +13,7 @@
 
 #include "geo/wgs84.hpp"
 #include "guidance_example/line_of_sight.hpp"
+#include "guidance_example/mission_route.hpp"
 #include "runtime/log.hpp"
 
 namespace fathom::guidance {
@@ -29,7 +30,10 @@ ClientOptions client_options(const host::ServiceHost& host, const Clock& clock,
   options.name = host.name() + "_client";
   options.interfaces = common.bus.interfaces;
   options.peers = common.bus.peers;
+  options.discovery_servers = common.bus.discovery_servers;
   options.profiles_dir = common.bus.profiles_dir;
+  const std::string& identity = common.bus.security.identity;
+  options.security = {common.bus.security.folder, identity.empty() ? host.name() : identity};
   options.clock = &clock;
   options.limits = {limits.max_age_s, limits.max_horizontal_95_m, limits.max_heading_sigma_rad,
                     limits.need_aligned};
@@ -89,6 +93,7 @@ struct GuidanceService::Impl {
     order = path->steer(
         {offset.x(), offset.y(), state.velocity_N_m_s[0], state.velocity_N_m_s[1], state.rpy_rad[2]});
     ++orders;
+    if (orders == 1 || order.reached != reported_waypoints) show_route();
     const TimeNs now_ns = host.clock().monotonic_ns();
     const bool arrived = order.reached != reported_waypoints;
     if (arrived) {
@@ -99,6 +104,16 @@ struct GuidanceService::Impl {
     if (!order.finished && (arrived || now_ns - reported_ns >= from_seconds(config.report_s))) {
       reported_ns = now_ns;
       host.log().info(text_of(order, health));
+    }
+  }
+
+  /// Navigation does not depend on what people see: a route that is not taken is said, and steering goes on.
+  void show_route() {
+    if (mission.empty()) mission = mission_waypoints(config, origin);
+    try {
+      client.publish_route(route_of(mission, order, origin, config.repeat));
+    } catch (const std::exception& error) {
+      host.log().warning(error.what());
     }
   }
 
@@ -145,6 +160,7 @@ struct GuidanceService::Impl {
   bool steered = false;
   geo::Geodetic origin;
   std::optional<LineOfSight> path;
+  std::vector<RouteWaypoint> mission;  ///< what people are shown of it
   SteeringOrder order;
   std::uint64_t orders = 0;
   std::uint64_t holds = 0;

@@ -23,7 +23,7 @@ int fail(const std::string& executable, ExitCode code, std::string message) {
 }  // namespace
 
 int run_service(int argc, char** argv, const ServiceInfo& info,
-                const std::function<Prepared(const config::LoadRequest&)>& load,
+                const std::function<Prepared(const config::LoadRequest&, bool check)>& load,
                 const std::function<ExitCode(ServiceHost&)>& body) {
   runtime::block_stop_signals();
   std::string executable = "fathom-" + info.name;
@@ -45,15 +45,20 @@ int run_service(int argc, char** argv, const ServiceInfo& info,
     return fail(executable, ExitCode::bad_configuration, std::string(error.what()) + "; see --help");
   }
   try {
-    Prepared prepared = load(request);
+    Prepared prepared = load(request, check);
     if (check) {
       std::printf("%s: %s: valid\n", executable.c_str(), request.file.c_str());
       return static_cast<int>(ExitCode::done);
     }
-    ServiceHost host({info, std::move(prepared.common), std::move(prepared.config_hash)});
+    ServiceInfo own = info;
+    if (!prepared.instance.empty()) own.name = prepared.instance;
+    ServiceHost host({own, std::move(prepared.common), std::move(prepared.config_hash),
+                      std::move(prepared.discovery_listen)});
     return static_cast<int>(body(host));
   } catch (const config::ConfigError& error) {
     return fail(executable, ExitCode::bad_configuration, error.what());
+  } catch (const bus::CredentialsError& error) {
+    return fail(executable, ExitCode::bad_configuration, request.file + ": bus.security: " + error.what());
   } catch (const std::exception& error) {
     return fail(executable, ExitCode::runtime_failure, error.what());
   }

@@ -13,28 +13,46 @@ namespace fathom::host {
 struct Prepared {
   config::CommonConfig common;
   std::string config_hash;
+  std::string instance{};  ///< name of this service where there may be several of its kind; else empty
+  std::string discovery_listen{};  ///< where it is a discovery server; else empty
 };
 [[nodiscard]] int run_service(int argc, char** argv, const ServiceInfo& info,
-                              const std::function<Prepared(const config::LoadRequest&)>& load,
+                              const std::function<Prepared(const config::LoadRequest&, bool check)>& load,
                               const std::function<ExitCode(ServiceHost&)>& body);
 
 /// The main of a service: `EXE --config FILE [--set key.sub=value ...] [--check] [--version]`.
 ///
 /// Loads the configuration before anything starts and calls `body(host, config)`, which builds the service
 /// and returns host.run(). What goes wrong becomes one line on standard error, `fathom-NAME: ...`, and the
-/// exit code: 2 usage or configuration, 4 anything else. Config holds a member `common` and is instantiated
-/// for config::load_service_config().
-template <class Config, class Body>
-[[nodiscard]] int run(int argc, char** argv, const ServiceInfo& info, Body&& body) {
+/// exit code: 2 usage or configuration, 4 anything else. Config holds a member `common`, a member `instance`
+/// where there may be several services of the kind, `discovery_listen` where it is a discovery server, and is
+/// instantiated for config::load_service_config().
+///
+/// `verify(config, file, check)` looks at what the configuration only names, certificates for one, before
+/// anything starts, and throws config::ConfigError. `check`: by --check, which may be stricter than a start.
+template <class Config, class Body, class Verify>
+[[nodiscard]] int run(int argc, char** argv, const ServiceInfo& info, Body&& body, Verify&& verify) {
   Config config{};
   return run_service(
       argc, argv, info,
-      [&config](const config::LoadRequest& request) {
+      [&](const config::LoadRequest& request, bool check) {
         auto loaded = config::load_service_config<Config>(request);
         config = std::move(loaded.value);
-        return Prepared{config.common, std::move(loaded.hash)};
+        verify(std::as_const(config), request.file, check);
+        Prepared prepared{config.common, std::move(loaded.hash)};
+        if constexpr (requires { config.instance; }) prepared.instance = config.instance;
+        if constexpr (requires { config.discovery_listen; })
+          prepared.discovery_listen = config.discovery_listen;
+        return prepared;
       },
       [&](ServiceHost& host) { return body(host, std::as_const(config)); });
+}
+
+/// Of a service whose configuration names nothing that has to be looked at.
+template <class Config, class Body>
+[[nodiscard]] int run(int argc, char** argv, const ServiceInfo& info, Body&& body) {
+  return run<Config>(argc, argv, info, std::forward<Body>(body),
+                     [](const Config&, const std::string& /*file*/, bool /*check*/) {});
 }
 
 }  // namespace fathom::host

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "bus/writer.hpp"
+#include "host/realtime.hpp"
 #include "host/supervisor.hpp"
 #include "runtime/build_info.hpp"
 #include "runtime/signals.hpp"
@@ -35,43 +36,29 @@ bus::ParticipantOptions participant_options(const ServiceHost::Start& start) {
   out.interfaces = start.common.bus.interfaces;
   out.peers = start.common.bus.peers;
   out.profiles_dir = start.common.bus.profiles_dir;
+  out.security = {start.common.bus.security.folder, start.common.bus.security.identity};
+  out.discovery_servers = start.common.bus.discovery_servers;
+  out.discovery_listen = start.discovery_listen;
   return out;
 }
 
 std::string event_text(const bus::BusEvent& event) {
-  const char* what = "event";
-  switch (event.kind) {
-    case bus::BusEventKind::incompatible_qos:
-      what = "incompatible QoS";
-      break;
-    case bus::BusEventKind::deadline_missed:
-      what = "deadline missed";
-      break;
-    case bus::BusEventKind::writer_lost:
-      what = "writer lost";
-      break;
-    case bus::BusEventKind::sample_lost:
-      what = "sample lost";
-      break;
-    case bus::BusEventKind::write_failed:
-      what = "write failed";
-      break;
-    case bus::BusEventKind::resource_limit:
-      what = "resource limit reached";
-      break;
-    case bus::BusEventKind::invalid_sample:
-      what = "invalid sample";
-      break;
-  }
-  return "bus: " + event.topic + ": " + what + (event.detail.empty() ? "" : ": " + event.detail);
+  const std::string topic = event.topic.empty() ? "" : event.topic + ": ";
+  return "bus: " + topic + std::string(bus::to_string(event.kind)) +
+         (event.detail.empty() ? "" : ": " + event.detail);
 }
 
 void append_bus_counters(const bus::BusCounters& counters, ServiceStatus& status) {
   const std::pair<const char*, std::uint64_t> all[] = {
-      {"bus_incompatible_qos", counters.incompatible_qos}, {"bus_deadline_missed", counters.deadline_missed},
-      {"bus_writer_lost", counters.writer_lost},           {"bus_sample_lost", counters.sample_lost},
-      {"bus_write_failed", counters.write_failed},         {"bus_resource_limit", counters.resource_limit},
-      {"bus_invalid_sample", counters.invalid_sample}};
+      {"bus_incompatible_qos", counters.incompatible_qos},
+      {"bus_deadline_missed", counters.deadline_missed},
+      {"bus_writer_lost", counters.writer_lost},
+      {"bus_sample_lost", counters.sample_lost},
+      {"bus_write_failed", counters.write_failed},
+      {"bus_resource_limit", counters.resource_limit},
+      {"bus_invalid_sample", counters.invalid_sample},
+      {"bus_stranger_refused", counters.stranger_refused},
+      {"bus_permission_refused", counters.permission_refused}};
   // The bus's counters are the same for every service and must not be crowded out.
   status.counters.resize(std::min(status.counters.size(), kMostCounters - std::size(all)));
   for (const auto& [name, value] : all) status.counters.push_back({name, value});
@@ -83,6 +70,7 @@ struct ServiceHost::Impl {
   explicit Impl(Start start_in)
       : start(std::move(start_in)),
         log("fathom-" + start.info.name, log_level(start.common.log.level)),
+        realtime_warnings(apply_realtime(start.common.realtime)),
         clock(make_clock(start.common.clock)),
         participant(participant_options(start)),
         status_writer(participant),
@@ -90,9 +78,14 @@ struct ServiceHost::Impl {
 
   [[nodiscard]] SampleHeader header() const;
   void publish(ServiceState state);
+  void judge_credentials(ServiceStatus& status);
+  /// True when this process stood still for so long that nobody on a protected network will speak to it
+  /// again.
+  bool given_up();
 
   Start start;
   runtime::Log log;
+  std::vector<std::string> realtime_warnings;  ///< before the bus: its threads inherit what was asked for
   std::unique_ptr<Clock> clock;
   runtime::StopSignal stop_signal;
   bus::Participant participant;
@@ -105,11 +98,38 @@ struct ServiceHost::Impl {
   std::atomic<bool> publish_soon{false};
   std::atomic<bool> stop_requested{false};
   std::atomic<int> exit_code{-1};
+  std::string credentials_said;
+  TimeNs awake_ns = 0;  ///< monotonic, of the host
 };
 
 SampleHeader ServiceHost::Impl::header() const {
   const TimeNs now = clock->utc_ns();
   return {std::string_view(start.common.vehicle), std::string_view(start.info.name), now, now, 0};
+}
+
+/// The end of the credentials, by the host's own clock: others judge them by theirs.
+void ServiceHost::Impl::judge_credentials(ServiceStatus& status) {
+  const TimeNs now = SystemClock().utc_ns();
+  const std::string warning = participant.credentials_warning(now);
+  if (warning.empty()) return;
+  if (warning != credentials_said) log.warning(warning + ": renew it with fathom keygen --rotate");
+  credentials_said = warning;
+  status.text += (status.text.empty() ? "" : "; ") + warning;
+  // Who knows this service goes on speaking to it; who meets it anew does not.
+  if (now > *participant.credentials_until_ns() && status.state == ServiceState::healthy) {
+    status.state = ServiceState::degraded;
+  }
+}
+
+bool ServiceHost::Impl::given_up() {
+  const TimeNs now = SystemClock().monotonic_ns();
+  const DurationNs stood_still_ns = awake_ns == 0 ? 0 : now - awake_ns;
+  awake_ns = now;
+  const auto longest = participant.longest_silence_ns();
+  if (!longest || stood_still_ns < *longest) return false;
+  log.error("stood still for " + std::to_string(stood_still_ns / kNsPerSecond) +
+            " s: the others have given this service up and it has to be started again");
+  return true;
 }
 
 void ServiceHost::Impl::publish(ServiceState state) {
@@ -123,7 +143,11 @@ void ServiceHost::Impl::publish(ServiceState state) {
   status.pid = static_cast<std::uint32_t>(getpid());
   status.started_ns = started_ns;
   if (fill) fill(status);
+  judge_credentials(status);
   if (state == ServiceState::stopping) status.state = state;
+  for (const std::string& warning : realtime_warnings) {
+    status.text += (status.text.empty() ? "" : "; ") + warning;
+  }
   append_bus_counters(participant.counters(), status);
   status_writer.write(status);
   std::string text(to_string(status.state));
@@ -132,6 +156,7 @@ void ServiceHost::Impl::publish(ServiceState state) {
 }
 
 ServiceHost::ServiceHost(Start start) : impl_(std::make_unique<Impl>(std::move(start))) {
+  for (const std::string& warning : impl_->realtime_warnings) impl_->log.warning(warning);
   impl_->participant.on_event(
       [log = &impl_->log](const bus::BusEvent& event) { log->warning(event_text(event)); });
 }
@@ -197,6 +222,7 @@ ExitCode ServiceHost::run() {
   TimeNs next_tick = next_life_sign;
   try {
     while (!impl.stop_requested) {
+      if (impl.given_up()) stop(ExitCode::runtime_failure);
       const TimeNs now = impl.clock->monotonic_ns();
       if (impl.tick && now >= next_tick) {
         impl.tick();

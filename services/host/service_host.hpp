@@ -38,11 +38,13 @@ class ServiceHost {
   struct Start {
     ServiceInfo info;
     config::CommonConfig common;
-    std::string config_hash;  ///< hex of the effective configuration
+    std::string config_hash;         ///< hex of the effective configuration
+    std::string discovery_listen{};  ///< "address:port" where it is a discovery server to others; else empty
   };
 
-  /// Joins the bus. Throws bus::BusError. SIGINT and SIGTERM must be blocked in every thread by then
-  /// (host::run() does it first of all).
+  /// Asks for the configured scheduling and memory, then joins the bus. No thread may have been started by
+  /// then: those started later inherit the scheduling, Fast DDS's among them. Throws bus::BusError. SIGINT
+  /// and SIGTERM must be blocked in every thread by then (host::run() does it first of all).
   explicit ServiceHost(Start start);
   ~ServiceHost();
   ServiceHost(const ServiceHost&) = delete;

@@ -238,6 +238,8 @@ struct MonitorService::Impl {
 
   void tick() {
     if (const health::Instant at = now(); at.monotonic_ns - tried_ns >= kRetryNs) open_outputs(at);
+    std::vector<std::string> strangers;
+    for (const bus::Stranger& one : host.participant().strangers()) strangers.push_back(bus::to_string(one));
     std::vector<Alarm> changes;
     std::vector<Alarm> repeats;
     std::optional<MonitorStatus> status;
@@ -246,6 +248,7 @@ struct MonitorService::Impl {
       const std::lock_guard lock(mutex);
       const health::Instant at = now();
       judge_outputs(at);
+      health.strangers(std::move(strangers), at);
       health.evaluate(at);
       changes = health.take_changes();
       if (at.monotonic_ns - repeated_ns >= from_seconds(config.alarm_repeat_s)) {

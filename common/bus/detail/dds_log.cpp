@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <mutex>
+#include <set>
+#include <utility>
 
 #include <fastdds/dds/log/Log.hpp>
 
@@ -15,6 +17,8 @@ using eprosima::fastdds::dds::LogConsumer;
 struct LastError {
   std::mutex mutex;
   std::string text;
+  std::mutex listeners_mutex;  // held while they run; never taken while the other is held
+  std::set<const std::function<void(const std::string&)>*> listeners;
 };
 
 LastError& last_error() {
@@ -26,8 +30,12 @@ class KeepLastError final : public LogConsumer {
  public:
   void Consume(const Log::Entry& entry) override {
     if (entry.kind != Log::Kind::Error) return;
-    const std::lock_guard lock(last_error().mutex);
-    last_error().text = entry.message;
+    {
+      const std::lock_guard lock(last_error().mutex);
+      last_error().text = entry.message;
+    }
+    const std::lock_guard lock(last_error().listeners_mutex);
+    for (const auto* listener : last_error().listeners) (*listener)(entry.message);
   }
 };
 
@@ -46,6 +54,16 @@ std::string last_dds_error() {
   Log::Flush();
   const std::lock_guard lock(last_error().mutex);
   return last_error().text.empty() ? "" : " (" + last_error().text + ")";
+}
+
+DdsErrors::DdsErrors(std::function<void(const std::string&)> handler) : handler_(std::move(handler)) {
+  const std::lock_guard lock(last_error().listeners_mutex);
+  last_error().listeners.insert(&handler_);
+}
+
+DdsErrors::~DdsErrors() {
+  const std::lock_guard lock(last_error().listeners_mutex);
+  last_error().listeners.erase(&handler_);
 }
 
 }  // namespace fathom::bus::detail

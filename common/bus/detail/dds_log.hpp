@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 namespace fathom::bus::detail {
@@ -10,5 +11,18 @@ void capture_dds_log();
 /// The latest error of Fast DDS in parentheses with a leading space, e.g. to end a message with; empty when
 /// there was none.
 [[nodiscard]] std::string last_dds_error();
+
+/// Hears every error of Fast DDS in this process while it lives, from a thread of Fast DDS.
+class DdsErrors {
+ public:
+  explicit DdsErrors(std::function<void(const std::string& message)> handler);
+  /// The handler is not running any more when this returns.
+  ~DdsErrors();
+  DdsErrors(const DdsErrors&) = delete;
+  DdsErrors& operator=(const DdsErrors&) = delete;
+
+ private:
+  std::function<void(const std::string&)> handler_;
+};
 
 }  // namespace fathom::bus::detail

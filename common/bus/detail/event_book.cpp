@@ -22,6 +22,10 @@ std::string_view to_string(BusEventKind kind) {
       return "resource limit";
     case BusEventKind::invalid_sample:
       return "invalid sample";
+    case BusEventKind::stranger_refused:
+      return "stranger refused";
+    case BusEventKind::permission_refused:
+      return "permission refused";
   }
   return "unknown";
 }
@@ -44,9 +48,13 @@ std::uint64_t& counter(BusCounters& counters, BusEventKind kind) {
     case BusEventKind::resource_limit:
       return counters.resource_limit;
     case BusEventKind::invalid_sample:
+      return counters.invalid_sample;
+    case BusEventKind::stranger_refused:
+      return counters.stranger_refused;
+    case BusEventKind::permission_refused:
       break;
   }
-  return counters.invalid_sample;
+  return counters.permission_refused;
 }
 
 }  // namespace

@@ -121,8 +121,8 @@ struct FromWire {
 };
 
 /// Visitor that only reads past the fields, to check the lengths of lists before anything allocates room for
-/// them: four bytes from the network could otherwise claim gigabytes. Relies on fields() having the order of
-/// the IDL.
+/// them: four bytes from the network could otherwise claim gigabytes. Text beyond its bound, which the wire
+/// types would cut in silence, is refused as well. Relies on fields() having the order of the IDL.
 struct ListCheck {
   eprosima::fastcdr::Cdr& cdr;
   bool valid = true;
@@ -131,8 +131,7 @@ struct ListCheck {
   void operator()(Plain& /*plain*/, Wire& /*wire*/) {
     if (!valid) return;
     if constexpr (std::is_same_v<Plain, Name> || std::is_same_v<Plain, std::string>) {
-      std::string text;
-      cdr >> text;
+      bounded_text(Wire::max_size);
     } else {
       Wire value;
       cdr >> value;
@@ -146,9 +145,8 @@ struct ListCheck {
   }
 
   template <std::size_t N>
-  void text(std::array<char, N>& /*plain*/, auto& /*wire*/) {
-    std::string text;
-    if (valid) cdr >> text;
+  void text(std::array<char, N>& /*plain*/, auto& wire) {
+    if (valid) bounded_text(std::remove_reference_t<decltype(wire)>::max_size);
   }
 
   template <class Plain, std::size_t N, class Wire, class Each>
@@ -163,6 +161,12 @@ struct ListCheck {
   }
 
  private:
+  void bounded_text(std::size_t most) {
+    std::string text;
+    cdr >> text;
+    valid = text.size() <= most;
+  }
+
   template <class Plain, class Wire>
   void elements(std::size_t bound, auto each) {
     if (!valid) return;

@@ -3,16 +3,21 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 
+#include "bus/detail/dds_log.hpp"
 #include "bus/detail/event_book.hpp"
 #include "bus/detail/peer_book.hpp"
+#include "bus/detail/stranger_book.hpp"
 #include "bus/detail/topic_ops.hpp"
 #include "bus/participant.hpp"
+#include "security/credentials.hpp"
 
 namespace fathom::bus {
 
@@ -38,8 +43,18 @@ struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListen
   void on_subscriber_discovery(eprosima::fastdds::dds::DomainParticipant*,
                                eprosima::fastrtps::rtps::ReaderDiscoveryInfo&& info) override;
 
+  void onParticipantAuthentication(eprosima::fastdds::dds::DomainParticipant*,
+                                   eprosima::fastrtps::rtps::ParticipantAuthenticationInfo&& info) override;
+
+  /// What Fast DDS could not do about a local writer or reader, with the remedy where it is known.
+  [[nodiscard]] std::string why_not(const std::string& topic);
+  /// Reports those who have taken too long to prove an identity.
+  void judge_waiting();
+
   detail::EventBook events;
   detail::PeerBook peers;
+  detail::StrangerBook strangers;
+  std::optional<security::Credentials> credentials;  ///< nothing: the network is not protected
   eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
   eprosima::fastdds::dds::Publisher* publisher = nullptr;
   eprosima::fastdds::dds::Subscriber* subscriber = nullptr;
@@ -51,6 +66,11 @@ struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListen
     std::chrono::steady_clock::time_point when;
   };
   void participant_dropped(const detail::GuidPrefix& prefix);
+  void meet(const detail::GuidPrefix& prefix, const Peer& peer,
+            const eprosima::fastrtps::rtps::ParticipantProxyData& data);
+  void part(const detail::GuidPrefix& prefix);
+  void report(const Stranger& stranger);
+  void on_dds_error(const std::string& message);
   void close();
 
   int number_ = -1;  // among the participants of this process
@@ -59,6 +79,11 @@ struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListen
   std::map<std::string, eprosima::fastdds::dds::Topic*> topics_;  // owned by participant
   std::map<std::string, std::string> types_;                      // of local topics
   std::vector<Unmatched> unmatched_;
+
+  std::mutex strangers_mutex_;
+  std::set<std::string> reported_strangers_;
+  bool denied_ = false;                      ///< our own permissions do not allow what was tried last
+  std::optional<detail::DdsErrors> errors_;  // last: gone before what it touches
 };
 
 namespace detail {

@@ -11,7 +11,7 @@ GuidPrefix prefix_of(const WriterGuid& guid) {
   return prefix;
 }
 
-std::string hex(const WriterGuid& guid) {
+std::string hex(std::span<const std::uint8_t> guid) {
   constexpr const char* kDigits = "0123456789abcdef";
   std::string text;
   for (const std::uint8_t byte : guid) {

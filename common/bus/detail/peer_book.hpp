@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace fathom::bus::detail {
 
 using GuidPrefix = std::array<std::uint8_t, 12>;
 [[nodiscard]] GuidPrefix prefix_of(const WriterGuid& guid);
-[[nodiscard]] std::string hex(const WriterGuid& guid);
+[[nodiscard]] std::string hex(std::span<const std::uint8_t> guid);
 
 /// A reader or writer of another participant.
 struct RemoteEndpoint {

@@ -40,7 +40,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     if (reader == nullptr) {
       ops.destroy(slot.sample);
       throw BusError("reader of " + std::string(ops.topic) + ": Fast DDS could not create it" +
-                     last_dds_error());
+                     bus.why_not(ops.topic));
     }
     bus.check_types(ops.topic);
   }

@@ -1,4 +1,5 @@
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -33,11 +34,12 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     offered =
         summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(), qos.liveliness());
     dds::StatusMask mask = dds::StatusMask::publication_matched();
-    mask << dds::StatusMask::offered_deadline_missed() << dds::StatusMask::offered_incompatible_qos();
+    mask << dds::StatusMask::offered_incompatible_qos();
+    if (!options.may_rest) mask << dds::StatusMask::offered_deadline_missed();
     writer = bus.publisher->create_datawriter(topic, qos, this, mask);
     if (writer == nullptr) {
       throw BusError("writer of " + std::string(ops.topic) + ": Fast DDS could not create it" +
-                     last_dds_error());
+                     bus.why_not(ops.topic));
     }
     bus.check_types(ops.topic);
   }
@@ -48,6 +50,10 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     // reader would then ignore. A reader that died is not waited for any longer.
     if (offered.reliability > 0) writer->wait_for_acknowledgments({0, kLastWords_ns});
     writer->set_listener(nullptr);
+    // What a dead reader never took would be released one by one while the heartbeat still walks over it,
+    // which may then never end (Fast DDS 2.9.1).
+    std::size_t removed = 0;
+    writer->clear_history(&removed);
     bus.publisher->delete_datawriter(writer);
   }
 

@@ -1,6 +1,18 @@
 // The operator console as an operator meets it. Each step says what it saw; the first that fails ends the run.
 import {existsSync, readFileSync, statSync} from "node:fs";
-import {check, ddsStatus, field, findings, kShots, sentence, startBrowser, startDemo, until, view} from "./stage.mjs";
+import {
+  check,
+  ddsStatus,
+  field,
+  findings,
+  kShots,
+  sentence,
+  startBrowser,
+  startDemo,
+  startTlsConsole,
+  until,
+  view,
+} from "./stage.mjs";
 
 const kViews = ["overview", "map", "sensors", "filter", "network"];
 const store = (page, read) => page.evaluate(`import("/js/store.js").then(({store}) => (${read})(store))`);
@@ -186,6 +198,37 @@ async function toolsWork(page) {
   said("CSV, PNG, pause, keys, units, distance and pointer work");
 }
 
+async function routeIsShown(page) {
+  await view(page, "map");
+  const line = '[data-route="guidance_example_client"]';
+  await until("the route of guidance", async () => /to waypoint \d of 4 · \d\.\d s old/.test(await page.textContent(line)));
+  const route = await store(page, "(s) => s.routes[0]");
+  const drawn = await page.evaluate(async (one) => {
+    const {shapeOf} = await import("/js/routes.js");
+    return shapeOf(one).legs.filter(({state}) => state === "active").length;
+  }, route);
+  check(drawn === 1, "one leg that is steered");
+  said(`route: "${await page.textContent(line)}"`);
+  await view(page, "overview");
+}
+
+async function worksOverTls(stage) {
+  const secure = await startTlsConsole(18499);
+  try {
+    const page = await stage.open(secure.address, {ignoreHTTPSErrors: true});
+    check(page.url().startsWith("https://") && !page.url().includes("token"), "https, and no token in the address");
+    await navigates(page);
+    await until("the role of the token", () => store(page, '(s) => s.session.role === "operator"'));
+    await view(page, "overview");
+    await page.evaluate(async () => (await import("/js/orders.js")).order({kind: "acknowledge_alarm", target: "*"}));
+    await until("the order in the log", () => /passed on an order of bridge \(operator\)/.test(secure.output()));
+    said(`https: "${await sentence(page)}", and an order was taken`);
+    await page.context().close();
+  } finally {
+    await secure.stop();
+  }
+}
+
 async function sourceIsSwitched(page) {
   await view(page, "sensors");
   const row = '[data-source="usbl"] button:text("Disable …")';
@@ -279,7 +322,9 @@ try {
   await tabletFits(stage, demo.plain);
   await toolsWork(page);
   await outageClears([page, other]);
+  await routeIsShown(page);
   await sourceIsSwitched(page);
+  await worksOverTls(stage);
   await manyClients(stage, demo.plain);
   await killFusion(page);
   await killConsole(stage, [page, other]);

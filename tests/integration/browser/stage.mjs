@@ -1,7 +1,8 @@
 // The stage that the tests play on: the demonstration, Chromium, pages, and patience.
-import {spawn, execFile} from "node:child_process";
+import {spawn, execFile, execFileSync} from "node:child_process";
 import {createRequire} from "node:module";
-import {readFileSync} from "node:fs";
+import {mkdtempSync, readFileSync, rmSync, writeFileSync} from "node:fs";
+import {tmpdir} from "node:os";
 import {setTimeout as pause} from "node:timers/promises";
 
 const require = createRequire(process.env.FATHOM_NPM_DIR + "/package.json");
@@ -50,6 +51,41 @@ export async function startDemo() {
     async stop() {
       demo.kill("SIGINT");
       await ended;
+    },
+  };
+}
+
+/** A second console of the same vehicle that speaks https with a certificate of its own; `address` is its page. */
+export async function startTlsConsole(port) {
+  const folder = mkdtempSync(tmpdir() + "/fathom-tls-");
+  const [certificate, key, tokens] = ["console.pem", "console.key", "tokens.json"].map((name) => `${folder}/${name}`);
+  const curve = ["-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "90", "-subj", "/CN=fathom"];
+  const names = ["-addext", "subjectAltName=IP:127.0.0.1"];
+  execFileSync("openssl", ["req", "-x509", ...curve, ...names, "-keyout", key, "-out", certificate], {stdio: "pipe"});
+  const token = "operator-0123456789";
+  writeFileSync(tokens, JSON.stringify({tokens: [{name: "bridge", role: "operator", token}]}), {mode: 0o600});
+  const sets = {
+    "bus.domain": domain,
+    "http.port": port,
+    "tls.certificate_file": certificate,
+    "tls.key_file": key,
+    "access.orders": true,
+    "access.token_file": tokens,
+  };
+  const config = process.env.FATHOM_SOURCE + "/deploy/config/console.json";
+  const words = Object.entries(sets).flatMap(([name, value]) => ["--set", `${name}=${value}`]);
+  const service = spawn(bin + "/fathom-console", ["--config", config, ...words], {stdio: ["ignore", "ignore", "pipe"]});
+  let output = "";
+  service.stderr.on("data", (bytes) => (output += bytes));
+  const ended = new Promise((resolve) => service.on("exit", resolve));
+  const address = await until("the https address", () => output.match(/console at (https:\S+\/),/)?.[1]);
+  return {
+    address: `${address}#token=${token}`,
+    output: () => output,
+    async stop() {
+      service.kill("SIGTERM");
+      await ended;
+      rmSync(folder, {recursive: true});
     },
   };
 }

@@ -1,5 +1,6 @@
 // What a service leaves open on its host: sockets on the configured interfaces only, and no shared memory.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -67,6 +68,29 @@ TEST(Sockets, AreBoundToTheConfiguredInterfaceOnly) {
   const std::vector<std::string> udp = bound("udp");
   EXPECT_GE(udp.size(), 4U);  // each participant: discovery and samples
   for (const std::string& address : udp) EXPECT_TRUE(address.starts_with("0100007F:")) << address;
+  EXPECT_TRUE(bound("udp6").empty());
+  EXPECT_TRUE(bound("tcp").empty());
+  EXPECT_TRUE(bound("tcp6").empty());
+}
+
+TEST(Sockets, OfADiscoveryServerAndItsClientAreNoOthers) {
+  const std::string address = "127.0.0.1:21811";
+  bus::ParticipantOptions served = options(122, "a");
+  served.discovery_servers = {address};
+  bus::ParticipantOptions serving = options(122, "discovery");
+  serving.discovery_listen = address;
+  const bus::Participant server(serving);
+  bus::Participant a(served);
+  bus::Participant b(served);
+  bus::Writer<NavState> writer(a);
+  Inbox<NavState> inbox;
+  bus::Reader<NavState> reader(b, inbox.handler());
+  ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1; }, milliseconds(60'000)));
+
+  const std::vector<std::string> udp = bound("udp");
+  EXPECT_GE(udp.size(), 6U);
+  for (const std::string& one : udp) EXPECT_TRUE(one.starts_with("0100007F:")) << one;
+  EXPECT_NE(std::find(udp.begin(), udp.end(), "0100007F:5533"), udp.end()) << "the server's port";
   EXPECT_TRUE(bound("udp6").empty());
   EXPECT_TRUE(bound("tcp").empty());
   EXPECT_TRUE(bound("tcp6").empty());

@@ -14,6 +14,7 @@
 
 #include "http_peer.hpp"
 #include "integration/services/vehicle_network.hpp"
+#include "support/certificate.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
@@ -37,6 +38,10 @@ class ConsoleTest : public ::testing::Test {
     setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
     sets.insert(sets.begin(), {"bus.domain=" + std::to_string(domain), "http.port=" + std::to_string(port),
                                "access.token_file=" + token_file.string()});
+    if (certificate != nullptr) {
+      sets.push_back("tls.certificate_file=" + certificate->certificate());
+      sets.push_back("tls.key_file=" + certificate->key());
+    }
     std::vector<std::string> arguments{"--config",
                                        std::string(FATHOM_SOURCE_DIR) + "/deploy/config/console.json"};
     for (const std::string& set : sets) {
@@ -74,7 +79,15 @@ class ConsoleTest : public ::testing::Test {
     });
   }
 
-  [[nodiscard]] HttpAnswer ask(const std::string& request) const { return HttpPeer(port).exchange(request); }
+  /// The console speaks TLS from the next start on, with this certificate.
+  void use(const Certificate& own) { certificate = &own; }
+  /// A connection as the console expects it.
+  [[nodiscard]] std::unique_ptr<HttpPeer> peer() const {
+    return certificate != nullptr
+               ? std::make_unique<HttpPeer>(port, HttpPeer::Tls{certificate->certificate()})
+               : std::make_unique<HttpPeer>(port);
+  }
+  [[nodiscard]] HttpAnswer ask(const std::string& request) const { return peer()->exchange(request); }
   [[nodiscard]] std::string host() const { return "127.0.0.1:" + std::to_string(port); }
   [[nodiscard]] HttpAnswer get(const std::string& path, const std::string& headers = "") const {
     return ask("GET " + path + " HTTP/1.1\r\nHost: " + host() + "\r\nConnection: close\r\n" + headers +
@@ -83,7 +96,8 @@ class ConsoleTest : public ::testing::Test {
   [[nodiscard]] HttpAnswer order(const nlohmann::json& body, const std::string& token) const {
     const std::string text = body.dump();
     const std::string authorization = token.empty() ? "" : "Authorization: Bearer " + token + "\r\n";
-    return ask("POST /api/order HTTP/1.1\r\nHost: " + host() + "\r\nOrigin: http://" + host() +
+    return ask("POST /api/order HTTP/1.1\r\nHost: " + host() +
+               "\r\nOrigin: " + (certificate != nullptr ? "https://" : "http://") + host() +
                "\r\nConnection: close\r\nContent-Type: application/json\r\n" + authorization +
                "Content-Length: " + std::to_string(text.size()) + "\r\n\r\n" + text);
   }
@@ -91,6 +105,7 @@ class ConsoleTest : public ::testing::Test {
   SystemClock clock;
   int port = 0;
   std::filesystem::path token_file;
+  const Certificate* certificate = nullptr;
   std::unique_ptr<VehicleNetwork> network;
   std::unique_ptr<Process> console;
   std::atomic<bool> navigating{false};

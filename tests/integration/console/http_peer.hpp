@@ -1,6 +1,8 @@
 #pragma once
 
+#include <csignal>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +10,7 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
+#include <openssl/ssl.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -20,9 +23,14 @@ struct HttpAnswer {
   std::string body;
 };
 
-/// A socket that says whatever it is told, as no browser would.
+/// A socket that says whatever it is told, as no browser would, in clear or by TLS.
 class HttpPeer {
  public:
+  struct Tls {
+    std::string trusted;  ///< PEM file of the certificate that the console has to show
+    int newest = TLS1_3_VERSION;
+  };
+
   explicit HttpPeer(int port, int receive_buffer = 0)
       : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     if (receive_buffer > 0)
@@ -36,15 +44,34 @@ class HttpPeer {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   }
+  HttpPeer(int port, const Tls& options) : HttpPeer(port) {
+    context_.reset(SSL_CTX_new(TLS_client_method()));
+    SSL_CTX_load_verify_locations(context_.get(), options.trusted.c_str(), nullptr);
+    SSL_CTX_set_verify(context_.get(), SSL_VERIFY_PEER, nullptr);
+    SSL_CTX_set_security_level(context_.get(), 0);  // whatever the version: refusing is the console's part
+    SSL_CTX_set_min_proto_version(context_.get(), TLS1_VERSION);
+    SSL_CTX_set_max_proto_version(context_.get(), options.newest);
+    tls_.reset(SSL_new(context_.get()));
+    X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(tls_.get()), "127.0.0.1");
+    SSL_set_fd(tls_.get(), socket_);
+    sigset_t pipe;  // the library writes without MSG_NOSIGNAL
+    sigemptyset(&pipe);
+    sigaddset(&pipe, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
+    connected_ = connected_ && SSL_connect(tls_.get()) == 1;
+  }
   ~HttpPeer() { close(socket_); }
   HttpPeer(const HttpPeer&) = delete;
   HttpPeer& operator=(const HttpPeer&) = delete;
 
+  /// By TLS: the console showed the certificate that is trusted, for this address.
   [[nodiscard]] bool connected() const { return connected_; }
+  [[nodiscard]] std::string version() const { return tls_ ? SSL_get_version(tls_.get()) : ""; }
   /// What the other side closed meanwhile takes no more; the answer tells.
   void say(std::string_view bytes) {
     while (!bytes.empty()) {
-      const ssize_t sent = send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      const ssize_t sent = tls_ ? SSL_write(tls_.get(), bytes.data(), static_cast<int>(bytes.size()))
+                                : send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
       if (sent <= 0) return;
       bytes.remove_prefix(static_cast<std::size_t>(sent));
     }
@@ -84,7 +111,8 @@ class HttpPeer {
  private:
   bool receive() {
     char chunk[65536];
-    const ssize_t got = recv(socket_, chunk, sizeof chunk, 0);
+    const ssize_t got =
+        tls_ ? SSL_read(tls_.get(), chunk, sizeof chunk) : recv(socket_, chunk, sizeof chunk, 0);
     if (got <= 0) return false;
     heard_.append(chunk, static_cast<std::size_t>(got));
     return true;
@@ -92,6 +120,8 @@ class HttpPeer {
 
   int socket_;
   bool connected_ = false;
+  std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context_{nullptr, SSL_CTX_free};
+  std::unique_ptr<SSL, decltype(&SSL_free)> tls_{nullptr, SSL_free};
   std::string heard_;
 };
 

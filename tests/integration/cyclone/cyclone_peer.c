@@ -1,11 +1,12 @@
-/* cyclone_peer nav_state|alignment|gps DOMAIN: a Cyclone DDS participant for the tests.
- * nav_state, alignment: prints the first sample received, one "field value" a line, and exits 0.
+/* cyclone_peer nav_state|alignment|route|gps DOMAIN: a Cyclone DDS participant for the tests.
+ * nav_state, alignment, route: prints the first sample received, one "field value" a line, and exits 0.
  * gps: publishes GpsSample every 20 ms until it is killed. Exits 1 after 20 s without a sample. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "dds/dds.h"
+#include "guidance.h"
 #include "navigation.h"
 #include "sensors.h"
 
@@ -63,6 +64,20 @@ static void print_alignment(const void* data) {
   printf("advice %s\n", s->advice);
 }
 
+static void print_route(const void* data) {
+  const fathom_v1_Route* s = data;
+  printf("vehicle %s\npublisher %s\n", s->vehicle, s->publisher);
+  printf("active %u\nrepeats %d\n", (unsigned)s->active, s->repeats);
+  printf("first_number %u\nmission_count %u\n", (unsigned)s->first_number, (unsigned)s->mission_count);
+  PRINT(s, leg_start_latitude_rad);
+  PRINT(s, leg_start_longitude_rad);
+  for (uint32_t i = 0; i < s->waypoints._length; ++i) {
+    const fathom_v1_RouteWaypoint* w = &s->waypoints._buffer[i];
+    printf("waypoint '%s' %.17g %.17g %.17g %.17g\n", w->name, w->latitude_rad, w->longitude_rad, w->depth_m,
+           w->speed_m_s);
+  }
+}
+
 static int subscribe(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name,
                      dds_qos_t* qos, void (*print)(const void*)) {
   const dds_entity_t topic = dds_create_topic(participant, type, name, NULL, NULL);
@@ -112,7 +127,7 @@ static int publish_gps(dds_entity_t participant, dds_qos_t* qos) {
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    fprintf(stderr, "usage: cyclone_peer nav_state|alignment|gps DOMAIN\n");
+    fprintf(stderr, "usage: cyclone_peer nav_state|alignment|route|gps DOMAIN\n");
     return 2;
   }
   const dds_entity_t participant =
@@ -130,6 +145,11 @@ int main(int argc, char** argv) {
     dds_qset_deadline(qos, DDS_SECS(3));
     return subscribe(participant, &fathom_v1_AlignmentStatus_desc, "fathom/v1/alignment", qos,
                      print_alignment);
+  }
+  if (strcmp(argv[1], "route") == 0) {
+    dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+    dds_qset_deadline(qos, DDS_SECS(3));
+    return subscribe(participant, &fathom_v1_Route_desc, "fathom/v1/route", qos, print_route);
   }
   return publish_gps(participant, qos);
 }

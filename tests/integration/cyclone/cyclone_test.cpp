@@ -24,6 +24,7 @@
 #include "samples/alignment_status.hpp"
 #include "samples/gps.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/route.hpp"
 
 namespace fathom {
 namespace {
@@ -169,6 +170,24 @@ TEST(Cyclone, ReceivesListsAndTextOfAlignmentStatus) {
             "vehicle auv\nphase 4\nin_phase_s 3.5\nconditions 2\n"
             "condition pitch_rad 0.25 0.5 1.5 2.5 1\ncondition rate_rad_s 0.125 0.0625 0 4 0\n"
             "rpy_sigma_rad nan nan nan\ntime_to_aligned_s 42\nadvice turn through a circle\n");
+}
+
+TEST(Cyclone, ReceivesTheWaypointsOfARoute) {
+  Route s;
+  s.header.vehicle = "auv";
+  s.header.sensor = "guidance";
+  s.active = 1;
+  s.repeats = true;
+  s.first_number = 9;
+  s.mission_count = 40;
+  s.leg_start_latitude_rad = 0.5;
+  s.waypoints = {
+      {.name = "A buoy", .latitude_rad = 0.625, .longitude_rad = -2.25, .depth_m = 5, .speed_m_s = 1.5},
+      {.latitude_rad = 0.75, .longitude_rad = 2.5}};
+  EXPECT_EQ(as_seen_by_peer("route", 133, s),
+            "vehicle auv\npublisher guidance\nactive 1\nrepeats 1\nfirst_number 9\nmission_count 40\n"
+            "leg_start_latitude_rad 0.5\nleg_start_longitude_rad nan\n"
+            "waypoint 'A buoy' 0.625 -2.25 5 1.5\nwaypoint '' 0.75 2.5 nan nan\n");
 }
 
 TEST(Cyclone, PublishesGpsToUs) {

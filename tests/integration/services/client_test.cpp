@@ -1,7 +1,10 @@
 #include <atomic>
 #include <cmath>
 #include <memory>
+#include <mutex>
+#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fathom/client.hpp>
 #include <gtest/gtest.h>
@@ -97,6 +100,69 @@ TEST(Client, AHandlerMayReplaceItselfAndAReplacedOneIsNotCalledAgain) {
   for (int i = 0; i < 5; ++i) network.nav();
   (void)client.wait_next(0.2);
   EXPECT_EQ(after, seen);
+}
+
+TEST(Client, RepeatsItsRouteForThoseWhoComeLaterAndRefusesOneThatNobodyCouldDraw) {
+  const SystemClock clock;
+  VehicleNetwork network(191, clock);
+  ClientOptions named = options(191, "");
+  named.name = "my_guidance";
+  Client client(named);
+  Route route{.active = 1,
+              .waypoints = {{.name = "A", .latitude_rad = 0.6, .longitude_rad = 2.2},
+                            {.name = "B", .latitude_rad = 0.61, .longitude_rad = 2.2, .depth_m = 5.0}}};
+  client.publish_route(route);  // of a vehicle that is not known yet
+  std::mutex mutex;
+  std::vector<Route> heard;
+  const bus::Reader<Route> late(network.participant(), [&](const Route& one, const bus::SampleInfo&) {
+    const std::lock_guard lock(mutex);
+    heard.push_back(one);
+  });
+  const auto heard_with = [&](std::size_t count, std::uint32_t active) {
+    const std::lock_guard lock(mutex);
+    return heard.size() >= count && heard.back().active == active;
+  };
+  ASSERT_TRUE(wait_until(
+      [&] {
+        network.nav();
+        return heard_with(3, 1);  // it is said again and again
+      },
+      60.0));
+  {
+    const std::lock_guard lock(mutex);
+    const Route& last = heard.back();
+    EXPECT_EQ(last.header.vehicle, Name("auv"));
+    EXPECT_EQ(last.header.sensor, Name("my_guidance"));
+    EXPECT_GT(last.header.stamp_ns, heard.front().header.stamp_ns);
+    EXPECT_GT(last.header.sequence, heard.front().header.sequence);
+    EXPECT_EQ(last.mission_count, 2U);
+    ASSERT_EQ(last.waypoints.size(), 2U);
+    EXPECT_EQ(last.waypoints[1].name, Name("B"));
+    EXPECT_EQ(last.waypoints[1].depth_m, 5.0);
+  }
+  // From a handler as well, which runs on a thread of the bus.
+  route.active = 2;
+  client.on_nav_state([&](const NavState&) { client.publish_route(route); });
+  EXPECT_TRUE(wait_until(
+      [&] {
+        network.nav();
+        return heard_with(4, 2);
+      },
+      60.0));
+  client.on_nav_state(nullptr);
+  route.waypoints[0].latitude_rad = kUnknown;
+  try {
+    client.publish_route(route);
+    ADD_FAILURE() << "a waypoint nowhere";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("my_guidance: its position is not usable, expected"),
+              std::string::npos)
+        << error.what();
+  }
+  client.publish_route({});
+  EXPECT_TRUE(wait_until([&] { return heard_with(5, 0); }, 60.0));
+  const std::lock_guard lock(mutex);
+  EXPECT_TRUE(heard.back().waypoints.empty()) << "it follows nothing any more";
 }
 
 TEST(ClientHealth, SaysWhatIsWrongFirst) {

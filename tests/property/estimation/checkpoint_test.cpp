@@ -1,6 +1,7 @@
 // An engine that takes up what another one has saved goes on as that one does, to the last bit.
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -108,6 +109,17 @@ TEST_P(Checkpoint, GoesOnToTheLastBit) {
     FusionEngine second(config);
     ASSERT_TRUE(second.restore(image));
     EXPECT_EQ(second.nav_state().header.stamp_ns, first.nav_state().header.stamp_ns);
+    // Before anything else has arrived: with the aiding that is in the image.
+    Forecast foretold;
+    second.fill(foretold);
+    Forecast expected_forecast;
+    first.fill(expected_forecast);
+    EXPECT_EQ(foretold.limit_count, expected_forecast.limit_count);
+    // What still waits in the one has acted in the other.
+    EXPECT_EQ(std::isnan(foretold.horizontal_95_m), std::isnan(expected_forecast.horizontal_95_m));
+    if (!std::isnan(foretold.horizontal_95_m)) {
+      EXPECT_NEAR(foretold.horizontal_95_m / expected_forecast.horizontal_95_m, 1.0, 0.5);
+    }
     const Passage expected = follow(first, samples, cut);
     const Passage got = follow(second, samples, cut);
     SCOPED_TRACE(share);

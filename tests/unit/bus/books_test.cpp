@@ -80,6 +80,8 @@ TEST(EventBook, CountsEachKindByItself) {
   book.report(BusEventKind::write_failed, "t", "", "", 5);
   book.report(BusEventKind::resource_limit, "t", "", "", 6);
   book.report(BusEventKind::invalid_sample, "t", "", "", 7);
+  book.report(BusEventKind::stranger_refused, "", "", "", 8);
+  book.report(BusEventKind::permission_refused, "t", "", "", 9);
   const BusCounters counters = book.counters();
   EXPECT_EQ(counters.incompatible_qos, 1U);
   EXPECT_EQ(counters.deadline_missed, 2U);
@@ -88,6 +90,8 @@ TEST(EventBook, CountsEachKindByItself) {
   EXPECT_EQ(counters.write_failed, 5U);
   EXPECT_EQ(counters.resource_limit, 6U);
   EXPECT_EQ(counters.invalid_sample, 7U);
+  EXPECT_EQ(counters.stranger_refused, 8U);
+  EXPECT_EQ(counters.permission_refused, 9U);
 }
 
 WriterGuid guid(std::uint8_t participant, std::uint8_t entity) {

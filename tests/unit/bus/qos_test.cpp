@@ -75,6 +75,9 @@ class QosTable : public testing::Test {
     make<MonitorStatus>(participant, "fathom/v1/monitor_status", *pairs_);
     make<ServiceStatus>(participant, "fathom/v1/service_status", *pairs_);
     make<Command>(participant, "fathom/v1/command", *pairs_);
+    make<ReplicaStatus>(participant, "fathom/v1/replica_status", *pairs_);
+    make<EngineStatePart>(participant, "fathom/v1/engine_state", *pairs_);
+    make<Route>(participant, "fathom/v1/route", *pairs_);
     make<Truth>(participant, "fathom/v1/truth", *pairs_);
   }
   static void TearDownTestSuite() { delete std::exchange(pairs_, nullptr); }
@@ -109,6 +112,8 @@ TEST_F(QosTable, EveryTopic) {
     // A reader of the same configuration always meets the writer.
     EXPECT_LE(pair.writer.matching.deadline_ns, pair.reader.matching.deadline_ns);
     EXPECT_GE(pair.deep.depth, pair.reader.depth);
+    // What comes after a lost sample waits in the reader until that one is sent again.
+    EXPECT_GE(pair.reader.max_samples_per_instance, pair.writer.depth);
   }
 }
 
@@ -144,8 +149,8 @@ TEST_F(QosTable, NavState) {
 }
 
 TEST_F(QosTable, Status) {
-  for (const std::string name :
-       {"nav_detail", "alignment", "forecast", "alarm", "monitor_status", "service_status"}) {
+  for (const std::string name : {"nav_detail", "alignment", "forecast", "alarm", "monitor_status",
+                                 "service_status", "replica_status", "route"}) {
     SCOPED_TRACE(name);
     const Pair& pair = pairs_->at("fathom/v1/" + name);
     for (const EffectiveQos* qos : {&pair.writer, &pair.reader}) {
@@ -153,6 +158,16 @@ TEST_F(QosTable, Status) {
       EXPECT_EQ(qos->depth, 1);
       EXPECT_EQ(qos->matching.deadline_ns, name == "alarm" ? kForever : 3 * kNsPerSecond);
     }
+  }
+}
+
+TEST_F(QosTable, EngineState) {
+  const Pair& pair = pairs_->at("fathom/v1/engine_state");
+  for (const EffectiveQos* qos : {&pair.writer, &pair.reader}) {
+    EXPECT_EQ(qos->matching.durability, 0);
+    EXPECT_EQ(qos->matching.deadline_ns, kForever);
+    // A whole state waits for a reader that has lost a part of it.
+    EXPECT_GE(qos->depth, 128);
   }
 }
 

@@ -18,14 +18,14 @@ using test::Lists;
 template <class T>
 class RoundTrip : public testing::Test {};
 
-using AllTypes =
-    testing::Types<ImuSample, DvlSample, GpsSample, DepthSample, HeadingSample, UsblSample, AirspeedSample,
-                   PropulsionSample, FinsSample, NavState, NavDetail, Verdict, AlignmentStatus, Forecast,
-                   Alarm, MonitorStatus, ServiceStatus, Command, Truth>;
+using AllTypes = testing::Types<ImuSample, DvlSample, GpsSample, DepthSample, HeadingSample, UsblSample,
+                                AirspeedSample, PropulsionSample, FinsSample, NavState, NavDetail, Verdict,
+                                AlignmentStatus, Forecast, Alarm, MonitorStatus, ServiceStatus, Command,
+                                ReplicaStatus, EngineStatePart, Route, Truth>;
 TYPED_TEST_SUITE(RoundTrip, AllTypes);
 
 TEST(RoundTrips, CoverEveryTopic) {
-  EXPECT_EQ(bus::all_topics().size(), 19U);
+  EXPECT_EQ(bus::all_topics().size(), 22U);
 }
 
 TYPED_TEST(RoundTrip, KeepsEveryField) {
@@ -110,6 +110,25 @@ TEST(BadBytes, AListThatClaimsToBeHugeIsRefusedWithoutRoomForIt) {
   }
 }
 
+TEST(BadBytes, TextBeyondItsBoundIsRefusedWhereItIsNested) {
+  // The same sample with a name one byte longer than the bound, put together by hand: our own writers cut it.
+  Route sample;
+  sample.waypoints.emplace_back();
+  sample.waypoints[0].name = "nnnnnnnnnnnnnnnnnnnnnnnnnnn";  // 28 bytes with its end: no padding behind it
+  auto bytes = bus::to_cdr(sample);
+  ASSERT_TRUE(bus::from_cdr<Route>(bytes).has_value());
+  const std::size_t length = find(bytes, 28);
+  const auto stretched = [&](std::uint32_t size) {
+    auto out = bytes;
+    out.insert(out.begin() + static_cast<std::ptrdiff_t>(length) + 4, size - 28, std::uint8_t{'n'});
+    put(out, length, size);
+    return out;
+  };
+  // Lengths that keep what follows aligned; the bound of 31 and its end make 32.
+  EXPECT_FALSE(bus::from_cdr<Route>(stretched(36)).has_value());
+  EXPECT_FALSE(bus::from_cdr<Route>(stretched(4028)).has_value());
+}
+
 TEST(Bytes, OfTheOtherByteOrderAreRead) {
   // vehicle "a", sensor "b", stamp 1, received 2, sequence 3, rpm 1.0; XCDR1 big-endian.
   const std::vector<std::uint8_t> bytes{0,    0,    0, 0,                // encapsulation: CDR_BE
@@ -134,6 +153,16 @@ TEST(Bounds, LongTextIsCutBetweenCharacters) {
   const auto back = bus::from_cdr<Alarm>(bus::to_cdr(alarm));
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ(back->text, std::string(254, 'x'));
+}
+
+TEST(Bounds, ARouteHasSoManyWaypoints) {
+  Route route;
+  route.waypoints.resize(Route::kMostWaypoints);
+  auto bytes = bus::to_cdr(route);
+  EXPECT_TRUE(bus::from_cdr<Route>(bytes).has_value());
+  put(bytes, find(bytes, Route::kMostWaypoints), Route::kMostWaypoints + 1);
+  bytes.resize(bytes.size() + 1000);
+  EXPECT_FALSE(bus::from_cdr<Route>(bytes).has_value());
 }
 
 TEST(Bounds, LongListsAreCut) {

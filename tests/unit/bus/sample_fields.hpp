@@ -24,6 +24,8 @@
 #include "samples/imu.hpp"
 #include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/replication.hpp"
+#include "samples/route.hpp"
 #include "samples/truth.hpp"
 #include "samples/usbl.hpp"
 #include "samples/verdict.hpp"
@@ -125,6 +127,14 @@ void fields(Is<ReceiverOutage> auto& s, auto visit) {
   auto& [a, b, c, d, e, f, g, h] = s;
   visit(a, b, c, d, e, f, g, h);
 }
+void fields(Is<RouteWaypoint> auto& s, auto visit) {
+  auto& [a, b, c, d, e] = s;
+  visit(a, b, c, d, e);
+}
+void fields(Is<Route> auto& s, auto visit) {
+  auto& [header, a, b, c, d, e, f, waypoints] = s;
+  visit(header, a, b, c, d, e, f, waypoints);
+}
 void fields(Is<ServiceRate> auto& s, auto visit) {
   auto& [a, b] = s;
   visit(a, b);
@@ -140,6 +150,14 @@ void fields(Is<ServiceStatus> auto& s, auto visit) {
 void fields(Is<Command> auto& s, auto visit) {
   auto& [header, a, b, c, d, e, f, g] = s;
   visit(header, a, b, c, d, e, f, g);
+}
+void fields(Is<ReplicaStatus> auto& s, auto visit) {
+  auto& [header, a, b, c, d, e, f, g] = s;
+  visit(header, a, b, c, d, e, f, g);
+}
+void fields(Is<EngineStatePart> auto& s, auto visit) {
+  auto& [header, a, b, c, d, e, f] = s;
+  visit(header, a, b, c, d, e, f);
 }
 
 /// The last enumerator of each enumeration.
@@ -205,6 +223,10 @@ template <>
 constexpr unsigned last_of<CommandKind>() {
   return static_cast<unsigned>(CommandKind::mark_at_rest);
 }
+template <>
+constexpr unsigned last_of<ReplicaPhase>() {
+  return static_cast<unsigned>(ReplicaPhase::in_step);
+}
 
 /// How many entries a sample's lists get.
 enum class Lists { empty, one, full };
@@ -212,6 +234,7 @@ enum class Lists { empty, one, full };
 /// The bounds that the contract sets for lists held in vectors.
 template <class T>
 constexpr std::size_t bound_of() {
+  if (std::is_same_v<T, RouteWaypoint>) return Route::kMostWaypoints;
   return std::is_same_v<T, ServiceRate> || std::is_same_v<T, ReceiverOutage> ? 16 : 32;
 }
 
@@ -247,6 +270,10 @@ class Filler {
   void value(std::array<char, N>& field) {
     field.fill('\0');
     for (std::size_t i = 0; i + 1 < N; ++i) field[i] = static_cast<char>('a' + (++next_ % 26));
+  }
+  template <std::size_t N>
+  void value(std::array<std::uint8_t, N>& field) {
+    for (std::uint8_t& element : field) element = static_cast<std::uint8_t>(++next_ * 37U);
   }
   template <class T, std::size_t N>
   void value(std::array<T, N>& field) {

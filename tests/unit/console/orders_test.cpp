@@ -106,7 +106,7 @@ TEST(Orders, WhatIsNotExactlyAnOrderIsRefused) {
 }
 
 TEST(RefusalLog, OneLineAPeriodAndKind) {
-  RefusalLog log(10 * kNsPerSecond);
+  RefusalLog log(10 * kNsPerSecond, "a request");
   EXPECT_EQ(*log.add({400, "path"}, "10.0.0.1", 0), "refused a request from 10.0.0.1: path (400)");
   for (int i = 0; i < 1000; ++i) EXPECT_FALSE(log.add({400, "path"}, "10.0.0.1", kNsPerSecond));
   EXPECT_TRUE(log.add({401, "wrong_token"}, "10.0.0.1", kNsPerSecond)) << "another kind";

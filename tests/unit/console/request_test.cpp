@@ -1,5 +1,7 @@
 #include "console/request.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace fathom::console {
@@ -8,10 +10,10 @@ namespace {
 const HostNames kHosts = host_names("127.0.0.1", 8420, {"Console.Ship"});
 
 /// 0: it would be served.
-int judged(const std::string& bytes) {
+int judged(const std::string& bytes, bool secure = false) {
   const auto parsed = parse_head(bytes);
   if (const auto* refusal = std::get_if<Refusal>(&parsed)) return refusal->status;
-  const auto refusal = judge_request(std::get<RequestHead>(parsed), kHosts);
+  const auto refusal = judge_request(std::get<RequestHead>(parsed), kHosts, secure);
   return refusal ? refusal->status : 0;
 }
 
@@ -34,6 +36,24 @@ TEST(Request, WhatABrowserSendsIsServed) {
   EXPECT_EQ(
       judged(post("Origin: http://localhost:8420\r\nSec-Fetch-Site: same-origin\r\nContent-Length: 10\r\n")),
       0);
+}
+
+TEST(Request, WhereThereIsTlsAnOrderComesByIt) {
+  const std::string body = "Content-Length: 10\r\n";
+  EXPECT_EQ(judged(post("Origin: https://localhost:8420\r\n" + body), true), 0);
+  EXPECT_EQ(judged(post("Origin: http://localhost:8420\r\n" + body), true), 403)
+      << "a page that somebody on the way made up";
+  EXPECT_EQ(judged(post("Origin: https://localhost:8420\r\n" + body), false), 0) << "behind a proxy with TLS";
+}
+
+TEST(Request, OnTheUsualPortBrowsersLeaveItOut) {
+  const auto has = [](const HostNames& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  EXPECT_TRUE(has(host_names("192.168.2.5", 443, {}), "192.168.2.5"));
+  EXPECT_TRUE(has(host_names("192.168.2.5", 443, {}), "192.168.2.5:443"));
+  EXPECT_TRUE(has(host_names("127.0.0.1", 80, {}), "localhost"));
+  EXPECT_FALSE(has(host_names("127.0.0.1", 8420, {}), "localhost"));
 }
 
 TEST(Request, TheHeadIsReadAsItIs) {

@@ -10,6 +10,7 @@ globalThis.getComputedStyle = () => ({getPropertyValue: () => ""});
 
 const web = new URL("../../../services/console/web/js/", import.meta.url);
 const {store, takeSnapshot, takeTick, Table} = await import(new URL("store.js", web));
+const {ageOf, isOld, routeText, shapeOf} = await import(new URL("routes.js", web));
 const units = await import(new URL("units.js", web));
 const {setPref} = await import(new URL("prefs.js", web));
 
@@ -61,6 +62,58 @@ test("other states begin anew", () => {
 });
 
 test("a table without such a column has an empty one", () => assert.deepEqual(new Table(["t"]).column("x"), []));
+
+const route = (more = {}) => ({
+  publisher: "guidance",
+  age_s: 0.4,
+  old: false,
+  active: 1,
+  repeats: false,
+  first_number: 1,
+  mission_count: 3,
+  leg_start: [36.4, 127.4],
+  points: [
+    ["", 36.41, 127.4, 0, 1],
+    ["Buoy", 36.42, 127.41, 5, 1],
+    ["", 36.43, 127.42, 5, 1],
+  ],
+  ...more,
+});
+
+test("a route has passed, active and coming legs", () => {
+  const {points, legs} = shapeOf(route());
+  assert.deepEqual(points.map(({name, state}) => [name, state]), [["1", "passed"], ["Buoy", "active"], ["3", "ahead"]]);
+  assert.deepEqual(legs, [
+    {from: [36.4, 127.4], to: [36.42, 127.41], state: "active"},
+    {from: [36.42, 127.41], to: [36.43, 127.42], state: "ahead"},
+  ]);
+  const unknownStart = shapeOf(route({leg_start: [null, null]})).legs;
+  assert.deepEqual(unknownStart[0], {from: [36.41, 127.4], to: [36.42, 127.41], state: "active"});
+  assert.equal(shapeOf(route({active: 0, leg_start: [null, null]})).legs.length, 2, "nobody knows where it began");
+  assert.equal(shapeOf(route({active: 0})).legs[0].state, "active", "the first leg begins where guidance took over");
+  const round = shapeOf(route({repeats: true})).legs;
+  assert.deepEqual(round.at(-1), {from: [36.43, 127.42], to: [36.41, 127.4], state: "ahead"});
+  const part = shapeOf(route({repeats: true, mission_count: 100, first_number: 50}));
+  assert.equal(part.legs.length, 2, "a part of a mission does not close");
+  assert.equal(part.points[0].name, "50");
+  assert.ok(shapeOf(route({active: 3})).points.every(({state}) => state === "passed"));
+});
+
+test("a route that nobody repeats grows old, also while the console is silent", () => {
+  takeSnapshot(snapshot());
+  takeTick(tick(1, 1000, {routes: [route()]}));
+  assert.equal(store.routes.length, 1);
+  assert.match(routeText(store.routes[0], store.routesAt), /^guidance: to waypoint 2 of 3, Buoy · 0\.4 s old$/);
+  takeTick(tick(2, 1100));
+  assert.equal(store.routes.length, 1, "a tick without routes changes none");
+  assert.ok(!isOld(store.routes[0], store.routesAt + 2000));
+  assert.ok(isOld(store.routes[0], store.routesAt + 3000));
+  assert.ok(Math.abs(ageOf(store.routes[0], store.routesAt + 3000) - 3.4) < 1e-9);
+  assert.match(routeText(store.routes[0], store.routesAt + 3000), /✖ old, last heard 3\.4 s ago$/);
+  assert.match(routeText(route({old: true, active: 3}), store.routesAt), /all 3 waypoints passed · ✖ old/);
+  takeTick(tick(3, 1200, {routes: []}));
+  assert.equal(store.routes.length, 0);
+});
 
 test("numbers in the units that were chosen", () => {
   assert.equal(units.length(10), "10.0 m");

@@ -7,19 +7,19 @@
 
 #include "base/unknown.hpp"
 #include "dataset/dataset.hpp"
-#include "temporary_folder.hpp"
+#include "dataset_folder.hpp"
 
 namespace fathom::dataset {
 namespace {
 
-using test::TemporaryFolder;
+using test::DatasetFolder;
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 const std::string kImuHeader = "t_s,gx_rad_s,gy_rad_s,gz_rad_s,ax_m_s2,ay_m_s2,az_m_s2\n";
 const std::string kGpsHeader =
     "t_s,lat_deg,lon_deg,alt_m,sigma_n_m,sigma_e_m,sigma_d_m,vn_m_s,ve_m_s,vd_m_s,fix\n";
 
-std::string error_of_reading(const TemporaryFolder& folder) {
+std::string error_of_reading(const DatasetFolder& folder) {
   try {
     static_cast<void>(read(folder.path()));
   } catch (const DatasetError& error) {
@@ -29,7 +29,7 @@ std::string error_of_reading(const TemporaryFolder& folder) {
 }
 
 TEST(ReadDataset, GivesEverySensorItsUnitsAndTimes) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   folder.file("imu.csv", kImuHeader + "1.0000,0.1,0.2,0.3,1,2,-9.8\n1.0100,,nan,0.3,1,2,+9.8\n");
   folder.file("gps.csv", kGpsHeader +
                              "-2.5010,40.5,-105.25,1601.4,0.01,0.02,0.03,1,2,3,1\n0,,,,,,,,,,0\n1,40,-105,,,,"
@@ -97,7 +97,7 @@ TEST(ReadDataset, GivesEverySensorItsUnitsAndTimes) {
 }
 
 TEST(ReadDataset, TakesMissingFilesForMissingSensors) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   const Dataset data = read(folder.path());
   EXPECT_TRUE(data.imu.empty());
   EXPECT_TRUE(data.reference.empty());
@@ -114,7 +114,7 @@ struct BadFile {
 class BadFiles : public testing::TestWithParam<BadFile> {};
 
 TEST_P(BadFiles, AreNamedWithLineAndExpectation) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   folder.file(GetParam().file, GetParam().content);
   EXPECT_THAT(error_of_reading(folder), testing::HasSubstr(GetParam().message));
 }
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return info.param.name; });
 
 TEST(ReadDataset, NamesATruncatedArchive) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   std::string rows = kImuHeader;
   for (int i = 0; i < 20'000; ++i)
     rows += std::to_string(i) + "," + std::to_string(i * 7919 % 1000) + ",1,2,3,4,5\n";
@@ -186,7 +186,7 @@ TEST(ReadDataset, NamesATruncatedArchive) {
 }
 
 TEST(ReadDataset, NamesADamagedArchive) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   folder.zipped("depth.csv.gz", "t_s,depth_m\n1,2\n2,3\n");
   std::fstream file(folder.path() / "depth.csv.gz", std::ios::in | std::ios::out | std::ios::binary);
   file.seekp(-6, std::ios::end);  // in the checksum
@@ -196,7 +196,7 @@ TEST(ReadDataset, NamesADamagedArchive) {
 }
 
 TEST(ReadDataset, RefusesTwoVersionsOfOneFileAndAMissingFolder) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   folder.file("depth.csv", "t_s,depth_m\n1,2\n");
   folder.zipped("depth.csv.gz", "t_s,depth_m\n1,2\n");
   EXPECT_THAT(error_of_reading(folder), testing::HasSubstr("depth.csv: exists beside depth.csv.gz"));
@@ -204,7 +204,7 @@ TEST(ReadDataset, RefusesTwoVersionsOfOneFileAndAMissingFolder) {
 }
 
 TEST(Arrivals, AreInOrderOfReceptionWithTheInertialSampleFirst) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   folder.file("imu.csv", kImuHeader + "1,0,0,0,0,0,0\n2,0,0,0,0,0,0\n3,0,0,0,0,0,0\n");
   folder.file("depth.csv", "t_s,depth_m\n2,1\n2,2\n");
   // In the order of arrival, not of validity.

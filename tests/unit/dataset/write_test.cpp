@@ -10,12 +10,12 @@
 #include "base/unknown.hpp"
 #include "dataset/dataset.hpp"
 #include "dataset/nav_csv.hpp"
-#include "temporary_folder.hpp"
+#include "dataset_folder.hpp"
 
 namespace fathom::dataset {
 namespace {
 
-using test::TemporaryFolder;
+using test::DatasetFolder;
 
 std::string content(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -116,7 +116,7 @@ void expect_same(const std::array<double, N>& a, const std::array<double, N>& b)
 }
 
 void expect_round_trip(bool gzip) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   const Dataset data = sample_data();
   write(folder.path() / "new", data, {kDefaultEpochNs, gzip});
   EXPECT_EQ(std::filesystem::exists(folder.path() / "new" / "imu.csv.gz"), gzip);
@@ -177,7 +177,7 @@ TEST(WriteDataset, ReadsBackTheSameCompressed) {
 }
 
 TEST(WriteDataset, GivesTheSameBytesTwiceAndRemovesWhatWasThere) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   Dataset data = sample_data();
   write(folder.path() / "a", data, {kDefaultEpochNs, true});
   write(folder.path() / "b", data, {kDefaultEpochNs, true});
@@ -190,7 +190,7 @@ TEST(WriteDataset, GivesTheSameBytesTwiceAndRemovesWhatWasThere) {
 }
 
 TEST(WriteDataset, LeavesOutColumnsThatNobodyKnows) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   Dataset data;
   data.depth.push_back({header(kDefaultEpochNs + 1'500'000'000), 2.5, kUnknown, kUnknown, kUnknown});
   write(folder.path(), data);
@@ -198,13 +198,13 @@ TEST(WriteDataset, LeavesOutColumnsThatNobodyKnows) {
 }
 
 TEST(WriteDataset, SaysWhereItCannotWrite) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   folder.file("blocked", "a file where a folder is wanted");
   EXPECT_THROW(write(folder.path() / "blocked" / "inside", sample_data()), DatasetError);
 }
 
 TEST(NavCsv, HasTheReferenceColumnsAndUncertaintyBehind) {
-  const TemporaryFolder folder;
+  const DatasetFolder folder;
   NavState state;
   state.header.stamp_ns = kDefaultEpochNs - 250'000'000;
   state.mode = NavMode::dead_reckoning;

@@ -70,7 +70,7 @@ Finding only(const NetworkFacts& network, const HostFacts& host = sound_host()) 
 
 TEST(Doctor, FindsNothingWhereNothingIsWrong) {
   const auto findings = examine(sound_network(), sound_host());
-  EXPECT_EQ(findings.size(), 8U) << "one for each subject";
+  EXPECT_EQ(findings.size(), 9U) << "one for each subject";
   for (const Finding& one : findings) EXPECT_EQ(one.level, FindingLevel::good) << one.text;
 }
 
@@ -92,6 +92,28 @@ TEST(Doctor, AnEmptyNetworkIsAProblem) {
   network.domain = 3;
   network.interfaces = {"127.0.0.1"};
   EXPECT_EQ(only(network).text, "Nobody is on DDS domain 3.");
+}
+
+TEST(Doctor, AStrangerOnAProtectedNetworkIsNamed) {
+  NetworkFacts network = sound_network();
+  network.is_protected = true;
+  EXPECT_TRUE(bad(network, sound_host()).empty());
+  network.strangers = {{"evil", "010f", "10.0.0.9", "offers no identity"}};
+  EXPECT_EQ(only(network).text,
+            "Somebody is not spoken to: 'evil' (GUID 010f, says it is at 10.0.0.9) offers no identity.");
+  EXPECT_EQ(only(network).subject, "security");
+}
+
+TEST(Doctor, WhoAsksForAnIdentityIsNotHeardWithoutOne) {
+  NetworkFacts network = sound_network();
+  for (bus::Peer& one : network.participants) one.offers_identity = true;
+  EXPECT_EQ(only(network).text,
+            "The network asks for an identity, and this command has none: it hears nothing.");
+  network.participants[0].offers_identity = false;
+  EXPECT_EQ(only(network).text,
+            "Some ask for an identity and others have none: they do not hear each other (fusion (process 8 "
+            "on auv1) "
+            "ask).");
 }
 
 TEST(Doctor, AnInterfaceThatThisHostDoesNotHave) {
@@ -121,6 +143,19 @@ TEST(Doctor, ASecondWriterIsNamed) {
   EXPECT_EQ(found.level, FindingLevel::notice);
   EXPECT_NE(found.text.find("imu_bridge (process 7 on auv1), rogue (process 7 on auv1)"), std::string::npos)
       << found.text;
+}
+
+TEST(Doctor, FusionServicesThatStandByForEachOtherAreNoSecondWriters) {
+  NetworkFacts network = sound_network();
+  for (const char* instance : {"fusion", "fusion_b"}) {
+    for (const auto& [topic, type] : {std::pair{"fathom/v1/replica_status", "fathom::v1::ReplicaStatus"},
+                                      std::pair{"fathom/v1/verdict", "fathom::v1::Verdict"}}) {
+      network.endpoints.push_back(endpoint(instance, topic, type, true));
+    }
+  }
+  EXPECT_TRUE(bad(network, sound_host()).empty());
+  network.endpoints.push_back(endpoint("rogue", "fathom/v1/verdict", "fathom::v1::Verdict", true));
+  EXPECT_NE(only(network).text.find("rogue"), std::string::npos);
 }
 
 TEST(Doctor, NobodyWritesWhatFusionWaitsFor) {

@@ -11,6 +11,11 @@
 ///     else hold(health.reason);
 ///   }
 ///
+/// People see on the operator console where it is going, if it says so when that changes:
+///
+///   navigation.publish_route({.active = 0, .waypoints = {{.name = "A", .latitude_rad = 0.63,
+///                                                         .longitude_rad = 2.22}}});
+///
 /// Positions are WGS-84 in radians, velocities north-east-down in m/s, q_NB turns body (forward-right-down)
 /// into north-east-down. Unknown values are NaN.
 
@@ -26,6 +31,7 @@
 #include "samples/alignment_status.hpp"
 #include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/route.hpp"
 
 namespace fathom {
 
@@ -43,6 +49,13 @@ struct HealthLimits {
   bool need_aligned = true;            ///< the alignment phase must be `aligned`
 };
 
+/// How to take part in a protected vehicle network (DDS Security).
+struct ClientSecurity {
+  std::string
+      folder{};  ///< credentials as `fathom keygen` makes; empty: $FATHOM_SECURITY_DIR, else not protected
+  std::string identity = "guidance";  ///< whose credentials in the folder
+};
+
 struct ClientOptions {
   std::uint32_t domain = 0;
   std::string vehicle{};          ///< empty: the first vehicle heard, and only that one from then on
@@ -51,11 +64,14 @@ struct ClientOptions {
   std::vector<std::string> peers{"127.0.0.1"};       ///< asked for discovery besides multicast
   /// Folder of the QoS XML. Empty: $FATHOM_DDS_DIR, else the folder that was installed with the package.
   std::string profiles_dir{};
+  ClientSecurity security{};
   HealthLimits limits{};
   /// For accelerated simulations; must outlive the client. None: the host's clock.
   const Clock* clock = nullptr;
   /// Filled in by the installed package.
   std::string package_profiles_dir = kClientProfiles;
+  /// "address:port" of discovery servers, where the vehicle uses them; `peers` are not used then.
+  std::vector<std::string> discovery_servers{};
 };
 
 /// Whether guidance may rely on the navigation state, and if not, why.
@@ -76,8 +92,8 @@ struct NavHealth {
 /// Judges a state by the limits; `age_s` since its arrival, NaN when there is none. Pure.
 [[nodiscard]] NavHealth judge(const std::optional<NavState>& state, double age_s, const HealthLimits& limits);
 
-/// Receives the navigation state of one vehicle. All functions may be called from any thread, also from a
-/// callback.
+/// Receives the navigation state of one vehicle, and says what guidance makes of it. All functions may be
+/// called from any thread, also from a callback.
 class Client {
  public:
   using NavStateHandler = std::function<void(const NavState&)>;
@@ -92,6 +108,9 @@ class Client {
   /// `handler` runs for every navigation state, on a thread of the client, one at a time: be quick. Replaces
   /// the handler before; an empty one ends the calls. No call to the old handler begins once this has
   /// returned, unless this is called from within a handler.
+  ///
+  /// header.sensor says which fusion service it is from: several may stand by for each other. What comes from
+  /// one of them behind newer states of another one is left out.
   void on_nav_state(NavStateHandler handler);
   /// Likewise for alarms of the monitor: raised, escalated, cleared, acknowledged, and every few seconds
   /// again.
@@ -104,6 +123,14 @@ class Client {
   [[nodiscard]] double age_s() const;
   /// Waits until a state newer than the last one returned arrives, at most so long (host time).
   [[nodiscard]] std::optional<NavState> wait_next(double timeout_s);
+
+  /// Shows people the waypoints that this program follows: at once, and again each second until the next
+  /// call or the end of the client. May be called at any rate; what changed goes out ten times a second. The
+  /// header is filled in here, with options.name as the publisher; a route without waypoints says that it
+  /// follows nothing. Does not wait for the network. Throws std::invalid_argument for a route that nobody
+  /// could draw, naming what is wrong and what was expected, and std::runtime_error when the network did not
+  /// take the one before.
+  void publish_route(Route route);
 
   [[nodiscard]] NavHealth health() const;
   /// What alignment waits for and what would help; nothing before the first status.

@@ -1,6 +1,7 @@
-// What lies on the map, on one canvas: metric grid, track, fixes, waypoints, the vehicle and its ellipse. Thousands of
+// What lies on the map, on one canvas: metric grid, track, fixes, routes, marks, the vehicle and its ellipse. Thousands of
 // points as elements of their own would be too many for a tablet.
 import {colour} from "./prefs.js";
+import {isOld, shapeOf} from "./routes.js";
 import {store} from "./store.js";
 import * as units from "./units.js";
 
@@ -70,7 +71,8 @@ export const Chart = L.Layer.extend({
       if (this.options.grid()) this.grid(size);
       this.track();
       this.fixes();
-      this.waypoints();
+      this.routes();
+      this.marks();
       this.vehicle();
     }
     this.measure();
@@ -161,7 +163,36 @@ export const Chart = L.Layer.extend({
       c.stroke();
     }
   },
-  waypoints() {
+  /** Of guidance: the leg that is steered is thick, what is behind thin, what is ahead or old dashed. */
+  routes() {
+    const {c} = this;
+    c.font = "12px system-ui";
+    for (const route of store.routes) {
+      const old = isOld(route);
+      const {points, legs} = shapeOf(route);
+      for (const {from, to, state} of legs) {
+        const ink = colour(old || state === "passed" ? "soft" : "s4");
+        const dash = old ? [2, 6] : state === "ahead" ? [8, 6] : [];
+        this.line([this.point(...from), this.point(...to)], ink, state === "active" ? 4 : 1.5, dash);
+      }
+      for (const {at, name, state} of points) {
+        const p = this.point(...at);
+        const r = state === "passed" ? 3 : 6;
+        c.strokeStyle = colour(old || state === "passed" ? "soft" : "s4");
+        c.lineWidth = 2;
+        c.strokeRect(p.x - r, p.y - r, 2 * r, 2 * r);
+        if (state === "active") c.strokeRect(p.x - r - 4, p.y - r - 4, 2 * r + 8, 2 * r + 8);
+        c.fillStyle = colour(state === "passed" ? "soft" : "ink");
+        c.fillText(state === "passed" ? `✓ ${name}` : name, p.x + 13, p.y - 6);
+      }
+      const at = points[Math.min(route.active, points.length - 1)];
+      const p = this.point(...at.at);
+      c.fillStyle = colour("soft");
+      c.fillText(old ? `✖ old · ${route.publisher}` : route.publisher, p.x + 13, p.y + 19);
+    }
+  },
+  /** Of the configuration. */
+  marks() {
     const {c} = this;
     c.font = "12px system-ui";
     for (const {name, lat_deg, lon_deg} of store.session.waypoints ?? []) {

@@ -1,7 +1,8 @@
 // The map: Leaflet moves and zooms, the chart draws.
-import {el, put} from "./dom.js";
+import {el, put, reconcile} from "./dom.js";
 import {Chart, degreesOf, metresOf} from "./chart.js";
 import {onPrefs} from "./prefs.js";
+import {isOld, routeText} from "./routes.js";
 import {store} from "./store.js";
 import {onSession} from "./orders.js";
 import * as units from "./units.js";
@@ -37,6 +38,14 @@ export function makeMap() {
   );
   const pointer = el("span", {class: "pointer", "data-field": "pointer"}, "–");
   const distance = el("span", {class: "num", "data-field": "distance", role: "status"});
+  const routes = el("div", {
+    class: "routes",
+    "data-field": "routes",
+    "aria-label": "Routes of guidance",
+    role: "group",
+    tabindex: 0,
+    hidden: true,
+  });
   const root = el(
     "div",
     {class: "view mapview"},
@@ -49,6 +58,7 @@ export function makeMap() {
       distance,
       pointer,
     ),
+    routes,
     box,
     el(
       "div",
@@ -59,7 +69,9 @@ export function makeMap() {
       el("span", {}, "○ GPS fix"),
       el("span", {}, "◇ USBL fix"),
       el("span", {}, "✕ refused fix"),
-      el("span", {}, "□ waypoint"),
+      el("span", {}, "▣ waypoint steered to"),
+      el("span", {}, "□ waypoint, mark"),
+      el("span", {}, "✓ waypoint passed"),
     ),
   );
 
@@ -82,6 +94,19 @@ export function makeMap() {
   function centre() {
     const at = vehicle();
     if (at) map?.setView(at, map.getZoom(), {animate: false});
+  }
+  function showRoutes() {
+    routes.hidden = store.routes.length === 0;
+    reconcile(
+      routes,
+      store.routes,
+      (route) => route.publisher,
+      (route) => el("p", {"data-route": route.publisher}),
+      (line, route) => {
+        put(line, routeText(route));
+        line.className = isOld(route) ? "bad-text" : "";
+      },
+    );
   }
   function fit() {
     const lat = store.nav.column("lat_deg").filter((v) => v !== null);
@@ -161,6 +186,7 @@ export function makeMap() {
         if (map.getZoom() < 10) map.setView(degreesOf(origin, {north: 0, east: 0}), 19, {animate: false});
       }
       if (follow) centre();
+      showRoutes();
       chart.draw();
     },
   };

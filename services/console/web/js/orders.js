@@ -102,6 +102,10 @@ export function ask(title, text, verb, fields = []) {
   });
 }
 
+/** A tunnel or a proxy ends on this host; from any other one plain http passes over the network. */
+const overheard = () =>
+  location.protocol === "http:" && !/^(localhost|127\.\d+\.\d+\.\d+|\[::1\])$/.test(location.hostname);
+
 export async function signIn() {
   if (token()) {
     sessionStorage.removeItem(kKey);
@@ -110,7 +114,8 @@ export async function signIn() {
   }
   const values = await ask(
     "Sign in",
-    "The token of a viewer or an operator, as in the console's token file.",
+    "The token of a viewer or an operator, as in the console's token file." +
+      (overheard() ? " ▲ This connection is not encrypted: others on the network can read the token." : ""),
     "Sign in",
     [["Token", "token", "", "password"]],
   );

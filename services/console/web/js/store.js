@@ -34,6 +34,8 @@ export const store = {
   tickAt: 0, // performance.now() of its arrival
   tickNumber: -1,
   services: [],
+  routes: [], // of guidance, by publisher
+  routesAt: 0, // performance.now() of their arrival
   kinds: [],
   nav: new Table(["t"]),
   fixes: [],
@@ -112,6 +114,10 @@ export function takeTick(event) {
   store.tick = event;
   store.tickAt = performance.now();
   if (event.services.length > 0) store.services = event.services;
+  if (event.routes) {
+    store.routes = event.routes;
+    store.routesAt = store.tickAt;
+  }
   for (const row of event.nav) store.nav.push(row);
   takeFixes(event.fixes);
   takeVerdicts(event.verdicts);

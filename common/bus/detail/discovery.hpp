@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
+
+#include "bus/participant.hpp"
+
+namespace fathom::bus::detail {
+
+/// Where a discovery server listens.
+struct ServerAddress {
+  std::string address;  ///< IPv4
+  std::uint16_t port = 0;
+};
+
+/// Reads "192.168.2.1:11811". `what` names the option in the error. Throws BusError.
+[[nodiscard]] ServerAddress parse_server_address(const std::string& what, const std::string& text);
+
+/// Whether these options leave discovery to servers.
+[[nodiscard]] bool uses_servers(const ParticipantOptions& options);
+
+/// Discovery without multicast: as a client of options.discovery_servers, and as a server where
+/// options.discovery_listen says so. The interfaces of `options` must be this host's. Throws BusError.
+void discover_through_servers(eprosima::fastdds::dds::DomainParticipantQos& qos,
+                              const ParticipantOptions& options);
+
+/// For a server, before it starts: waits until every client has given up a predecessor that was killed just
+/// now. It has the same GUID but not the same memory, and clients that take the one for the other would wait
+/// for ever for what the new one does not know.
+void outlast_predecessor(const eprosima::fastdds::dds::DomainParticipantQos& qos);
+
+}  // namespace fathom::bus::detail

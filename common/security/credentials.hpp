@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "security/documents.hpp"
+#include "security/files.hpp"
+
+namespace fathom::security {
+
+/// A certificate that ends sooner than this is worth a word.
+inline constexpr DurationNs kExpiryWarning = DurationNs{30} * 86400 * kNsPerSecond;
+
+/// Credentials that passed every check that can be made without the network.
+struct Credentials {
+  CredentialFolder folder;
+  std::string identity;
+  Validity validity;  ///< the shorter of the certificate's and its authority's
+};
+
+/// The identity's files as a participant of `domain` needs them at `now`: there and readable, the key private
+/// and of this certificate, the certificate and the signed documents valid and of these authorities, the
+/// domain among the allowed. Throws SecurityError with the first thing that is wrong.
+[[nodiscard]] Credentials check_credentials(const std::string& folder, const std::string& identity,
+                                            std::uint32_t domain, TimeNs now);
+
+/// "expires in 12 days (2026-03-01)" or "has expired on ..." when that is worth a word at `now`; else empty.
+[[nodiscard]] std::string expiry_text(TimeNs until_ns, TimeNs now);
+
+/// Names of identities and vehicles become file names and parts of certificates: 1 to 64 letters, digits,
+/// '_', '-', '.', not beginning with a dot.
+[[nodiscard]] bool is_plain_name(const std::string& name);
+
+}  // namespace fathom::security

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace fathom::security {
+
+/// Credentials that cannot be made or used. what(): "FILE: what is wrong, what was expected" in one line.
+class SecurityError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace fathom::security

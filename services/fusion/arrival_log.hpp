@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <variant>
+
+#include "samples/actuator.hpp"
+#include "samples/airspeed.hpp"
+#include "samples/depth.hpp"
+#include "samples/dvl.hpp"
+#include "samples/gps.hpp"
+#include "samples/heading.hpp"
+#include "samples/imu.hpp"
+#include "samples/usbl.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::fusion {
+
+constexpr SourceKind source_of(const ImuSample& /*sample*/) {
+  return SourceKind::imu;
+}
+constexpr SourceKind source_of(const GpsSample& /*sample*/) {
+  return SourceKind::gps;
+}
+constexpr SourceKind source_of(const DvlSample& /*sample*/) {
+  return SourceKind::dvl;
+}
+constexpr SourceKind source_of(const DepthSample& /*sample*/) {
+  return SourceKind::depth;
+}
+constexpr SourceKind source_of(const HeadingSample& /*sample*/) {
+  return SourceKind::heading;
+}
+constexpr SourceKind source_of(const UsblSample& /*sample*/) {
+  return SourceKind::usbl;
+}
+constexpr SourceKind source_of(const AirspeedSample& /*sample*/) {
+  return SourceKind::airspeed;
+}
+constexpr SourceKind source_of(const PropulsionSample& /*sample*/) {
+  return SourceKind::propulsion;
+}
+constexpr SourceKind source_of(const FinsSample& /*sample*/) {
+  return SourceKind::fins;
+}
+
+/// The samples of the last seconds in the order of their arrival: what an engine that takes up the state of
+/// another one has to be told again. Bounded: the oldest makes room.
+class ArrivalLog {
+ public:
+  using Sample = std::variant<ImuSample, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
+                              AirspeedSample, PropulsionSample, FinsSample>;
+
+  /// Forgets everything; note() keeps samples only while it is on.
+  void keep(bool on) {
+    if (on == on_) return;
+    on_ = on;
+    samples_.clear();
+    samples_.shrink_to_fit();
+  }
+  template <class T>
+  void note(const T& sample) {
+    if (!on_) return;
+    if (samples_.size() == kMost) samples_.pop_front();
+    samples_.emplace_back(sample);
+  }
+  [[nodiscard]] const std::deque<Sample>& samples() const { return samples_; }
+
+ private:
+  static constexpr std::size_t kMost = 8192;  // ten seconds of the busiest vehicle
+  bool on_ = false;
+  std::deque<Sample> samples_;
+};
+
+}  // namespace fathom::fusion

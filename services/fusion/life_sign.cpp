@@ -1,0 +1,49 @@
+#include "fusion/life_sign.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace fathom::fusion {
+
+void LifeSign::fill(const Moment& now, const Clock& clock, ServiceStatus& status) {
+  const TimeNs clock_ns = clock.monotonic_ns();
+  // A second of the vehicle's time; in an accelerated run a second of the host's, whose scheduling is no
+  // faster than otherwise.
+  const DurationNs patience = from_seconds(std::max(1.0, clock.rate()));
+  const Counts& counts = now.counts;
+  const std::string from = now.imu_sensor.empty() ? "" : " from " + now.imu_sensor.str();
+  status.text.clear();
+  if (now.newest_nav_state_ns == 0) {
+    status.state = ServiceState::starting;
+    status.text = counts.imu_samples == 0 ? "waiting for inertial samples" + from
+                                          : "no inertial sample" + from + " could be used yet";
+  } else if (clock_ns - now.newest_nav_state_ns > patience) {
+    status.state = ServiceState::degraded;
+    std::array<char, 96> text{};
+    std::snprintf(text.data(), text.size(), "no usable inertial sample%s for %.1f s", from.c_str(),
+                  to_seconds(clock_ns - now.newest_nav_state_ns));
+    status.text = text.data();
+  } else if (now.phase == AlignmentPhase::timed_out || now.phase == AlignmentPhase::lost) {
+    status.state = ServiceState::degraded;
+    status.text = "alignment " + std::string(now.phase == AlignmentPhase::lost ? "lost" : "timed out");
+  } else {
+    status.state = ServiceState::healthy;
+    status.text = now.how;
+  }
+  const double span_s = to_seconds(clock_ns - last_ns_);
+  if (last_ns_ != 0 && span_s > 0.0) {
+    status.rates.push_back({"imu", static_cast<double>(counts.imu_samples - last_.imu_samples) / span_s});
+    status.rates.push_back({"nav_state", static_cast<double>(counts.nav_states - last_.nav_states) / span_s});
+  }
+  status.counters.push_back({"imu_samples", counts.imu_samples});
+  status.counters.push_back({"nav_states", counts.nav_states});
+  for (std::size_t kind = 0; kind < kVerdictKinds; ++kind) {
+    status.counters.push_back({to_string(static_cast<VerdictKind>(kind)), counts.verdicts[kind]});
+  }
+  status.counters.push_back({"other_vehicle", counts.other_vehicle});
+  status.counters.push_back({"commands", counts.commands});
+  last_ = counts;
+  last_ns_ = clock_ns;
+}
+
+}  // namespace fathom::fusion

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "base/clock.hpp"
+#include "samples/health.hpp"
+#include "samples/nav_state.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::fusion {
+
+/// What a fusion service says of itself each second.
+class LifeSign {
+ public:
+  struct Counts {
+    std::array<std::uint64_t, kVerdictKinds> verdicts{};
+    std::uint64_t imu_samples = 0;
+    std::uint64_t nav_states = 0;  ///< published
+    std::uint64_t other_vehicle = 0;
+    std::uint64_t commands = 0;
+  };
+  struct Moment {
+    Counts counts;
+    TimeNs newest_nav_state_ns = 0;  ///< monotonic; 0: the engine has had none
+    AlignmentPhase phase = AlignmentPhase::none;
+    Name imu_sensor;  ///< the one listened to
+    std::string how;  ///< the service came to its state
+  };
+
+  /// State, text, rates and counters. Not thread-safe.
+  void fill(const Moment& now, const Clock& clock, ServiceStatus& status);
+
+ private:
+  Counts last_;
+  TimeNs last_ns_ = 0;
+};
+
+}  // namespace fathom::fusion

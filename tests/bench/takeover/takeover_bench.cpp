@@ -1,0 +1,281 @@
+// A vehicle with two fusion services under way; the one that leads is killed again and again. Prints what
+// guidance sees of it: the gap in time and the step in position. FATHOM_SOAK=1: a hundred times, with limits.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <time.h>
+
+#include "base/clock.hpp"
+#include "bus/participant.hpp"
+#include "bus/reader.hpp"
+#include "geo/wgs84.hpp"
+#include "samples/health.hpp"
+#include "samples/nav_state.hpp"
+#include "samples/replication.hpp"
+#include "support/process.hpp"
+
+namespace fathom::test {
+namespace {
+
+constexpr std::uint32_t kDomain = 94;
+constexpr double kPatienceS = 120.0;
+constexpr double kUnderWayDepth_m = 3.0;
+
+struct Heard {
+  NavState state;
+  TimeNs arrived_ns = 0;
+};
+
+/// Guidance, and what the services say of themselves.
+class Guidance {
+ public:
+  Guidance()
+      : participant_(options()),
+        states_(participant_,
+                [this](const NavState& state, const bus::SampleInfo&) {
+                  const std::lock_guard lock(mutex_);
+                  heard_.push_back({state, clock_.monotonic_ns()});
+                }),
+        services_(participant_,
+                  [this](const ServiceStatus& status, const bus::SampleInfo&) {
+                    const std::lock_guard lock(mutex_);
+                    pids_[status.header.sensor.str()] = static_cast<pid_t>(status.pid);
+                  }),
+        replicas_(participant_, [this](const ReplicaStatus& status, const bus::SampleInfo&) {
+          const std::lock_guard lock(mutex_);
+          replicas_heard_[status.header.sensor.str()] = status;
+        }) {}
+
+  [[nodiscard]] std::size_t count() const {
+    const std::lock_guard lock(mutex_);
+    return heard_.size();
+  }
+  [[nodiscard]] std::vector<Heard> since(std::size_t from) const {
+    const std::lock_guard lock(mutex_);
+    return {heard_.begin() + static_cast<std::ptrdiff_t>(from), heard_.end()};
+  }
+  [[nodiscard]] std::optional<NavState> newest() const {
+    const std::lock_guard lock(mutex_);
+    return heard_.empty() ? std::nullopt : std::optional(heard_.back().state);
+  }
+  [[nodiscard]] pid_t pid(const std::string& service) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = pids_.find(service);
+    return found == pids_.end() ? -1 : found->second;
+  }
+  /// Both are there and know the same; accounts from before `since_ns` (UTC) do not count.
+  [[nodiscard]] bool both_in_step(TimeNs since_ns) const {
+    const std::lock_guard lock(mutex_);
+    int in_step = 0;
+    for (const auto& [name, status] : replicas_heard_) {
+      in_step += status.phase == ReplicaPhase::in_step && status.header.stamp_ns > since_ns ? 1 : 0;
+    }
+    return in_step == 2;
+  }
+  [[nodiscard]] std::uint64_t unprepared() const {
+    const std::lock_guard lock(mutex_);
+    std::uint64_t sum = 0;
+    for (const auto& [name, status] : replicas_heard_) sum += status.unprepared;
+    return sum;
+  }
+
+ private:
+  static bus::ParticipantOptions options() {
+    bus::ParticipantOptions out;
+    out.name = "takeover_bench";
+    out.domain = kDomain;
+    out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
+    return out;
+  }
+  SystemClock clock_;
+  mutable std::mutex mutex_;
+  std::vector<Heard> heard_;
+  std::map<std::string, pid_t> pids_;
+  std::map<std::string, ReplicaStatus> replicas_heard_;
+  bus::Participant participant_;
+  bus::Reader<NavState> states_;
+  bus::Reader<ServiceStatus> services_;
+  bus::Reader<ReplicaStatus> replicas_;
+};
+
+/// How far `after` is from where `before` leads to at the mean of their velocities.
+double step_m(const NavState& before, const NavState& after) {
+  const geo::Radii radii = geo::radii(before.latitude_rad);
+  const double dt_s = to_seconds(after.header.stamp_ns - before.header.stamp_ns);
+  const auto moved = [&](std::size_t axis) {
+    return 0.5 * (before.velocity_N_m_s[axis] + after.velocity_N_m_s[axis]) * dt_s;
+  };
+  const double north =
+      (after.latitude_rad - before.latitude_rad) * (radii.meridian_m + before.altitude_m) - moved(0);
+  const double east = (after.longitude_rad - before.longitude_rad) * (radii.normal_m + before.altitude_m) *
+                          std::cos(before.latitude_rad) -
+                      moved(1);
+  const double down = before.altitude_m - after.altitude_m - moved(2);
+  return std::hypot(north, east, down);
+}
+
+double quantile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// A vehicle navigates, in the soak test in the dive; one that has come to its end is begun again.
+bool under_way(const Guidance& guidance, std::optional<Process>& demo, bool soak,
+               const std::vector<std::string>& options) {
+  if (!demo || !demo->running()) {
+    std::vector<std::string> arguments{"--no-console", "--domain", std::to_string(kDomain), "--duration",
+                                       "470"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    demo.emplace("fathom-demo", arguments);
+  }
+  const auto newest = guidance.newest();
+  if (!newest || newest->alignment != AlignmentPhase::aligned) return false;
+  // A fix is a step of its own: what is measured is measured in the dive.
+  return !soak || (newest->depth_m > kUnderWayDepth_m && newest->mode > NavMode::gps_aided);
+}
+
+TEST(Takeover, OfALeaderThatIsKilled) {
+  const bool soak = std::getenv("FATHOM_SOAK") != nullptr;
+  const std::size_t times = soak ? 100 : 3;
+  Guidance guidance;
+  std::optional<Process> demo;
+  std::vector<double> gaps_ms;
+  std::vector<double> steps_mm;
+  std::vector<double> ordinary_mm;
+  while (gaps_ms.size() < times) {
+    ASSERT_TRUE(wait_until([&] { return under_way(guidance, demo, soak, {"--standby"}); }, 3.0 * kPatienceS));
+    const TimeNs since_ns = SystemClock().utc_ns();
+    if (!wait_until([&] { return guidance.both_in_step(since_ns); }, kPatienceS)) {
+      ASSERT_FALSE(demo->running()) << "not in step again";
+      continue;
+    }
+    const NavState before = *guidance.newest();
+    const std::string leader = before.header.sensor.str();
+    const pid_t pid = guidance.pid(leader);
+    ASSERT_GT(pid, 0);
+    const std::size_t from = guidance.count() - 1;
+    ASSERT_EQ(::kill(pid, SIGKILL), 0);
+    const bool taken = wait_until(
+        [&] {
+          const auto newest = guidance.newest();
+          return newest->header.sensor != Name(leader) || !demo->running();
+        },
+        10.0);
+    if (!demo->running()) continue;
+    ASSERT_TRUE(taken) << "nobody took over";
+    // Half a second more: what an ordinary step is.
+    const std::size_t taken_at = guidance.count();
+    ASSERT_TRUE(wait_until([&] { return guidance.count() > taken_at + 50; }, kPatienceS));
+    const auto heard = guidance.since(from);
+    std::size_t first = 1;
+    while (heard[first].state.header.sensor == Name(leader)) ++first;
+    gaps_ms.push_back(1e3 * to_seconds(heard[first].arrived_ns - heard[first - 1].arrived_ns));
+    steps_mm.push_back(1e3 * step_m(heard[first - 1].state, heard[first].state));
+    for (std::size_t i = first + 5; i + 5 < heard.size(); i += 5) {
+      ordinary_mm.push_back(1e3 * step_m(heard[i].state, heard[i + 5].state));
+    }
+    if (soak) {
+      EXPECT_EQ(heard[first].state.reset_counter, before.reset_counter);
+    }
+    // The life sign of the one that was started again has to be the newest.
+    ASSERT_TRUE(wait_until([&] { return guidance.pid(leader) != pid || !demo->running(); }, kPatienceS));
+  }
+  std::printf("takeovers %zu, of them unprepared %llu\n", times,
+              static_cast<unsigned long long>(guidance.unprepared()));
+  std::printf("gap at guidance: median %.1f ms, 95 %% %.1f ms, max %.1f ms\n", quantile(gaps_ms, 0.5),
+              quantile(gaps_ms, 0.95), quantile(gaps_ms, 1.0));
+  std::printf(
+      "step of the position: median %.3f mm, 95 %% %.3f mm, max %.3f mm; "
+      "over 50 ms without a takeover: median %.3f mm, 95 %% %.3f mm, max %.3f mm\n",
+      quantile(steps_mm, 0.5), quantile(steps_mm, 0.95), quantile(steps_mm, 1.0), quantile(ordinary_mm, 0.5),
+      quantile(ordinary_mm, 0.95), quantile(ordinary_mm, 1.0));
+  // What follows takes a machine that is not busy with other things.
+  if (!soak) return;
+  EXPECT_EQ(guidance.unprepared(), 0U);
+  EXPECT_LE(quantile(gaps_ms, 0.5), 40.0);
+  EXPECT_LE(quantile(gaps_ms, 1.0), 100.0);
+}
+
+/// When a process began, by the clock that counts from the start of the machine; seconds, to 10 ms.
+double began_s(pid_t pid) {
+  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+  std::string text;
+  std::getline(file, text);
+  std::istringstream fields(text.substr(text.rfind(')') + 2));
+  std::string skipped;
+  for (int i = 0; i < 19; ++i) fields >> skipped;
+  double ticks = 0.0;
+  fields >> ticks;
+  return ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+}
+
+double since_boot_s() {
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+TEST(Restart, OfTheOnlyFusion) {
+  const bool soak = std::getenv("FATHOM_SOAK") != nullptr;
+  const std::size_t times = soak ? 30 : 1;
+  Guidance guidance;
+  std::optional<Process> demo;
+  std::vector<double> first_ms;
+  std::vector<double> gaps_s;
+  std::vector<double> steps_sigma;
+  while (first_ms.size() < times) {
+    ASSERT_TRUE(wait_until([&] { return under_way(guidance, demo, soak, {}); }, 3.0 * kPatienceS));
+    // Long enough for a checkpoint, and for what the killed one said to be over.
+    const std::size_t calm = guidance.count();
+    ASSERT_TRUE(wait_until([&] { return guidance.count() > calm + 300; }, kPatienceS));
+    const pid_t pid = guidance.pid("fusion");
+    ASSERT_GT(pid, 0);
+    const std::size_t from = guidance.count() - 1;
+    ASSERT_EQ(::kill(pid, SIGKILL), 0);
+    const double boot_minus_steady_s = since_boot_s() - to_seconds(SystemClock().monotonic_ns());
+    if (!wait_until([&] { return guidance.pid("fusion") != pid || !demo->running(); }, kPatienceS))
+      FAIL() << "not started again";
+    if (!demo->running()) continue;
+    const double start_s = began_s(guidance.pid("fusion"));
+    const auto heard = guidance.since(from);
+    std::size_t first = 1;
+    while (first < heard.size() && to_seconds(heard[first].arrived_ns) + boot_minus_steady_s < start_s)
+      ++first;
+    if (first == heard.size()) continue;
+    const NavState& after = heard[first].state;
+    first_ms.push_back(1e3 * (to_seconds(heard[first].arrived_ns) + boot_minus_steady_s - start_s));
+    gaps_s.push_back(to_seconds(heard[first].arrived_ns - heard[first - 1].arrived_ns));
+    const double sigma_m = std::sqrt(after.position_covariance_N_m2[0] + after.position_covariance_N_m2[4]);
+    steps_sigma.push_back(step_m(heard[first - 1].state, after) / sigma_m);
+    // Aligned, or as good as: what is not known any more is a little of the heading.
+    EXPECT_GE(after.alignment, AlignmentPhase::fine);
+    EXPECT_LE(after.alignment, AlignmentPhase::aligned);
+    EXPECT_GT(after.mode, NavMode::aligning);
+    EXPECT_LT(steps_sigma.back(), 3.0);
+  }
+  std::printf("restarts of the only fusion %zu\n", times);
+  std::printf(
+      "from the start of the process to the first state at guidance: median %.0f ms, max %.0f ms; "
+      "without navigation: median %.2f s, max %.2f s\n",
+      quantile(first_ms, 0.5), quantile(first_ms, 1.0), quantile(gaps_s, 0.5), quantile(gaps_s, 1.0));
+  std::printf("step of the position: median %.2f sigma, max %.2f sigma\n", quantile(steps_sigma, 0.5),
+              quantile(steps_sigma, 1.0));
+  if (!soak) return;
+  EXPECT_LE(quantile(first_ms, 1.0), 500.0);
+}
+
+}  // namespace
+}  // namespace fathom::test

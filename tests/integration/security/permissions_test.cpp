@@ -1,0 +1,82 @@
+// The table of permissions against the services themselves: in a protected demonstration each reads and
+// writes all that its row names, so that no row allows more than is used, and none is refused anything.
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "bus/network_map.hpp"
+#include "integration/bus/support.hpp"
+#include "security/roles.hpp"
+#include "support/process.hpp"
+
+namespace fathom::test {
+namespace {
+
+constexpr std::uint32_t kDomain = 219;
+
+// Read by a fusion only while it lacks what another one knows.
+constexpr std::string_view kForAMoment = "fathom/v1/engine_state";
+
+/// Topics that each service reads (false) and writes (true).
+using Uses = std::map<std::string, std::map<bool, std::set<std::string>>>;
+
+Uses uses(bus::Participant& participant) {
+  Uses out;
+  for (const bus::NetworkEndpoint& one : bus::endpoints(participant)) {
+    // The client library in it is a participant of its own, with the identity of the service.
+    std::string owner = one.owner.name == "guidance_example_client" ? "guidance_example" : one.owner.name;
+    // Two of a kind have one row.
+    if (owner == "fusion_standby") owner = "fusion";
+    if (owner == "demo" || (one.topic == kForAMoment && !one.writes)) continue;
+    out[owner][one.writes].insert(one.topic);
+  }
+  return out;
+}
+
+Uses table() {
+  Uses out;
+  for (const security::Role& role : security::roles()) {
+    const std::string name(role.name);
+    // Not part of a demonstration; a person's own tools and recorders read what they are asked to.
+    if (name == "cli" || name == "recorder" || name == "guidance" || name == "discovery") continue;
+    if (name == "console" && !std::filesystem::exists(FATHOM_BINARY_DIR "/bin/fathom-console")) continue;
+    const auto add = [&](bool writes, std::span<const std::string_view> topics) {
+      for (const auto topic : topics) {
+        if (writes || topic != kForAMoment) out[name][writes].emplace(topic);
+      }
+    };
+    add(true, role.publishes);
+    add(false, role.subscribes);
+  }
+  return out;
+}
+
+TEST(Permissions, AreWhatTheServicesUseAndNoMore) {
+  setenv("FATHOM_DDS_DIR", FATHOM_SOURCE_DIR "/deploy/dds", 1);
+  setenv("FATHOM_SCENARIO_DIR", FATHOM_SOURCE_DIR "/deploy/config/scenarios", 1);
+  Process demo("fathom-demo",
+               {"--secure", "--standby", "--domain", std::to_string(kDomain), "--duration", "300"});
+  const std::string sign = "FATHOM_SECURITY_DIR=";
+  ASSERT_TRUE(wait_until([&] { return demo.out().find(sign) != std::string::npos; }, 60.0)) << demo.err();
+  const std::string said = demo.out().substr(demo.out().find(sign) + sign.size());
+
+  bus::ParticipantOptions presence = options(kDomain, "onlooker");
+  presence.security = {said.substr(0, said.find(' ')), "cli"};
+  {
+    bus::Participant onlooker(presence);
+    const Uses expected = table();
+    EXPECT_TRUE(wait_until([&] { return uses(onlooker) == expected; }, 60.0));
+    EXPECT_EQ(uses(onlooker), expected);
+    EXPECT_EQ(onlooker.counters().stranger_refused, 0U);
+    EXPECT_EQ(onlooker.counters().permission_refused, 0U);
+  }
+  demo.kill(SIGINT);
+  (void)demo.wait();
+  EXPECT_EQ(demo.out().find("was started again"), std::string::npos) << demo.out();
+}
+
+}  // namespace
+}  // namespace fathom::test

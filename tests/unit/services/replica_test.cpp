@@ -1,0 +1,334 @@
+// When one of several fusion services speaks, and when it knows that another one knows better.
+
+#include "fusion/replica.hpp"
+
+#include <gtest/gtest.h>
+
+namespace fathom::fusion {
+namespace {
+
+constexpr DurationNs kPeriod = 10 * kNsPerMillisecond;
+constexpr TimeNs kStamp0 = 1'700'000'000 * kNsPerSecond;
+
+Replica::Options options() {
+  return {300 * kNsPerMillisecond, 200 * kNsPerMillisecond, 2 * kNsPerSecond, 100 * kNsPerMillisecond,
+          250 * kNsPerMillisecond};
+}
+
+/// A replica, what its engine makes of the samples, and the leader it hears.
+struct Scene {
+  TimeNs now_ns = 1000 * kNsPerSecond;
+  int step = 0;
+  Replica replica{options(), now_ns};
+
+  NavState state(const char* instance, double north_m) const {
+    NavState out;
+    out.header.sensor = instance;
+    out.header.stamp_ns = kStamp0 + step * kPeriod;
+    out.latitude_rad = 0.6 + north_m / 6.371e6;
+    out.longitude_rad = 2.2;
+    out.altitude_m = -5.0;
+    out.velocity_N_m_s = {1.0, 0.0, 0.0};
+    out.q_NB = {1.0, 0.0, 0.0, 0.0};
+    return out;
+  }
+  void advance() {
+    now_ns += kPeriod;
+    ++step;
+  }
+  /// Inertial samples with nobody else about. How many states were published.
+  int alone(int steps) {
+    int spoke = 0;
+    for (int i = 0; i < steps; ++i) {
+      advance();
+      if (!replica.own(state("b", 0.0), now_ns)) continue;
+      ++spoke;
+      replica.heard(state("b", 0.0), true, now_ns);
+    }
+    return spoke;
+  }
+  /// With a leader whose state is `apart_m` to the north of its own.
+  int led(int steps, double apart_m, bool leader_first = false) {
+    int spoke = 0;
+    for (int i = 0; i < steps; ++i) {
+      advance();
+      if (leader_first) replica.heard(state("a", apart_m), false, now_ns);
+      spoke += replica.own(state("b", 0.0), now_ns) ? 1 : 0;
+      if (!leader_first) replica.heard(state("a", apart_m), false, now_ns);
+    }
+    return spoke;
+  }
+  ReplicaStatus account(std::uint64_t missed, ReplicaPhase phase = ReplicaPhase::in_step) const {
+    ReplicaStatus out;
+    out.header.sensor = "a";
+    out.phase = phase;
+    out.missed = missed;
+    return out;
+  }
+};
+
+TEST(Replica, LeadsWhenNobodyElseIsHeard) {
+  Scene scene;
+  EXPECT_EQ(scene.alone(29), 0) << "it listens first";
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::listening);
+  EXPECT_EQ(scene.alone(10), 10);
+  EXPECT_TRUE(scene.replica.leads());
+  EXPECT_EQ(scene.replica.times_unprepared(), 0U);
+}
+
+TEST(Replica, HoldsItsTongueWhileTheLeaderKnowsMore) {
+  Scene scene;
+  EXPECT_EQ(scene.led(500, 3.0), 0);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind);
+  EXPECT_TRUE(scene.replica.wants_state());
+  EXPECT_EQ(scene.replica.leader(), Name("a"));
+
+  scene.replica.caught_up(0);
+  EXPECT_EQ(scene.led(Replica::kAlikeNeeded - 1, 0.0), 0) << "what it took is tried first";
+  EXPECT_GT(scene.led(5, 0.0), 0);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
+  EXPECT_FALSE(scene.replica.leads()) << "the other one is heard";
+}
+
+TEST(Replica, NeedsNoStateWhenItHasTheSame) {
+  Scene scene;
+  scene.led(Replica::kAlikeNeeded + 1, 0.0, true);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
+  EXPECT_EQ(scene.replica.times_caught_up(), 0U);
+}
+
+TEST(Replica, TakesNoStateForTheSameBeforeThereIsAPosition) {
+  Scene scene;
+  NavState none;
+  none.header.sensor = "a";
+  for (int i = 0; i < 100; ++i) {
+    scene.advance();
+    none.header.stamp_ns = kStamp0 + scene.step * kPeriod;
+    (void)scene.replica.own(none, scene.now_ns);
+    scene.replica.heard(none, false, scene.now_ns);
+  }
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind);
+  scene.replica.caught_up(0);
+  for (int i = 0; i < 20; ++i) {
+    scene.advance();
+    none.header.stamp_ns = kStamp0 + scene.step * kPeriod;
+    (void)scene.replica.own(none, scene.now_ns);
+    scene.replica.heard(none, false, scene.now_ns);
+  }
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::in_step) << "now it is known to be the same";
+}
+
+TEST(Replica, DoesNotRepeatWhatTheLeaderHasSaid) {
+  Scene scene;
+  scene.led(20, 0.0);
+  ASSERT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
+  EXPECT_EQ(scene.led(10, 0.0, true), 0);
+  EXPECT_EQ(scene.led(10, 0.0), 10) << "it may be first, and the stronger one";
+}
+
+TEST(Replica, TakesOverFromALeaderThatFallsSilent) {
+  Scene scene;
+  scene.led(20, 0.0);
+  ASSERT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
+  EXPECT_EQ(scene.alone(5), 5) << "it never stopped speaking: DDS hears it from now on";
+  EXPECT_TRUE(scene.replica.leads());
+  EXPECT_EQ(scene.replica.times_unprepared(), 0U);
+}
+
+TEST(Replica, SpeaksUnpreparedWhenThereIsNobodyElse) {
+  Scene scene;
+  scene.led(100, 5.0);
+  EXPECT_EQ(scene.alone(20), 0) << "the leader may be only late";
+  EXPECT_GT(scene.alone(5), 0);
+  EXPECT_EQ(scene.replica.times_unprepared(), 1U);
+  scene.led(1, 5.0);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind) << "the leader was only late: it knows better";
+}
+
+TEST(Replica, LateMeasurementsMakeNoQuarrel) {
+  Scene scene;
+  scene.led(20, 0.0);
+  for (int i = 0; i < 10; ++i) {
+    scene.led(100, 0.5);
+    ASSERT_EQ(scene.replica.phase(), ReplicaPhase::in_step)
+        << "a second of difference is what a late measurement makes";
+    scene.led(10, 0.0);
+  }
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
+  scene.led(210, 0.5);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind) << "this is none";
+}
+
+TEST(Replica, AStateThatItNeverHadCountsAsADifference) {
+  Scene scene;
+  scene.led(20, 0.0);
+  for (int i = 0; i < 250; ++i) {
+    scene.advance();
+    scene.replica.heard(scene.state("a", 0.0), false, scene.now_ns);
+    scene.advance();  // each second inertial sample only
+    (void)scene.replica.own(scene.state("b", 0.0), scene.now_ns);
+  }
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind);
+}
+
+TEST(Replica, ListensAfterASilenceInWhichAnotherOneMayHaveGoneOn) {
+  Scene scene;
+  scene.alone(50);
+  scene.replica.others(1, scene.now_ns);
+  scene.alone(5);
+  scene.now_ns += 5 * kNsPerSecond;  // cut off
+  scene.step += 500;
+  scene.replica.missed(500, scene.now_ns);
+  EXPECT_EQ(scene.alone(10), 0);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::listening);
+  scene.led(2, 1.0);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind);
+}
+
+TEST(Replica, ListensAlsoWhenTheOtherOneWasLostInTheSilence) {
+  Scene scene;
+  scene.alone(50);
+  scene.replica.others(1, scene.now_ns);
+  scene.alone(5);
+  scene.now_ns += 5 * kNsPerSecond;
+  scene.replica.others(0, scene.now_ns);
+  scene.now_ns += 5 * kNsPerSecond;
+  scene.step += 1000;
+  scene.replica.missed(1000, scene.now_ns);
+  EXPECT_EQ(scene.alone(10), 0);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::listening);
+}
+
+TEST(Replica, ASilenceOfTheInertialUnitIsNoReasonToListenWhereThereIsOnlyOneFusion) {
+  Scene scene;
+  scene.alone(50);
+  scene.now_ns += 5 * kNsPerSecond;
+  scene.step += 500;
+  scene.replica.missed(500, scene.now_ns);
+  EXPECT_EQ(scene.alone(10), 10);
+}
+
+TEST(Replica, ASilenceInWhichNothingWasLostIsNoReasonEither) {
+  Scene scene;
+  scene.alone(50);
+  scene.replica.others(1, scene.now_ns);
+  scene.now_ns += 5 * kNsPerSecond;  // the inertial unit was: its samples were numbered on
+  scene.step += 500;
+  EXPECT_EQ(scene.alone(10), 10);
+}
+
+TEST(Replica, SaysNothingOfThePast) {
+  Scene scene;
+  scene.alone(300);
+  scene.replica.others(1, scene.now_ns);
+  // Five seconds of samples come in half a second: the cable was pulled, the bridges kept what was not heard.
+  scene.now_ns += 5 * kNsPerSecond;
+  int spoke = 0;
+  for (int i = 0; i < 500; ++i) {
+    scene.now_ns += kNsPerMillisecond;
+    ++scene.step;
+    spoke += scene.replica.own(scene.state("b", 0.0), scene.now_ns) ? 1 : 0;
+  }
+  EXPECT_EQ(spoke, 0);
+  EXPECT_GT(scene.alone(600), 0);
+  EXPECT_EQ(scene.alone(100), 100);
+}
+
+TEST(Replica, AClockThatIsSetSilencesNobody) {
+  for (const int hour : {-360'000, 360'000}) {
+    Scene scene;
+    scene.alone(300);
+    scene.replica.others(1, scene.now_ns);
+    scene.step += hour;
+    EXPECT_EQ(scene.alone(500), 500);
+  }
+}
+
+TEST(Replica, ALeaderThatLacksSamplesMakesRoomForOneThatHasThem) {
+  Scene scene;
+  scene.alone(50);
+  scene.replica.missed(3, scene.now_ns);
+  scene.replica.told(scene.account(0), scene.now_ns);
+  EXPECT_TRUE(scene.replica.leads()) << "the other one may not have noticed yet";
+  scene.alone(60);
+  scene.replica.told(scene.account(3), scene.now_ns);
+  EXPECT_TRUE(scene.replica.leads()) << "both lack them";
+  scene.replica.told(scene.account(0, ReplicaPhase::behind), scene.now_ns);
+  EXPECT_TRUE(scene.replica.leads()) << "who is behind knows less still";
+  scene.replica.told(scene.account(0), scene.now_ns);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind);
+  EXPECT_NE(scene.replica.reason().find("lacks 3 samples"), std::string::npos) << scene.replica.reason();
+  scene.replica.caught_up(0);
+  scene.led(20, 0.0);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
+  EXPECT_EQ(scene.replica.missed(), 0U) << "it lacks what the state lacks that it took";
+}
+
+TEST(Replica, OneThatFollowsAndLacksMoreCatchesUp) {
+  Scene scene;
+  scene.led(20, 0.0);
+  scene.replica.missed(1, scene.now_ns);
+  scene.led(60, 0.0);
+  scene.replica.told(scene.account(0), scene.now_ns);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind);
+}
+
+TEST(Replica, MakesRoomWhenItBeganAloneByMistake) {
+  Scene scene;
+  scene.alone(60);  // it was not heard: the network was slow to make them known
+  ReplicaStatus peer = scene.account(0);
+  peer.in_step_s = 0.5;
+  scene.replica.told(peer, scene.now_ns);
+  EXPECT_TRUE(scene.replica.leads()) << "they began together";
+  peer.in_step_s = 500.0;
+  scene.replica.told(peer, scene.now_ns);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::behind);
+
+  Scene later;
+  later.alone(1100);
+  later.replica.told(peer, later.now_ns);
+  EXPECT_TRUE(later.replica.leads()) << "two that were under way apart: the stronger one is heard";
+}
+
+TEST(Replica, DoesNotFollowALeaderThatLacksMore) {
+  Scene scene;
+  scene.led(20, 0.0);
+  for (int i = 0; i < 400; ++i) {
+    if (i % 20 == 0) scene.replica.told(scene.account(7), scene.now_ns);
+    scene.led(1, 2.0);
+  }
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
+}
+
+SampleHeader numbered(const char* sensor, std::uint64_t sequence) {
+  SampleHeader out;
+  out.sensor = sensor;
+  out.sequence = sequence;
+  return out;
+}
+
+TEST(SampleGaps, CountsWhatIsMissingPerStream) {
+  SampleGaps gaps;
+  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 500)), 0U)
+      << "the first one says nothing of those before";
+  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 501)), 0U);
+  EXPECT_EQ(gaps.note(SourceKind::gps, numbered("gps", 7)), 0U);
+  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 505)), 3U);
+  EXPECT_EQ(gaps.note(SourceKind::gps, numbered("gps", 8)), 0U);
+  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 1)), 0U) << "its bridge began anew";
+  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 2)), 0U);
+}
+
+TEST(SampleGaps, GoOnFromWhatAnotherOneHasHeard) {
+  SampleGaps theirs;
+  (void)theirs.note(SourceKind::imu, numbered("imu", 500));
+  (void)theirs.note(SourceKind::gps, numbered("gps", 7));
+  SampleGaps own;
+  (void)own.note(SourceKind::imu, numbered("imu", 510));
+  own.go_on_from(theirs.last());
+  EXPECT_EQ(own.note(SourceKind::imu, numbered("imu", 511)), 0U) << "of that it has its own";
+  EXPECT_EQ(own.note(SourceKind::gps, numbered("gps", 10)), 2U);
+}
+
+}  // namespace
+}  // namespace fathom::fusion
