@@ -80,8 +80,9 @@ function judge() {
     lost = sentence.startsWith("No navigation:");
     trust(level, sentence, advice, sentence.startsWith("No navigation") ? "NO NAVIGATION" : undefined);
   }
-  if (lost !== (root.dataset.navigation === "none")) {
-    root.dataset.navigation = lost ? "none" : "there";
+  const navigation = lost ? "none" : "there";
+  if (root.dataset.navigation !== navigation) {
+    root.dataset.navigation = navigation;
     if (lost) root.dataset.losses = String(Number(root.dataset.losses ?? 0) + 1);
     root.dataset.since = String(Date.now());
     root.dataset.stamp = String(Date.parse(store.tick?.status.navigation?.stamp_utc ?? 0));
