@@ -22,6 +22,17 @@ class SystemClock : public Clock {
   [[nodiscard]] TimeNs monotonic_ns() const override;
 };
 
+/// UTC as it was at an instant, carried on by the monotonic clock: who sets the host's UTC afterwards moves
+/// no stamp. Slewing (chrony, ptp4l) is followed, as the kernel slews both clocks.
+class AnchoredClock : public SystemClock {
+ public:
+  explicit AnchoredClock(DurationNs utc_minus_monotonic_ns) : offset_ns_(utc_minus_monotonic_ns) {}
+  [[nodiscard]] TimeNs utc_ns() const override { return monotonic_ns() + offset_ns_; }
+
+ private:
+  DurationNs offset_ns_;
+};
+
 /// Runs `rate` times as fast as the host from `epoch_utc_ns` on. All services of an accelerated demo are
 /// given the same epoch and rate, so that their stamps, timeouts and outage clocks agree with each other.
 class ScaledClock : public Clock {

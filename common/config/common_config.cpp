@@ -67,6 +67,10 @@ void describe(Schema<ClockConfig>& s) {
           "UTC instant, since 1970, at which an accelerated clock starts; 0: the host's own clock")
       .unit("ns")
       .range(0, 9.2e18);
+  s.field(
+      "anchor_file", &ClockConfig::anchor_file,
+      "shared by the services of one host, so that they agree on UTC whoever sets the host's clock; empty: "
+      "each goes on from UTC as it was at its start");
   s.check([](const ClockConfig& clock) -> std::pair<std::string, std::string> {
     if (clock.rate != 1.0 && clock.epoch_ns == 0) {
       return {"epoch_ns", "an instant, because the rate is not 1 and all services must start from the same"};

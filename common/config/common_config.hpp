@@ -32,6 +32,7 @@ struct LogConfig {
 struct ClockConfig {
   double rate = 1.0;          ///< vehicle seconds per host second
   std::int64_t epoch_ns = 0;  ///< UTC instant at which an accelerated clock starts; 0: the host's own clock
+  std::string anchor_file;    ///< see runtime::ClockAnchor; empty: UTC as it is when the service starts
 };
 
 enum class SchedulingPolicy : std::uint8_t {

@@ -100,13 +100,6 @@ int AlarmBook::acknowledge(std::string_view target, const Instant& /*now*/) {
   return acknowledged;
 }
 
-void AlarmBook::shift_utc(DurationNs step) {
-  for (auto& [key, entry] : entries_) {
-    entry.alarm.since_ns += step;
-    if (entry.alarm.cleared_ns != 0) entry.alarm.cleared_ns += step;
-  }
-}
-
 std::vector<Alarm> AlarmBook::take_changes() {
   std::vector<Alarm> changes;
   changes.swap(changes_);

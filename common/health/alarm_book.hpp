@@ -56,9 +56,6 @@ class AlarmBook {
   /// "*" acknowledges every alarm. Returns how many were newly acknowledged.
   int acknowledge(std::string_view target, const Instant& now);
 
-  /// UTC was found to have stepped: the civil times already noted move with it.
-  void shift_utc(DurationNs step);
-
   /// What changed since the last call, oldest change first, each alarm as it is now. A removed alarm appears
   /// once more, cleared and acknowledged.
   [[nodiscard]] std::vector<Alarm> take_changes();

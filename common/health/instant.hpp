@@ -4,8 +4,8 @@
 
 namespace fathom::health {
 
-/// "Now" as the health classes are told it: durations are measured on the monotonic count only, so that a
-/// step of UTC never lengthens, shortens or hides anything; UTC is for what people and other services read.
+/// "Now" as the health classes are told it: durations are measured on the monotonic count only; UTC, of the
+/// vehicle's clock that nobody sets (AnchoredClock), is for what people and other services read.
 struct Instant {
   TimeNs monotonic_ns = 0;
   TimeNs utc_ns = 0;

@@ -11,13 +11,6 @@ namespace {
 
 constexpr std::size_t kNamed = 3;  // services in one sentence
 
-std::uint64_t counter(const ServiceStatus& status, std::string_view name) {
-  for (const ServiceCounter& counter : status.counters) {
-    if (counter.name.view() == name) return counter.value;
-  }
-  return 0;
-}
-
 }  // namespace
 
 void IntruderWatch::add(const ServiceStatus& status, const Instant& now) {
@@ -30,8 +23,8 @@ void IntruderWatch::add(const ServiceStatus& status, const Instant& now) {
     strangers_.counted[service] = 0;
     permissions_.counted[service] = 0;
   }
-  follow(strangers_, service, counter(status, "bus_stranger_refused"), now);
-  follow(permissions_, service, counter(status, "bus_permission_refused"), now);
+  follow(strangers_, service, status.counter("bus_stranger_refused"), now);
+  follow(permissions_, service, status.counter("bus_permission_refused"), now);
 }
 
 void IntruderWatch::follow(Refusals& refusals, const Name& service, std::uint64_t value, const Instant& now) {

@@ -12,14 +12,6 @@ constexpr std::size_t kMaxNames = 64;  // names come from the network: bounded
 constexpr int kFewest = 3;
 constexpr double kLastingS = 2.0;
 constexpr double kDisbeliefHoldS = 5.0;  // a receiver that just woke does not know the date yet
-constexpr DurationNs kUnderWayNs = 3 * kNsPerSecond;
-
-std::uint64_t counter(const ServiceStatus& status, std::string_view name) {
-  for (const ServiceCounter& counter : status.counters) {
-    if (counter.name.view() == name) return counter.value;
-  }
-  return 0;  // bridges leave out what never happened
-}
 
 }  // namespace
 
@@ -33,7 +25,6 @@ void StampWatch::heard(SourceKind kind, const SampleHeader& header, const Instan
   if (sensor.heard && header.stamp_ns == sensor.last_stamp_ns) count_repeat(sensor, now);
   sensor.heard = true;
   sensor.last_stamp_ns = header.stamp_ns;
-  if (now.monotonic_ns < quiet_until_ns_) return;
   follow_age(sensor, to_seconds(now.utc_ns - header.stamp_ns), now);
 }
 
@@ -93,8 +84,8 @@ void StampWatch::add(const ServiceStatus& status, const Instant& now) {
     found = bridges_.emplace(status.header.sensor, Bridge{}).first;
   }
   Bridge& bridge = found->second;
-  const std::uint64_t steps = counter(status, "time_steps");
-  const std::uint64_t implausible = counter(status, "time_implausible");
+  const std::uint64_t steps = status.counter("time_steps");
+  const std::uint64_t implausible = status.counter("time_implausible");
   const bool disbelieves = bridge.known && implausible > bridge.implausible;
   if (bridge.known && steps > bridge.steps) bridge.stepped = true;
   if (disbelieves && !bridge.disbelieved) bridge.disbelieved_since_ns = now.monotonic_ns;
@@ -102,15 +93,6 @@ void StampWatch::add(const ServiceStatus& status, const Instant& now) {
   bridge.known = true;
   bridge.steps = steps;
   bridge.implausible = implausible;
-}
-
-void StampWatch::restart(const Instant& now) {
-  quiet_until_ns_ = now.monotonic_ns + kUnderWayNs;
-  for (auto& [id, sensor] : sensors_) {
-    sensor.aged = false;
-    sensor.beyond = 0;
-    sensor.ahead = 0;
-  }
 }
 
 void StampWatch::report(AlarmBook& book, const Instant& now) {

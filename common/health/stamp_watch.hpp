@@ -30,8 +30,6 @@ class StampWatch {
   void heard(SourceKind kind, const SampleHeader& header, const Instant& now);
   /// A bridge counts what it saw of its device's clock before it mended the stamps.
   void add(const ServiceStatus& status, const Instant& now);
-  /// This host's clock was stepped: every age begins anew, after what is under way has arrived.
-  void restart(const Instant& now);
   /// "duplicate_stamps:<sensor>", "clock_jump:<sensor>" (momentary), "clock_ahead:<sensor>",
   /// "device_clock:<bridge>".
   void report(AlarmBook& book, const Instant& now);
@@ -70,7 +68,6 @@ class StampWatch {
   void follow_age(Sensor& sensor, double age_s, const Instant& now) const;
 
   StampWatchConfig config_;
-  TimeNs quiet_until_ns_ = 0;
   std::map<std::pair<SourceKind, Name>, Sensor> sensors_;
   std::map<Name, Bridge> bridges_;
 };

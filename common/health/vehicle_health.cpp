@@ -21,7 +21,6 @@ std::vector<std::pair<SourceKind, Name>> names_of(const std::vector<ExpectedSens
 
 VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start, DescribeWriter describe)
     : config_(config),
-      utc_offset_ns_(start.utc_ns - start.monotonic_ns),
       describe_(std::move(describe)),
       book_(config.vehicle),
       gps_(config.gps, start),
@@ -74,6 +73,7 @@ void VehicleHealth::add(const ServiceStatus& status, const Instant& now) {
   services_.add(status, now);
   stamps_.add(status, now);
   intruders_.add(status, now);
+  clocks_.add(status, now);
 }
 
 void VehicleHealth::add(const Verdict& verdict, const Instant& now) {
@@ -93,7 +93,6 @@ int VehicleHealth::apply(const Command& command, const Instant& now) {
 }
 
 void VehicleHealth::evaluate(const Instant& now) {
-  follow_utc(now);
   gps_.evaluate(now);
   nav_.evaluate(now);
   sensors_.evaluate(now);
@@ -109,24 +108,7 @@ void VehicleHealth::evaluate(const Instant& now) {
   sensors_.report(book_, now);
   services_.report(book_, now);
   intruders_.report(book_, now);
-}
-
-void VehicleHealth::follow_utc(const Instant& now) {
-  // Slow correction by a time server passes unnoticed; a step moves the civil times already noted.
-  constexpr DurationNs kStep = kNsPerSecond / 2;
-  const DurationNs offset_ns = now.utc_ns - now.monotonic_ns;
-  const DurationNs step_ns = offset_ns - utc_offset_ns_;
-  utc_offset_ns_ = offset_ns;
-  if (std::abs(step_ns) < kStep) return;
-  book_.shift_utc(step_ns);
-  stamps_.restart(now);
-  book_.event({.key = "clock_step",
-               .severity = Severity::notice,
-               .text = sentence("The clock of this host was set %s by %s.", step_ns > 0 ? "forward" : "back",
-                                duration_text(std::abs(to_seconds(step_ns))).c_str()),
-               .value = to_seconds(step_ns),
-               .limit = to_seconds(kStep)},
-              now);
+  clocks_.report(book_, now);
 }
 
 MonitorStatus VehicleHealth::status(const Instant& now) const {

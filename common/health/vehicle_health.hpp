@@ -6,6 +6,7 @@
 
 #include "health/alarm_book.hpp"
 #include "health/alignment_watch.hpp"
+#include "health/clock_watch.hpp"
 #include "health/fix_watch.hpp"
 #include "health/gps_outage.hpp"
 #include "health/instant.hpp"
@@ -77,10 +78,8 @@ class VehicleHealth {
 
  private:
   [[nodiscard]] bool ours(const SampleHeader& header) const { return header.vehicle == config_.vehicle; }
-  void follow_utc(const Instant& now);
 
   HealthConfig config_;
-  DurationNs utc_offset_ns_;  ///< UTC minus monotonic, as last seen
   DescribeWriter describe_;
   AlarmBook book_;
   GpsOutage gps_;
@@ -94,6 +93,7 @@ class VehicleHealth {
   SensorWatch sensors_;
   ServiceWatch services_;
   IntruderWatch intruders_;
+  ClockWatch clocks_;
 };
 
 }  // namespace fathom::health

@@ -96,9 +96,13 @@ struct ServiceStatus {
   std::string host;
   std::uint32_t pid = 0;
   TimeNs started_ns = 0;
-  std::string text;                      ///< why it is not healthy
-  std::vector<ServiceRate> rates;        ///< at most 16
+  DurationNs utc_offset_ns = 0;    ///< UTC of its host minus the time in its stamps: the host's clock was set
+  std::string text;                ///< why it is not healthy
+  std::vector<ServiceRate> rates;  ///< at most 16
   std::vector<ServiceCounter> counters;  ///< at most 32
+
+  /// 0 when there is none of that name: services leave out what never happened.
+  [[nodiscard]] std::uint64_t counter(std::string_view name) const;
 };
 
 }  // namespace fathom

@@ -44,7 +44,8 @@ class LifeSigns {
 
  private:
   void heard(const ServiceStatus& status) {
-    const double behind_s = to_seconds(clock_.utc_ns() - status.header.stamp_ns);
+    const TimeNs host_utc_ns = status.header.stamp_ns + status.utc_offset_ns;
+    const double behind_s = to_seconds(clock_.utc_ns() - host_utc_ns);
     const std::lock_guard lock(mutex_);
     HeardService& one = services_[status.header.sensor];
     one.status = status;

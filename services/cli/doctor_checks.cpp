@@ -222,8 +222,35 @@ void examine_services(const NetworkFacts& network, Report& report) {
   }
 }
 
+/// The time in stamps goes on from when the services of a host started (runtime::ClockAnchor), whoever sets
+/// the host's clock.
+void examine_stamps(const NetworkFacts& network, Report& report) {
+  const HeardService* first = nullptr;
+  std::set<std::string> said;
+  for (const HeardService& one : network.services) {
+    const double set_by_s = to_seconds(one.status.utc_offset_ns);
+    if (std::abs(set_by_s) >= kClockTolerance_s && said.insert(one.status.host).second) {
+      report.notice("The clock of " + one.status.host + " was set " + number("%.1f s ", std::abs(set_by_s)) +
+                        (set_by_s > 0.0 ? "forward" : "back") +
+                        " after its services had started; the time in their stamps was not.",
+                    "Before the next launch stop every service of that host, then start them.");
+    }
+    if (!known(one.behind_s) || std::abs(one.behind_s) >= kClockTolerance_s) continue;  // said of its clock
+    if (first == nullptr) first = &one;
+    const double apart_s =
+        one.behind_s + set_by_s - first->behind_s - to_seconds(first->status.utc_offset_ns);
+    if (std::abs(apart_s) < kClockTolerance_s || !said.insert(one.status.header.sensor.str()).second)
+      continue;
+    report.problem("The stamps of " + one.status.header.sensor.str() + " (" + one.status.host + ") and " +
+                       first->status.header.sensor.str() + " (" + first->status.host + ") are " +
+                       number("%.1f s", std::abs(apart_s)) + " apart.",
+                   "Stop every service on both hosts, see that their clocks agree, and start them again.");
+  }
+}
+
 void examine_clock(const NetworkFacts& network, const HostFacts& host, Report& report) {
   report.subject("clock");
+  examine_stamps(network, report);
   std::set<std::string> said;
   for (const HeardService& one : network.services) {
     if (!known(one.behind_s) || std::abs(one.behind_s) < kClockTolerance_s) continue;

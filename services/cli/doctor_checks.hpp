@@ -31,7 +31,8 @@ struct HostFacts {
   std::optional<int> realtime_priority;               ///< highest that may be asked for
 };
 
-/// A service's life sign, and how far its clock is behind this host's (negative: ahead), the way included.
+/// A service's life sign, and how far its host's clock is behind this host's (negative: ahead), the way
+/// included.
 struct HeardService {
   ServiceStatus status;
   double behind_s = kUnknown;

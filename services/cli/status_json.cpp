@@ -144,6 +144,7 @@ json services(const StatusView& view) {
                    {"config_hash", status.config_hash},
                    {"host", status.host},
                    {"pid", status.pid},
+                   {"utc_offset_s", to_seconds(status.utc_offset_ns)},
                    {"text", status.text}});
   }
   if (!view.monitor) return out;

@@ -74,11 +74,13 @@ void write_private(const std::filesystem::path& path, const std::string& text) {
 
 class Builder {
  public:
-  Builder(const Options& options, Plan& plan) : places_(find_places()), plan_(plan) {
+  Builder(const Options& options, const std::filesystem::path& run_directory, Plan& plan)
+      : places_(find_places()), plan_(plan) {
     common_.push_back("bus.domain=" + std::to_string(options.domain));
     common_.push_back("bus.interfaces=" + json(options.interfaces).dump());
     common_.push_back("bus.peers=" + json(options.peers).dump());
     if (!plan.credentials.empty()) common_.push_back("bus.security.folder=" + plan.credentials);
+    common_.push_back("clock.anchor_file=" + (run_directory / "clock").string());
     if (options.speed != 1.0) {
       plan.epoch_ns = SystemClock().utc_ns();
       common_.push_back("clock.rate=" + json(options.speed).dump());
@@ -187,7 +189,7 @@ Sets monitor_sets(const Plan& plan, const sim::Scenario& scenario, const std::ve
 Plan make_plan(const Options& options, const std::filesystem::path& run_directory) {
   Plan plan;
   if (options.secure) plan.credentials = make_credentials(options.domain, run_directory);
-  Builder builder(options, plan);
+  Builder builder(options, run_directory, plan);
   // A recorded vehicle's instruments get the devices of the survey scenario.
   sim::Scenario scenario = config::load_scenario({config::scenario_file(options.scenario), {}});
   const config::Wiring wiring{(run_directory / "devices").string(), options.domain * kPortsPerDomain};

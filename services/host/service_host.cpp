@@ -10,6 +10,7 @@
 #include "host/realtime.hpp"
 #include "host/supervisor.hpp"
 #include "runtime/build_info.hpp"
+#include "runtime/clock_anchor.hpp"
 #include "runtime/signals.hpp"
 
 namespace fathom::host {
@@ -18,8 +19,8 @@ namespace {
 constexpr DurationNs kLifeSignPeriod = kNsPerSecond;
 constexpr std::size_t kMostCounters = 32;
 
-std::unique_ptr<Clock> make_clock(const config::ClockConfig& config) {
-  if (config.epoch_ns == 0) return std::make_unique<SystemClock>();
+std::unique_ptr<Clock> make_clock(const config::ClockConfig& config, const runtime::ClockAnchor& anchor) {
+  if (config.epoch_ns == 0) return std::make_unique<AnchoredClock>(anchor.utc_minus_monotonic_ns());
   return std::make_unique<ScaledClock>(config.epoch_ns, config.rate);
 }
 
@@ -71,7 +72,8 @@ struct ServiceHost::Impl {
       : start(std::move(start_in)),
         log("fathom-" + start.info.name, log_level(start.common.log.level)),
         realtime_warnings(apply_realtime(start.common.realtime)),
-        clock(make_clock(start.common.clock)),
+        anchor(start.common.clock.anchor_file, SystemClock()),
+        clock(make_clock(start.common.clock, anchor)),
         participant(participant_options(start)),
         status_writer(participant),
         started_ns(clock->utc_ns()) {}
@@ -86,6 +88,7 @@ struct ServiceHost::Impl {
   Start start;
   runtime::Log log;
   std::vector<std::string> realtime_warnings;  ///< before the bus: its threads inherit what was asked for
+  runtime::ClockAnchor anchor;
   std::unique_ptr<Clock> clock;
   runtime::StopSignal stop_signal;
   bus::Participant participant;
@@ -142,6 +145,8 @@ void ServiceHost::Impl::publish(ServiceState state) {
   status.host = runtime::host_name();
   status.pid = static_cast<std::uint32_t>(getpid());
   status.started_ns = started_ns;
+  // An accelerated clock has nothing to do with the host's UTC.
+  if (start.common.clock.epoch_ns == 0) status.utc_offset_ns = SystemClock().utc_ns() - clock->utc_ns();
   if (fill) fill(status);
   judge_credentials(status);
   if (state == ServiceState::stopping) status.state = state;
@@ -157,6 +162,11 @@ void ServiceHost::Impl::publish(ServiceState state) {
 
 ServiceHost::ServiceHost(Start start) : impl_(std::make_unique<Impl>(std::move(start))) {
   for (const std::string& warning : impl_->realtime_warnings) impl_->log.warning(warning);
+  if (!impl_->anchor.trouble().empty()) {
+    impl_->log.warning(
+        "clock: " + impl_->anchor.trouble() +
+        "; when the host's clock is set, services that start afterwards will not agree with those before");
+  }
   impl_->participant.on_event(
       [log = &impl_->log](const bus::BusEvent& event) { log->warning(event_text(event)); });
 }

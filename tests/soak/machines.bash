@@ -22,6 +22,7 @@ clean_up() {
   exec 2>/dev/null  # the shell's own account of who was killed
   for pid in "${pids[@]}"; do kill -9 "$pid" || true; done
   for machine in "${machines[@]}"; do ip netns delete "$tag$machine" || true; done
+  umount -l "$run/state" || true
   [ -n "$keep" ] || rm -rf "$run"
 }
 trap clean_up EXIT
@@ -42,15 +43,28 @@ done
 
 peers=()
 for machine in hull second guide; do peers+=(--peer "${address[$machine]}"); done
-"$bin/fathom-demo" --commands "$run" --standby --no-console --interface "${address[hull]}" "${peers[@]}"
+# What the services keep: on a disk of its own, so that it can be full.
+state=$run/state
+mkdir -p "$state"
+mount -t tmpfs -o size=64M fathom "$state"
+"$bin/fathom-demo" --commands "$state" --standby --no-console --interface "${address[hull]}" "${peers[@]}"
+
+# set_clock HOW: UTC of hull and second, as libfaketime words it: "+3600" is an hour ahead. Needs faked_clock=1 before.
+set_clock() { echo "$1" >"$run/utc.new"; mv "$run/utc.new" "$run/utc"; }
+set_clock +0
 
 declare -A pid_of machine_of
-start() {  # start MACHINE SERVICE: as commands.txt says, bound to that machine's address
-  local command
-  command=$(sed -nE "s/^$2\t//p" "$run/commands.txt" |
-    sed "s/bus.interfaces=\[\"${address[hull]}\"\]/bus.interfaces=[\"${address[$1]}\"]/")
-  [ -n "$command" ] || { echo "$0: no service $2 in $run/commands.txt" >&2; exit 4; }
-  ip netns exec "$tag$1" bash -c "exec $command" >>"$run/$2.log" 2>&1 &
+start() {  # start MACHINE SERVICE: as commands.txt says, bound to that machine's address, with a clock of its own
+  local command clock=()
+  command=$(sed -nE "s/^$2\t//p" "$state/commands.txt" |
+    sed -E "s/bus.interfaces=\[\"${address[hull]}\"\]/bus.interfaces=[\"${address[$1]}\"]/
+            s|(clock.anchor_file=[^ ']*)|\1.$1|")
+  [ -n "$command" ] || { echo "$0: no service $2 in $state/commands.txt" >&2; exit 4; }
+  if [ "${faked_clock:-}" ] && [ "$1" != guide ]; then
+    clock=("LD_PRELOAD=$(ls /usr/lib/*/faketime/libfaketimeMT.so.1)" "FAKETIME_TIMESTAMP_FILE=$run/utc"
+      FAKETIME_CACHE_DURATION=1 FAKETIME_DONT_FAKE_MONOTONIC=1)
+  fi
+  ip netns exec "$tag$1" env "${clock[@]}" bash -c "exec $command" >>"$run/$2.log" 2>&1 &
   pids+=($!)
   pid_of[$2]=$!
   machine_of[$2]=$1
@@ -68,7 +82,7 @@ while IFS=$'\t' read -r service _; do
     guidance_example) start guide guidance_example ;;
     *) start hull "$service" ;;
   esac
-done <"$run/commands.txt"
+done <"$state/commands.txt"
 log=$run/guidance.txt
 watch_from "$log"
 sleep 3

@@ -24,6 +24,7 @@ struct Mapping<ServiceStatus> {
     copy(plain.host, wire.host());
     copy(plain.pid, wire.pid());
     copy(plain.started_ns, wire.started_ns());
+    copy(plain.utc_offset_ns, wire.utc_offset_ns());
     copy(plain.text, wire.text());
     copy.sequence(plain.rates, wire.rates(), 16, [](auto& each, auto& rate, auto& w) {
       each(rate.name, w.name());

@@ -152,14 +152,6 @@ TEST(AlarmBook, ListsActiveFirstThenBySeverityThenByAge) {
   EXPECT_TRUE(book.any_active(Severity::critical));
 }
 
-TEST(AlarmBook, CivilTimesFollowAStepOfTheClock) {
-  AlarmBook book;
-  book.hold(condition("a"), at(5.0));
-  book.shift_utc(-100 * kNsPerSecond);
-  EXPECT_EQ(book.find("a")->since_ns, at(-95.0).utc_ns);
-  EXPECT_EQ(book.find("a")->cleared_ns, 0);
-}
-
 TEST(AlarmText, KeysFitTheirFieldAndLongNamesStayApart) {
   EXPECT_EQ(alarm_key("service_missing", "fusion"), Name("service_missing:fusion"));
   EXPECT_EQ(alarm_key("service_missing", "actuator_bridge").view(), "service_missing:actuator_bridge");

@@ -28,7 +28,7 @@ class Vehicle {
   bool fusion_alive = true;
   bool fusion_refuses_gps = false;
   bool moored = false;
-  double utc_step_s = 0.0;
+  double host_clock_set_s = 0.0;
   WriterId writer = kBridge;
   std::uint32_t bridge_pid = 10;
   std::uint64_t bridge_time_steps = 0;
@@ -47,7 +47,7 @@ class Vehicle {
     for (const std::int64_t end = tick_ + std::llround(seconds * 100.0); tick_ < end; ++tick_) step();
     return raised_;
   }
-  [[nodiscard]] Instant now() const { return at(0.01 * static_cast<double>(tick_), utc_step_s); }
+  [[nodiscard]] Instant now() const { return at(0.01 * static_cast<double>(tick_)); }
   [[nodiscard]] std::string text(const Name& alarm) const {
     const Alarm* found = health.alarms().find(alarm);
     return found == nullptr ? std::string() : found->text;
@@ -75,7 +75,7 @@ class Vehicle {
 
   GpsSample fix(double t, double speed_m_s) {
     const double age_s = 0.1 + 0.05 * noise();
-    GpsSample sample = gps(t - age_s + utc_step_s);
+    GpsSample sample = gps(t - age_s);
     const double error_m = moored ? 0.0 : 1.5;  // a receiver at rest may hold its position
     const geo::Geodetic where = geo::moved_by(
         {0.6, 2.2, 20.0}, {north_m_ - age_s * speed_m_s + error_m * noise(), error_m * noise(), 0});
@@ -91,16 +91,16 @@ class Vehicle {
     const Instant now = this->now();
     const double speed_m_s = moored ? 0.0 : kSpeed_m_s;
     north_m_ += 0.01 * speed_m_s;
-    health.heard(SourceKind::imu, header("imu", t + utc_step_s), now, kBridge);
+    health.heard(SourceKind::imu, header("imu", t), now, kBridge);
     if (fusion_alive) {
-      NavState state = nav(t + utc_step_s);
+      NavState state = nav(t);
       state.velocity_N_m_s = {speed_m_s + 0.02 * noise(), 0.02 * noise(), 0.0};
       state.velocity_covariance_N_m2_s2 = {4e-4, 0, 0, 0, 4e-4, 0, 0, 0, 4e-4};
       health.add(state, now);
     }
     if (tick_ % 20 == 0) {
       DvlSample dvl;
-      dvl.header = header("dvl", t + utc_step_s - 0.05);
+      dvl.header = header("dvl", t - 0.05);
       dvl.velocity_D_m_s = {speed_m_s + 0.01 * noise(), 0.01 * noise(), 0.0};
       health.add(dvl, now, kBridge);
     }
@@ -314,8 +314,8 @@ TEST_F(FaultMatrix, ADeviceTimeThatCannotBe) {
   EXPECT_EQ(vehicle.run_for(20.0), Alarms{"device_clock:gps_bridge"});
 }
 
-TEST_F(FaultMatrix, TheHostClockSteps) {
-  vehicle.utc_step_s = 3600.0;
+TEST_F(FaultMatrix, TheHostClockIsSet) {
+  vehicle.host_clock_set_s = 3600.0;
   EXPECT_EQ(vehicle.run_for(60.0), Alarms{"clock_step"});
 }
 

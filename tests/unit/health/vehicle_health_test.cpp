@@ -25,7 +25,7 @@ class Vehicle {
   bool fusion_alive = true;
   bool gps_fix = true;
   bool gps_bridge_alive = true;
-  double utc_step_s = 0.0;
+  double host_clock_set_s = 0.0;
   std::uint32_t fusion_pid = 100;
   VehicleHealth health{config(), at(0.0)};
   std::multiset<std::string> raised;
@@ -33,15 +33,14 @@ class Vehicle {
   void until(double end_s) {
     for (; tick_ < std::llround(end_s * 100.0); ++tick_) {
       const double t = 0.01 * static_cast<double>(tick_);
-      const Instant now = at(t, utc_step_s);
-      health.heard(SourceKind::imu, header("imu", t + utc_step_s), now);
-      if (fusion_alive)
-        health.add(nav(t + utc_step_s, gps_fix ? NavMode::gps_aided : NavMode::dead_reckoning), now);
-      if (tick_ % 20 == 0) health.heard(SourceKind::dvl, header("dvl", t + utc_step_s), now);
-      if (tick_ % 50 == 0 && gps_bridge_alive) health.add(gps(t + utc_step_s, gps_fix), now);
+      const Instant now = at(t);
+      health.heard(SourceKind::imu, header("imu", t), now);
+      if (fusion_alive) health.add(nav(t, gps_fix ? NavMode::gps_aided : NavMode::dead_reckoning), now);
+      if (tick_ % 20 == 0) health.heard(SourceKind::dvl, header("dvl", t), now);
+      if (tick_ % 50 == 0 && gps_bridge_alive) health.add(gps(t, gps_fix), now);
       if (tick_ % 100 == 0) {
-        if (fusion_alive) health.add(life_sign("fusion", t, ServiceState::healthy, fusion_pid), now);
-        if (gps_bridge_alive) health.add(life_sign("gps_bridge", t), now);
+        if (fusion_alive) add(life_sign("fusion", t, ServiceState::healthy, fusion_pid), now);
+        if (gps_bridge_alive) add(life_sign("gps_bridge", t), now);
       }
       if (tick_ % 5 == 0) {
         health.evaluate(now);
@@ -57,9 +56,14 @@ class Vehicle {
     }
     now_s_ = end_s;
   }
-  [[nodiscard]] MonitorStatus status() const { return health.status(at(now_s_, utc_step_s)); }
+  [[nodiscard]] MonitorStatus status() const { return health.status(at(now_s_)); }
 
  private:
+  void add(ServiceStatus status, const Instant& now) {
+    status.utc_offset_ns = from_seconds(host_clock_set_s);
+    health.add(status, now);
+  }
+
   std::set<std::string> active_;
   std::int64_t tick_ = 0;
   double now_s_ = 0.0;
@@ -120,17 +124,33 @@ TEST(VehicleHealth, DeadFusionIsSeenAndGpsOutagesAreStillKept) {
   EXPECT_EQ(vehicle.raised.count("service_restarted:fusion"), 1u);
 }
 
-TEST(VehicleHealth, AStepOfUtcRaisesOnlyItsOwnNoticeAndMovesTheBeginning) {
+TEST(VehicleHealth, AClockThatIsSetRaisesOneNoticeForItsHostAndMovesNothing) {
   Vehicle vehicle;
   vehicle.until(20.0);
   vehicle.gps_fix = false;
   vehicle.until(30.0);
   const TimeNs before = vehicle.health.alarms().find("gps_outage")->since_ns;
-  vehicle.utc_step_s = -3600.0;
+  vehicle.host_clock_set_s = -3600.0;
   vehicle.until(35.0);
   EXPECT_EQ(vehicle.raised, (std::multiset<std::string>{"clock_step", "gps_outage"}));
-  EXPECT_EQ(vehicle.health.alarms().find("gps_outage")->since_ns, before - 3600 * kNsPerSecond);
+  EXPECT_EQ(vehicle.health.alarms().find("gps_outage")->since_ns, before);
+  EXPECT_NEAR(vehicle.health.alarms().find("clock_step")->value, -3600.0, 1e-6);
   EXPECT_NEAR(vehicle.status().gps_outage_s, 15.5, 0.1);
+  vehicle.host_clock_set_s = 0.0;
+  vehicle.until(40.0);
+  EXPECT_EQ(vehicle.raised.count("clock_step"), 2u);
+}
+
+TEST(VehicleHealth, AServiceThatStartsUnderAnotherOffsetIsNoStep) {
+  Vehicle vehicle;
+  vehicle.until(20.0);
+  vehicle.fusion_alive = false;
+  vehicle.until(22.0);
+  vehicle.fusion_alive = true;
+  vehicle.fusion_pid = 101;
+  vehicle.host_clock_set_s = 0.2;  // slewed, not set
+  vehicle.until(30.0);
+  EXPECT_EQ(vehicle.raised.count("clock_step"), 0u);
 }
 
 TEST(VehicleHealth, OtherVehiclesAreNotOurs) {

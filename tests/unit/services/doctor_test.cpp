@@ -174,6 +174,26 @@ TEST(Doctor, ServicesThatAreUnwellOrOfAnotherVersion) {
   EXPECT_EQ(only(network).text, "The services are of different versions: 0.1.0: fusion; 0.2.0: imu_bridge.");
 }
 
+TEST(Doctor, AClockThatWasSetMovesNoStamps) {
+  NetworkFacts network = sound_network();
+  for (HeardService& one : network.services) one.status.utc_offset_ns = 3600 * kNsPerSecond;
+  const auto found = bad(network, sound_host());
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].level, FindingLevel::notice);
+  EXPECT_NE(found[0].text.find("auv1 was set 3600.0 s forward"), std::string::npos) << found[0].text;
+}
+
+TEST(Doctor, StampsOfServicesThatStartedUnderDifferentClocks) {
+  NetworkFacts network = sound_network();
+  network.services[0].status.utc_offset_ns =
+      -30 * kNsPerSecond;  // the other one started after the clock was set
+  const auto found = bad(network, sound_host());
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[1].level, FindingLevel::problem);
+  EXPECT_NE(found[1].text.find("fusion (auv1) and imu_bridge (auv1) are 30.0 s apart"), std::string::npos)
+      << found[1].text;
+}
+
 TEST(Doctor, ClocksThatDisagree) {
   NetworkFacts network = sound_network();
   network.services[0] = service("imu_bridge", ServiceState::healthy, -3600.2);
