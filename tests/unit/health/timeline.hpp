@@ -15,9 +15,9 @@ namespace fathom::health {
 inline constexpr TimeNs kBoot = 5'000 * kNsPerSecond;
 inline constexpr TimeNs kEpoch = 1'700'000'000 * kNsPerSecond;
 
-/// `seconds` after the monitor's start.
-inline Instant at(double seconds) {
-  return {kBoot + from_seconds(seconds), kEpoch + from_seconds(seconds)};
+/// `seconds` after the monitor's start, with UTC `utc_step_s` away from where it began.
+inline Instant at(double seconds, double utc_step_s = 0.0) {
+  return {kBoot + from_seconds(seconds), kEpoch + from_seconds(seconds + utc_step_s)};
 }
 
 inline SampleHeader header(const Name& sensor, double seconds) {
