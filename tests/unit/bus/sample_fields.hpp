@@ -144,8 +144,8 @@ void fields(Is<ServiceCounter> auto& s, auto visit) {
   visit(a, b);
 }
 void fields(Is<ServiceStatus> auto& s, auto visit) {
-  auto& [header, a, b, c, d, e, f, g, rates, counters] = s;
-  visit(header, a, b, c, d, e, f, g, rates, counters);
+  auto& [header, a, b, c, d, e, f, g, h, rates, counters] = s;
+  visit(header, a, b, c, d, e, f, g, h, rates, counters);
 }
 void fields(Is<Command> auto& s, auto visit) {
   auto& [header, a, b, c, d, e, f, g] = s;
