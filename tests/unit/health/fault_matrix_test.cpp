@@ -118,6 +118,7 @@ class Vehicle {
     if (tick_ % 100 == 0) {
       if (fusion_alive) health.add(life_sign("fusion", t), now);
       ServiceStatus bridge = life_sign("gps_bridge", t, ServiceState::healthy, bridge_pid);
+      bridge.utc_offset_ns = from_seconds(host_clock_set_s);
       if (bridge_time_steps > 0) bridge.counters.push_back({"time_steps", bridge_time_steps});
       if (bridge_time_implausible > 0)
         bridge.counters.push_back({"time_implausible", bridge_time_implausible++});
