@@ -41,6 +41,7 @@ class ImageReader {
     std::memcpy(static_cast<void*>(&value), bytes_.data(), sizeof(T));
     bytes_ = bytes_.subspan(sizeof(T));
   }
+  void skip(std::size_t count) { bytes_ = bytes_.subspan(count); }
   [[nodiscard]] std::size_t left() const { return bytes_.size(); }
 
  private:

@@ -202,7 +202,7 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
     detail::protect(qos, *credentials);
     errors_.emplace([this](const std::string& message) { on_dds_error(message); });
   }
-  if (!options.discovery_listen.empty()) detail::outlast_predecessor(qos);
+  if (!options.discovery_listen.empty()) detail::outlast_predecessor(qos, options.discovery_listen);
   number_ = participant_numbers().take();
   qos.wire_protocol().participant_id = number_;
 

@@ -32,6 +32,8 @@ class Writer {
   /// False when the sample could not be handed to the network within the profile's blocking time (counted).
   bool write(const T& sample);
   [[nodiscard]] int matched_readers() const;
+  /// As SampleInfo names it to readers.
+  [[nodiscard]] const WriterGuid& guid() const;
 
  private:
   struct Impl;

@@ -1,3 +1,6 @@
+#include <cstring>
+#include <variant>
+
 #include "estimation/history.hpp"
 
 namespace fathom::estimation {
@@ -12,6 +15,20 @@ struct Head {
   std::uint64_t steps_done = 0;  ///< those from base_step on follow it
   std::uint64_t events = 0;      ///< and behind them as many events, in their order
 };
+
+bool is_bool(const bool& value) {
+  unsigned char byte = 0;
+  std::memcpy(&byte, &value, 1);
+  return byte <= 1;
+}
+
+/// Whether it can be what it says it is: bytes from the network may be anything.
+bool sound(const Measurement& event, std::size_t sensors) {
+  return is_bool(event.command) && is_bool(event.judged) &&
+         event.sample.index() < std::variant_size_v<AnySample> && event.sensor >= (event.command ? -1 : 0) &&
+         event.sensor < static_cast<int>(sensors) && event.header().vehicle.sound() &&
+         event.header().sensor.sound();
+}
 
 }  // namespace
 
@@ -43,6 +60,13 @@ bool History::read(ImageReader& image, VerdictSink& sink) {
   const std::uint64_t steps = head.steps_done - head.base_step;
   if (image.left() != sizeof(Core) + steps * sizeof(ImuStep) + head.events * sizeof(Measurement))
     return false;
+  ImageReader events = image;
+  events.skip(sizeof(Core) + steps * sizeof(ImuStep));
+  for (std::uint64_t i = 0; i < head.events; ++i) {
+    Measurement event;
+    events.get(event);
+    if (!sound(event, setup_->config.sensors.size())) return false;
+  }
   forget_past(sink, VerdictKind::not_aligned);
   core_.read(image);
   for (std::uint64_t step = head.base_step; step < head.steps_done; ++step) {

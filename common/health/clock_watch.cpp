@@ -1,14 +1,13 @@
 #include "health/clock_watch.hpp"
 
 #include <cmath>
-#include <cstdlib>
 
 #include "health/text.hpp"
 
 namespace fathom::health {
 namespace {
 
-constexpr DurationNs kStep = kNsPerSecond / 2;      // slow correction by a time server passes unnoticed
+constexpr double kStepS = 0.5;                      // slow correction by a time server passes unnoticed
 constexpr DurationNs kTogether = 3 * kNsPerSecond;  // the services of a host notice the same step within this
 
 }  // namespace
@@ -21,13 +20,13 @@ void ClockWatch::add(const ServiceStatus& status, const Instant& now) {
   }
   Service& service = found->second;
   const bool another = service.started_ns != status.started_ns;
-  const DurationNs step_ns = another ? 0 : status.utc_offset_ns - service.offset_ns;
+  const double step_s = another ? 0.0 : to_seconds(status.utc_offset_ns) - to_seconds(service.offset_ns);
   service = {status.started_ns, status.utc_offset_ns};
-  if (std::abs(step_ns) < kStep) return;
+  if (std::abs(step_s) < kStepS) return;
   const auto host = steps_.find(status.host);
   if (host == steps_.end() && steps_.size() >= kMaxNames) return;
   if (host != steps_.end() && now.monotonic_ns - host->second.noticed_ns < kTogether) return;
-  steps_[status.host] = {now.monotonic_ns, to_seconds(step_ns), false};
+  steps_[status.host] = {now.monotonic_ns, step_s, false};
 }
 
 void ClockWatch::report(AlarmBook& book, const Instant& now) {
@@ -40,7 +39,7 @@ void ClockWatch::report(AlarmBook& book, const Instant& now) {
                                  host.c_str(), step.step_s > 0.0 ? "forward" : "back",
                                  duration_text(std::abs(step.step_s)).c_str()),
                 .value = step.step_s,
-                .limit = to_seconds(kStep)},
+                .limit = kStepS},
                now);
   }
 }

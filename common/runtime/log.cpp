@@ -1,6 +1,8 @@
 #include "runtime/log.hpp"
 
+#include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include <spdlog/sinks/stdout_sinks.h>
@@ -58,8 +60,13 @@ Log::Log(std::string_view service, LogLevel level)
 
 Log::~Log() = default;
 
+// One message is one line of plain text: names in it may come from the network.
 void Log::write(LogLevel level, std::string_view text) {
-  impl_->logger.log(to_spdlog(level), text);
+  const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (std::none_of(text.begin(), text.end(), is_control)) return impl_->logger.log(to_spdlog(level), text);
+  std::string plain(text);
+  std::replace_if(plain.begin(), plain.end(), is_control, '?');
+  impl_->logger.log(to_spdlog(level), plain);
 }
 void Log::trace(std::string_view text) {
   write(LogLevel::trace, text);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <system_error>
 
 namespace fathom::security {
 namespace {
@@ -57,12 +58,15 @@ std::string expiry_text(TimeNs until_ns, TimeNs now) {
 Credentials check_credentials(const std::string& folder, const std::string& identity, std::uint32_t domain,
                               TimeNs now) {
   const CredentialFolder files(std::filesystem::absolute(folder));
-  if (!std::filesystem::is_directory(files.path())) {
+  std::error_code error;
+  if (!std::filesystem::is_directory(files.path(), error)) {
     throw SecurityError(folder + ": is no folder, expected credentials as fathom keygen makes");
   }
-  if (!is_plain_name(identity) || !std::filesystem::is_directory(files.identity(identity))) {
-    throw SecurityError(folder + ": has no identity '" + identity +
-                        "', expected one as fathom keygen --service makes");
+  if (!is_plain_name(identity) || !std::filesystem::is_directory(files.identity(identity), error)) {
+    const bool hidden = error && error != std::errc::no_such_file_or_directory;
+    throw SecurityError(folder + ": has no identity '" + identity + "'" +
+                        (hidden ? " that can be read (" + error.message() + ")" : "") +
+                        ", expected one as fathom keygen --service makes");
   }
   const std::string place = files.certificate(identity).string();
   const Certificate certificate = certificate_from_pem(read_text(place), place);

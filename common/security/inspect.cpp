@@ -65,7 +65,8 @@ bool Inspection::good() const {
 
 Inspection inspect(const std::string& folder, TimeNs now) {
   const CredentialFolder files{fs::path(folder)};
-  if (!fs::is_directory(files.path())) {
+  std::error_code error;
+  if (!fs::is_directory(files.path(), error)) {
     throw SecurityError(folder + ": is no folder, expected credentials as fathom keygen makes");
   }
   Inspection out;

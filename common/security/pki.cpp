@@ -1,6 +1,9 @@
 #include "security/pki.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <ctime>
+#include <limits>
 
 #include <openssl/bio.h>
 #include <openssl/ec.h>
@@ -108,14 +111,6 @@ Certificate unsigned_certificate(const Key& key, const Subject& subject, const V
   return result;
 }
 
-TimeNs to_utc(const ASN1_TIME* time) {
-  const TimePtr epoch(must(ASN1_TIME_set(nullptr, 0), "reading a date"));
-  int days = 0;
-  int seconds = 0;
-  must(ASN1_TIME_diff(&days, &seconds, epoch.get(), time), "reading a date");
-  return (static_cast<TimeNs>(days) * 86400 + seconds) * kNsPerSecond;
-}
-
 StorePtr trusting(const Certificate& authority, TimeNs now) {
   StorePtr store(must(X509_STORE_new(), "making a store of certificates"));
   must(X509_STORE_add_cert(store.get(), authority.handle.get()), "trusting a certificate");
@@ -186,9 +181,18 @@ Certificate certificate_from_pem(const std::string& pem, const std::string& plac
   return {std::shared_ptr<X509>(certificate, X509_free)};
 }
 
+TimeNs instant_of(const ASN1_TIME* time) {
+  const TimePtr epoch(must(ASN1_TIME_set(nullptr, 0), "reading a date"));
+  int days = 0;
+  int seconds = 0;
+  must(ASN1_TIME_diff(&days, &seconds, epoch.get(), time), "reading a date");
+  const std::int64_t since_epoch_s = static_cast<std::int64_t>(days) * 86400 + seconds;
+  return std::min(since_epoch_s, std::numeric_limits<TimeNs>::max() / kNsPerSecond) * kNsPerSecond;
+}
+
 Validity validity_of(const Certificate& certificate) {
-  return {to_utc(X509_get0_notBefore(certificate.handle.get())),
-          to_utc(X509_get0_notAfter(certificate.handle.get()))};
+  return {instant_of(X509_get0_notBefore(certificate.handle.get())),
+          instant_of(X509_get0_notAfter(certificate.handle.get()))};
 }
 
 Subject subject_of(const Certificate& certificate) {

@@ -6,6 +6,7 @@
 #include "base/time.hpp"
 #include "security/error.hpp"
 
+struct asn1_string_st;
 struct evp_pkey_st;
 struct x509_st;
 
@@ -46,6 +47,8 @@ struct Validity {
 [[nodiscard]] Key key_from_pem(const std::string& pem, const std::string& place);
 [[nodiscard]] Certificate certificate_from_pem(const std::string& pem, const std::string& place);
 
+/// Dates beyond what 64 bits of nanoseconds hold (the year 2262) count as the last that they do.
+[[nodiscard]] TimeNs instant_of(const asn1_string_st* time);
 [[nodiscard]] Validity validity_of(const Certificate& certificate);
 [[nodiscard]] Subject subject_of(const Certificate& certificate);
 /// As permissions name it: RFC 2253, e.g. "CN=fusion,OU=auv,O=fathom".

@@ -27,8 +27,9 @@ std::optional<std::string> RouteBook::add(const Route& route, const health::Inst
   }
   // The first one may have waited on the network for who knows how long; those after it come as they are
   // said. A stamp from the future is a clock's fault, not the route's age.
-  const DurationNs waited_ns = std::max<DurationNs>(0, at.utc_ns - route.header.stamp_ns);
-  routes_[route.header.sensor] = {route, at.monotonic_ns - std::min(waited_ns, from_seconds(kForgottenS))};
+  const double waited_s = to_seconds(at.utc_ns) - to_seconds(route.header.stamp_ns);
+  routes_[route.header.sensor] = {route,
+                                  at.monotonic_ns - from_seconds(std::clamp(waited_s, 0.0, kForgottenS))};
   changed_ = true;
   return std::nullopt;
 }

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
-#include <limits>
 
 #include <openssl/err.h>
 #include <openssl/ssl.h>
@@ -40,14 +38,6 @@ void need_readable(TlsError::File kind, const std::string& path) {
   if (kind == TlsError::File::key && (status.st_mode & S_IRWXO) != 0) {
     throw TlsError(kind, path, "everyone may read or write it, expected mode 0600 or 0640");
   }
-}
-
-TimeNs instant_of(const ASN1_TIME* time) {
-  std::tm fields{};
-  if (ASN1_TIME_to_tm(time, &fields) != 1) return 0;
-  // Certificates may be dated beyond what nanoseconds in 64 bits hold (the year 2262).
-  const std::time_t seconds = timegm(&fields);
-  return std::min<std::int64_t>(seconds, std::numeric_limits<TimeNs>::max() / kNsPerSecond) * kNsPerSecond;
 }
 
 }  // namespace
@@ -97,14 +87,14 @@ TlsIdentity TlsIdentity::load(const std::string& certificate_file, const std::st
   }
 
   X509* leaf = SSL_CTX_get0_certificate(context);
-  out.valid_from_ns_ = instant_of(X509_get0_notBefore(leaf));
-  out.valid_until_ns_ = instant_of(X509_get0_notAfter(leaf));
+  out.valid_from_ns_ = security::instant_of(X509_get0_notBefore(leaf));
+  out.valid_until_ns_ = security::instant_of(X509_get0_notAfter(leaf));
   STACK_OF(X509)* chain = nullptr;
   SSL_CTX_get0_chain_certs(context, &chain);
   for (int i = 0; i < (chain == nullptr ? 0 : sk_X509_num(chain)); ++i) {
     const X509* link = sk_X509_value(chain, i);
-    out.valid_from_ns_ = std::max(out.valid_from_ns_, instant_of(X509_get0_notBefore(link)));
-    out.valid_until_ns_ = std::min(out.valid_until_ns_, instant_of(X509_get0_notAfter(link)));
+    out.valid_from_ns_ = std::max(out.valid_from_ns_, security::instant_of(X509_get0_notBefore(link)));
+    out.valid_until_ns_ = std::min(out.valid_until_ns_, security::instant_of(X509_get0_notAfter(link)));
   }
   return out;
 }

@@ -191,9 +191,11 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   if (options.secure) plan.credentials = make_credentials(options.domain, run_directory);
   Builder builder(options, run_directory, plan);
   // A recorded vehicle's instruments get the devices of the survey scenario.
-  sim::Scenario scenario = config::load_scenario({config::scenario_file(options.scenario), {}});
+  const std::string scenario_file = std::filesystem::absolute(config::scenario_file(options.scenario));
+  sim::Scenario scenario = config::load_scenario({scenario_file, {}});
   const config::Wiring wiring{(run_directory / "devices").string(), options.domain * kPortsPerDomain};
-  Sets simulator{"link_dir=" + wiring.link_dir, "port_offset=" + std::to_string(wiring.port_offset)};
+  Sets simulator{"scenario=" + scenario_file, "link_dir=" + wiring.link_dir,
+                 "port_offset=" + std::to_string(wiring.port_offset)};
   Sets fusion;
   std::filesystem::path fusion_file;
   std::vector<std::string> bridges = scenario.bridges;
@@ -203,7 +205,7 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
     plan.duration_s = options.duration_s > 0.0 ? options.duration_s : scenario.duration_s;
     plan.demands.limits = scenario.limits;
     plan.demands.whole_run = plan.duration_s >= scenario.duration_s;
-    simulator.push_back("scenario=" + scenario.name);
+    fusion.push_back("engine.imu.nominal_rate_hz=" + json(scenario.sensors.imu.rate_hz).dump());
   } else {
     const Recording recording = describe_recording(options.dataset, options.config, builder.places().config);
     scenario.services.clear();
@@ -225,7 +227,6 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
     const TimeNs now_ns = plan.epoch_ns != 0 ? plan.epoch_ns : SystemClock().utc_ns();
     const TimeNs start_ns = now_ns + from_seconds(kStartUpS * options.speed);
     plan.duration_s += kStartUpS * options.speed;
-    simulator.push_back("scenario=" + scenario.name);
     simulator.push_back("dataset=" + std::filesystem::absolute(options.dataset).string());
     simulator.push_back("epoch_ns=" + std::to_string(start_ns));
     fusion = start_sets(recording, start_ns);

@@ -6,6 +6,7 @@
 
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
+#include "samples/command.hpp"
 #include "samples/depth.hpp"
 #include "samples/dvl.hpp"
 #include "samples/gps.hpp"
@@ -45,7 +46,8 @@ constexpr SourceKind source_of(const FinsSample& /*sample*/) {
 }
 
 /// The samples of the last seconds in the order of their arrival: what an engine that takes up the state of
-/// another one has to be told again. Bounded: the oldest makes room.
+/// another one has to be told again. Of orders those to use a source or not: they hold whenever they are
+/// given, and the last one counts. Bounded: the oldest makes room.
 class ArrivalLog {
  public:
   using Sample = std::variant<ImuSample, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
@@ -57,6 +59,7 @@ class ArrivalLog {
     on_ = on;
     samples_.clear();
     samples_.shrink_to_fit();
+    orders_.clear();
   }
   template <class T>
   void note(const T& sample) {
@@ -64,12 +67,21 @@ class ArrivalLog {
     if (samples_.size() == kMost) samples_.pop_front();
     samples_.emplace_back(sample);
   }
+  void note(const Command& order) {
+    if (!on_) return;
+    if (order.kind != CommandKind::enable_source && order.kind != CommandKind::disable_source) return;
+    if (orders_.size() == kMostOrders) orders_.pop_front();
+    orders_.push_back(order);
+  }
   [[nodiscard]] const std::deque<Sample>& samples() const { return samples_; }
+  [[nodiscard]] const std::deque<Command>& orders() const { return orders_; }
 
  private:
   static constexpr std::size_t kMost = 8192;  // ten seconds of the busiest vehicle
+  static constexpr std::size_t kMostOrders = 64;
   bool on_ = false;
   std::deque<Sample> samples_;
+  std::deque<Command> orders_;
 };
 
 }  // namespace fathom::fusion

@@ -210,6 +210,7 @@ struct FusionService::Impl {
     {
       const std::lock_guard lock(mutex);
       ++counts.commands;
+      log.note(command);
       applied = engine.apply(command);
     }
     const std::string text = "command " + std::string(to_string(command.kind)) + " " + command.target.str() +
@@ -291,16 +292,21 @@ struct FusionService::Impl {
   // one that saved it.
   Result<std::string> restore(const SharedState& state) {
     const std::lock_guard lock(mutex);
+    if (imu_sensor != state.imu_sensor) {
+      imu_sensor = state.imu_sensor;
+      return Error{"is of inertial unit " + imu_sensor.str() + ", listened to from now on"};
+    }
     if (std::string why = gap_between(state, log); !why.empty())
       return Error{"does not reach this one: " + why};
     if (!engine.restore(state.image)) return Error{"is none of this engine"};
-    if (imu_sensor.empty()) imu_sensor = state.imu_sensor;
+    for (const Command& order : log.orders()) engine.apply(order);
     gaps.go_on_from(state.last);
     int told_again = 0;
     for (const ArrivalLog::Sample& sample : log.samples()) {
       std::visit(
           [&]<class T>(const T& one) {
             if constexpr (std::is_same_v<T, ImuSample>) {
+              if (one.header.sensor != imu_sensor) return;
               if (one.header.stamp_ns <= engine.nav_state().header.stamp_ns) return;
             }
             engine.add(one);

@@ -162,7 +162,10 @@ void Replica::differs(TimeNs now_ns, const char* how) {
 }
 
 void Replica::told(const ReplicaStatus& peer, TimeNs now_ns) {
-  if (!peers_.contains(peer.header.sensor) && peers_.size() == kMostPeers) return;
+  if (!peers_.contains(peer.header.sensor) && peers_.size() == kMostPeers) {
+    std::erase_if(peers_, [&](const auto& one) { return now_ns - one.second.told_ns > kToldFor_ns; });
+    if (peers_.size() == kMostPeers) return;
+  }
   peers_[peer.header.sensor] = {peer, now_ns};
   if (phase_ != ReplicaPhase::in_step || peer.phase != ReplicaPhase::in_step) return;
   const auto give_way = [&](const std::string& why) {

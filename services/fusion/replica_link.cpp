@@ -58,7 +58,7 @@ struct ReplicaLink::Impl {
         accounts(host.participant()),
         states(host.participant()),
         peers(host.participant(),
-              [this](const ReplicaStatus& peer, const bus::SampleInfo&) { on_told(peer); }),
+              [this](const ReplicaStatus& peer, const bus::SampleInfo& info) { on_told(peer, info); }),
         heard(
             host.participant(), [this](const NavState& state, const bus::SampleInfo&) { on_heard(state); },
             nav_state_options(host, config)) {}
@@ -74,9 +74,13 @@ struct ReplicaLink::Impl {
 
   [[nodiscard]] bool mine(const SampleHeader& header) const { return header.sensor == Name(host.name()); }
 
-  void on_told(const ReplicaStatus& peer) {
-    if (peer.header.vehicle != Name(label.vehicle) || mine(peer.header)) return;
+  void on_told(const ReplicaStatus& peer, const bus::SampleInfo& info) {
+    if (peer.header.vehicle != Name(label.vehicle)) return;
     const std::lock_guard lock(mutex);
+    if (mine(peer.header)) {
+      if (info.writer_guid != accounts.guid()) namesake_ns = host.clock().monotonic_ns();
+      return;
+    }
     replica.told(peer, host.clock().monotonic_ns());
   }
 
@@ -156,6 +160,11 @@ struct ReplicaLink::Impl {
 
   /// Precondition: mutex held.
   [[nodiscard]] std::string describe() const {
+    if (has_namesake()) {
+      return "another fusion is called " + host.name() +
+             " as well: neither can tell their states apart, expected an "
+             "instance name of its own for each";
+    }
     switch (replica.phase()) {
       case ReplicaPhase::listening:
         return "listening for another fusion";
@@ -165,6 +174,11 @@ struct ReplicaLink::Impl {
         break;
     }
     return replica.leads() ? "leading" : "standing by, in step with " + replica.leader().str();
+  }
+
+  /// Precondition: mutex held.
+  [[nodiscard]] bool has_namesake() const {
+    return namesake_ns && host.clock().monotonic_ns() - *namesake_ns < 3 * kTell_ns;
   }
 
   void tell() {
@@ -250,6 +264,7 @@ struct ReplicaLink::Impl {
   mutable std::mutex mutex;  // guards what follows up to the thread's own
   Replica replica;
   std::string refused;
+  std::optional<TimeNs> namesake_ns;  ///< when another one of the same name was last heard
 
   // Of the thread.
   std::string said;
@@ -311,7 +326,8 @@ void ReplicaLink::fill(ServiceStatus& status) const {
   const Replica& replica = impl_->replica;
   status.text += (status.text.empty() ? "" : "; ") + impl_->describe();
   if (!impl_->refused.empty() && replica.wants_state()) status.text += "; " + impl_->refused;
-  if (replica.wants_state() && status.state == ServiceState::healthy) status.state = ServiceState::degraded;
+  const bool unfit = replica.wants_state() || impl_->has_namesake();
+  if (unfit && status.state == ServiceState::healthy) status.state = ServiceState::degraded;
   status.counters.push_back({"missed_samples", replica.missed()});
   status.counters.push_back({"caught_up", replica.times_caught_up()});
   status.counters.push_back({"unprepared", replica.times_unprepared()});

@@ -32,17 +32,20 @@ void encode(const SharedState& state, std::vector<std::byte>& out) {
 
 Result<SharedState> decode_shared(std::span<const std::byte> bytes) {
   const Error too_short{"is cut off"};
+  const Error no_name{"holds what is no name"};
   if (bytes.size() < sizeof(Head)) return too_short;
   ImageReader reader(bytes);
   Head head;
   reader.get(head);
   if (head.streams > reader.left() / sizeof(Row)) return too_short;
+  if (!head.imu_sensor.sound()) return no_name;
   SharedState out;
   out.stamp_ns = head.stamp_ns;
   out.imu_sensor = head.imu_sensor;
   for (std::uint64_t i = 0; i < head.streams; ++i) {
     Row row;
     reader.get(row);
+    if (!row.sensor.sound()) return no_name;
     out.last[{row.source, row.sensor}] = row.sequence;
   }
   const auto image = bytes.last(reader.left());

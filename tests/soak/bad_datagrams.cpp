@@ -161,6 +161,7 @@ void send(const std::string& file, const std::vector<std::string>& to, std::uint
   std::array<mmsghdr, kBatch> messages{};
   std::uint64_t sent = 0;
   std::uint64_t refused = 0;
+  int refused_in_a_row = 0;
   const auto began = Clock::now();
   while (sent < count) {
     for (std::size_t i = 0; i < kBatch; ++i) {
@@ -174,8 +175,15 @@ void send(const std::string& file, const std::vector<std::string>& to, std::uint
       messages[i].msg_hdr.msg_iovlen = 1;
     }
     const int done = sendmmsg(socket, messages.data(), kBatch, 0);
-    if (done < 0) ++refused;  // a port where nobody listens says so to the next call
-    sent += done > 0 ? static_cast<std::uint64_t>(done) : 0;
+    if (done < 0) {
+      ++refused;
+      constexpr int kMostInARow = 10000;
+      if (++refused_in_a_row == kMostInARow)
+        throw std::runtime_error(std::string("cannot send: ") + std::strerror(errno));
+    } else {
+      refused_in_a_row = 0;
+      sent += static_cast<std::uint64_t>(done);
+    }
     if (rate_hz > 0.0) {
       const std::chrono::duration<double> due(static_cast<double>(sent) / rate_hz);
       const auto left = due - (Clock::now() - began);

@@ -91,12 +91,15 @@ start hull simulator
 now() { cut -d' ' -f1 /proc/uptime; }
 # Lines of guidance's log from an instant on.
 since() { awk -v from="$1" '$1 >= from' "$log"; }
-newest() { grep " state " "$log" | tail -n 1; }
-calm() {  # the last line says: full rate, every service well, from the fusion that leads
+# The last account, of these two seconds.
+newest() { since "$(awk '{print $1 - 2}' /proc/uptime)" | grep " state " | tail -n 1; }
+calm() {  # the last account says: full rate, every service well, from the fusion that leads
+  kill -0 "$watcher" || { echo "$0: guidance's watch has ended" >&2; exit 4; }
   newest | grep -qE "state fusion .* unwell none$" && [ "$(newest | sed -nE 's/.* rate ([0-9]+) .*/\1/p')" -ge 90 ]
 }
 wait_calm() {  # wait_calm SECONDS; prints how long it took
   local began=$SECONDS
+  sleep 1.5  # an account from before counts for nothing
   while ! calm; do
     [ $((SECONDS - began)) -lt "$1" ] || return 1
     sleep 0.5

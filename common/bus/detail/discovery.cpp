@@ -123,10 +123,11 @@ void discover_through_servers(dds::DomainParticipantQos& qos, const ParticipantO
   }
 }
 
-void outlast_predecessor(const dds::DomainParticipantQos& qos) {
+void outlast_predecessor(const dds::DomainParticipantQos& qos, const std::string& listen) {
   constexpr std::chrono::seconds kMargin(1);  // clients on loaded machines notice late
   const auto& lease = qos.wire_protocol().builtin.discovery_config.leaseDuration;
   std::this_thread::sleep_for(std::chrono::seconds(lease.seconds) + kMargin);
+  check_free(parse_server_address("discovery_listen", listen));  // another one may have come up meanwhile
 }
 
 }  // namespace fathom::bus::detail

@@ -29,6 +29,6 @@ void discover_through_servers(eprosima::fastdds::dds::DomainParticipantQos& qos,
 /// For a server, before it starts: waits until every client has given up a predecessor that was killed just
 /// now. It has the same GUID but not the same memory, and clients that take the one for the other would wait
 /// for ever for what the new one does not know.
-void outlast_predecessor(const eprosima::fastdds::dds::DomainParticipantQos& qos);
+void outlast_predecessor(const eprosima::fastdds::dds::DomainParticipantQos& qos, const std::string& listen);
 
 }  // namespace fathom::bus::detail

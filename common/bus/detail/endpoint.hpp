@@ -20,6 +20,7 @@ class WriterCore {
   ~WriterCore();
   bool write(const void* sample);
   [[nodiscard]] int matched_readers() const;
+  [[nodiscard]] const WriterGuid& guid() const;
 
   struct Impl;
 

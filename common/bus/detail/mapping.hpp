@@ -283,6 +283,10 @@ template <class T>
 int Writer<T>::matched_readers() const {
   return impl_->core.matched_readers();
 }
+template <class T>
+const WriterGuid& Writer<T>::guid() const {
+  return impl_->core.guid();
+}
 
 template <class T>
 struct Reader<T>::Impl {

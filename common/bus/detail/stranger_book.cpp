@@ -44,7 +44,15 @@ StrangerBook::StrangerBook(std::function<TimeNs()> now_ns) : now_ns_(std::move(n
 void StrangerBook::announced(const GuidPrefix& prefix, const Peer& peer, const std::string& address,
                              bool offers_identity) {
   const std::lock_guard lock(mutex_);
-  if (admitted_.contains(prefix) || entries_.contains(prefix) || entries_.size() >= kMost) return;
+  if (admitted_.contains(prefix) || entries_.contains(prefix)) return;
+  if (entries_.size() >= kMost) {
+    // One that may yet prove itself needs the room more than one that did not.
+    const auto refused = std::find_if(entries_.begin(), entries_.end(), [](const auto& known) {
+      return known.second.refused || !known.second.stranger.why.empty();
+    });
+    if (refused == entries_.end()) return;
+    entries_.erase(refused);
+  }
   Entry& entry = entries_[prefix];
   entry = {peer, to_stranger(prefix, peer, address), now_ns_(), false};
   if (!offers_identity) entry.stranger.why = "offers no identity";

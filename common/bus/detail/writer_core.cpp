@@ -41,6 +41,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
       throw BusError("writer of " + std::string(ops.topic) + ": Fast DDS could not create it" +
                      bus.why_not(ops.topic));
     }
+    guid = to_guid(writer->guid());
     bus.check_types(ops.topic);
   }
 
@@ -131,6 +132,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   const TopicOps& ops;
   SampleType type;  // for keys only; Fast DDS owns its own
   QosSummary offered;
+  WriterGuid guid{};
   std::atomic<int> matched = 0;
   std::atomic<bool> failed = false;
   std::mutex mutex;
@@ -146,6 +148,9 @@ bool WriterCore::write(const void* sample) {
 }
 int WriterCore::matched_readers() const {
   return impl_->matched;
+}
+const WriterGuid& WriterCore::guid() const {
+  return impl_->guid;
 }
 
 }  // namespace fathom::bus::detail

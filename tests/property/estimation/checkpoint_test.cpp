@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "estimation/measurement.hpp"
 #include "support/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -157,6 +158,9 @@ TEST(Checkpoint, WhatIsNoImageChangesNothing) {
   std::vector<std::byte> other = image;
   other.front() ^= std::byte{1};
   EXPECT_FALSE(engine.restore(other));
+  std::vector<std::byte> wild = image;  // at its end stand the measurements that are held
+  std::fill(wild.end() - static_cast<std::ptrdiff_t>(sizeof(Measurement)), wild.end(), std::byte{0xff});
+  EXPECT_FALSE(engine.restore(wild));
   EXPECT_EQ(engine.nav_state().latitude_rad, before.latitude_rad);
   EXPECT_EQ(engine.nav_state().header.sequence, before.header.sequence);
   EXPECT_TRUE(engine.restore(image));

@@ -68,6 +68,11 @@ TEST(StrangerBook, RemembersOnlySoMany) {
     (void)book.refused(prefix(static_cast<std::uint8_t>(i)), "failed");
   }
   EXPECT_EQ(book.present().size(), StrangerBook::kMost);
+  // Who has an identity still finds room, and its name.
+  book.announced(prefix(250), {"fusion", "auv1", 7}, "", true);
+  const auto fusion = book.admitted(prefix(250));
+  ASSERT_TRUE(fusion);
+  EXPECT_EQ(fusion->name, "fusion");
 }
 
 TEST(StrangerBook, WhatStrangersSayOfThemselvesIsCleaned) {

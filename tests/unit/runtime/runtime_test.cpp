@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "runtime/backoff.hpp"
@@ -34,6 +37,15 @@ TEST(Log, KnowsItsLevels) {
   EXPECT_TRUE(parse_log_level("warning", level));
   EXPECT_EQ(level, LogLevel::warning);
   EXPECT_FALSE(parse_log_level("warn", level));
+}
+
+TEST(Log, AMessageIsOneLineOfPlainText) {
+  testing::internal::CaptureStderr();
+  Log("test", LogLevel::info).warning("named \"x\n2026 fathom-monitor error: \x1b[31m\"");
+  const std::string written = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::count(written.begin(), written.end(), '\n'), 1);
+  EXPECT_EQ(written.find('\x1b'), std::string::npos);
+  EXPECT_NE(written.find("x?2026"), std::string::npos) << written;
 }
 
 TEST(BuildInfo, HashTellsTextsApart) {

@@ -1,0 +1,89 @@
+#include "fusion/shared_state.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace fathom::fusion {
+namespace {
+
+SharedState shared() {
+  SharedState out;
+  out.stamp_ns = 17;
+  out.imu_sensor = "imu";
+  out.last[{SourceKind::imu, "imu"}] = 100;
+  out.last[{SourceKind::gps, "gps"}] = 7;
+  out.image.assign(1000, std::byte{5});
+  return out;
+}
+
+template <class T>
+T sample(const Name& sensor, std::uint64_t sequence) {
+  T out;
+  out.header.sensor = sensor;
+  out.header.sequence = sequence;
+  return out;
+}
+
+TEST(SharedState, ReadsAsItWasWritten) {
+  std::vector<std::byte> bytes;
+  encode(shared(), bytes);
+  const auto found = decode_shared(bytes);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found.value().stamp_ns, 17);
+  EXPECT_EQ(found.value().imu_sensor, "imu");
+  EXPECT_EQ(found.value().last, shared().last);
+  EXPECT_EQ(found.value().image, shared().image);
+}
+
+TEST(SharedState, BytesThatAreNoneAreRefused) {
+  std::vector<std::byte> bytes;
+  encode(shared(), bytes);
+  EXPECT_FALSE(decode_shared({}));
+  EXPECT_FALSE(decode_shared(std::span(bytes).first(20)));
+  // Each byte of the head and the table destroyed: refused, or read as something that can be looked at.
+  for (std::size_t at = 0; at < bytes.size() - 1000; ++at) {
+    std::vector<std::byte> spoilt = bytes;
+    spoilt[at] = std::byte{0xff};
+    const auto found = decode_shared(spoilt);
+    if (!found) continue;
+    EXPECT_LE(found.value().imu_sensor.view().size(), Name::kCapacity);
+    for (const auto& [stream, sequence] : found.value().last) {
+      EXPECT_LE(stream.second.view().size(), Name::kCapacity) << at;
+    }
+  }
+}
+
+TEST(SharedState, GoesOnWhereTheArrivalsBegin) {
+  ArrivalLog log;
+  log.keep(true);
+  EXPECT_NE(gap_between(shared(), log).find("nothing of imu"), std::string::npos);
+  log.note(sample<ImuSample>("imu", 101));
+  EXPECT_EQ(gap_between(shared(), log), "");
+  log.keep(false);
+  log.keep(true);
+  log.note(sample<ImuSample>("imu", 103));
+  EXPECT_EQ(gap_between(shared(), log), "2 samples of imu between it and the first that arrived here");
+}
+
+TEST(ArrivalLog, KeepsOrdersThatHoldWheneverTheyAreGiven) {
+  ArrivalLog log;
+  const auto order = [](CommandKind kind) {
+    Command out;
+    out.kind = kind;
+    return out;
+  };
+  log.note(order(CommandKind::disable_source));
+  EXPECT_TRUE(log.orders().empty());
+  log.keep(true);
+  log.note(order(CommandKind::realign));
+  for (int i = 0; i < 100; ++i) log.note(order(CommandKind::disable_source));
+  log.note(order(CommandKind::enable_source));
+  ASSERT_EQ(log.orders().size(), 64U);
+  EXPECT_EQ(log.orders().back().kind, CommandKind::enable_source);
+}
+
+}  // namespace
+}  // namespace fathom::fusion
