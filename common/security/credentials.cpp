@@ -25,7 +25,7 @@ void check_dates(const Validity& validity, TimeNs now, const std::string& place,
 }
 
 Certificate authority(const std::filesystem::path& file, TimeNs now) {
-  Certificate certificate = certificate_from_pem(read_text(file), file.string());
+  Certificate certificate = read_certificate(file);
   check_dates(validity_of(certificate), now, file.string(), "the authority");
   return certificate;
 }
@@ -45,6 +45,18 @@ bool is_plain_name(const std::string& name) {
          std::all_of(name.begin(), name.end(), [](unsigned char c) {
            return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.');
          });
+}
+
+Certificate read_certificate(const std::filesystem::path& file) {
+  return certificate_from_pem(read_text(file), file.string());
+}
+
+std::string read_document(const std::filesystem::path& file, const Certificate& authority, TimeNs now) {
+  return open_document(read_text(file), authority, now, file.string());
+}
+
+Governance read_governance(const CredentialFolder& files, const Certificate& authority, TimeNs now) {
+  return governance_from_xml(read_document(files.governance(), authority, now), files.governance().string());
 }
 
 std::string expiry_text(TimeNs until_ns, TimeNs now) {
@@ -69,7 +81,7 @@ Credentials check_credentials(const std::string& folder, const std::string& iden
                         ", expected one as fathom keygen --service makes");
   }
   const std::string place = files.certificate(identity).string();
-  const Certificate certificate = certificate_from_pem(read_text(place), place);
+  const Certificate certificate = read_certificate(place);
   const Key key = key_from_pem(read_private(files.key(identity)), files.key(identity).string());
   if (!belong_together(key, certificate)) {
     throw SecurityError(files.key(identity).string() +
@@ -84,14 +96,12 @@ Credentials check_credentials(const std::string& folder, const std::string& iden
   }
 
   const Certificate permissions_ca = authority(files.permissions_ca(), now);
-  const std::string governance_place = files.governance().string();
-  const Governance governance = governance_from_xml(
-      open_document(read_text(governance_place), permissions_ca, now, governance_place), governance_place);
-  check_domain(governance.domains, domain, governance_place);
+  const Governance governance = read_governance(files, permissions_ca, now);
+  check_domain(governance.domains, domain, files.governance().string());
 
   const std::string permissions_place = files.permissions(identity).string();
-  const Grant grant = grant_from_xml(
-      open_document(read_text(permissions_place), permissions_ca, now, permissions_place), permissions_place);
+  const Grant grant =
+      grant_from_xml(read_document(permissions_place, permissions_ca, now), permissions_place);
   if (grant.subject != subject_text(certificate)) {
     throw SecurityError(permissions_place + ": is for '" + grant.subject + "', expected '" +
                         subject_text(certificate) + "', whom the certificate names");

@@ -24,6 +24,14 @@ struct Credentials {
 [[nodiscard]] Credentials check_credentials(const std::string& folder, const std::string& identity,
                                             std::uint32_t domain, TimeNs now);
 
+/// The certificate in a PEM file; the text of a signed document; the governance of a folder, signed by its
+/// permissions authority. Throw SecurityError naming the file.
+[[nodiscard]] Certificate read_certificate(const std::filesystem::path& file);
+[[nodiscard]] std::string read_document(const std::filesystem::path& file, const Certificate& authority,
+                                        TimeNs now);
+[[nodiscard]] Governance read_governance(const CredentialFolder& files, const Certificate& authority,
+                                         TimeNs now);
+
 /// "expires in 12 days (2026-03-01)" or "has expired on ..." when that is worth a word at `now`; else empty.
 [[nodiscard]] std::string expiry_text(TimeNs until_ns, TimeNs now);
 

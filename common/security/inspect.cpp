@@ -18,7 +18,7 @@ bool same_topics(const std::vector<std::string>& written, std::span<const std::s
 
 Inspected inspect_authority(const std::string& name, const fs::path& file, TimeNs now) {
   Inspected out{name, {}, {}, true};
-  out.validity = validity_of(certificate_from_pem(read_text(file), file.string()));
+  out.validity = validity_of(read_certificate(file));
   if (const std::string ending = expiry_text(out.validity.until_ns, now); !ending.empty()) {
     out.fault = "The authority " + ending + ": make new ones with --force.";
     out.usable = now <= out.validity.until_ns;
@@ -32,8 +32,7 @@ std::string compare_permissions(const CredentialFolder& files, const std::string
   if (role == nullptr) return "No service of this build has this name.";
   const fs::path ca = files.permissions_ca();
   const std::string place = files.permissions(name).string();
-  const Grant grant = grant_from_xml(
-      open_document(read_text(place), certificate_from_pem(read_text(ca), ca.string()), now, place), place);
+  const Grant grant = grant_from_xml(read_document(place, read_certificate(ca), now), place);
   const bool same =
       same_topics(grant.publishes, role->publishes) && same_topics(grant.subscribes, role->subscribes);
   return same ? "" : "Its permissions differ from this build's: renew it with --service " + name + ".";
@@ -44,7 +43,7 @@ Inspected inspect_identity(const CredentialFolder& files, const std::string& nam
   Inspected out{name, {}, {}, true};
   try {
     const std::string place = files.certificate(name).string();
-    out.validity = validity_of(certificate_from_pem(read_text(place), place));
+    out.validity = validity_of(read_certificate(place));
     const Credentials credentials = check_credentials(files.path().string(), name, domain, now);
     out.fault = compare_permissions(files, name, now);
     if (const std::string ending = expiry_text(credentials.validity.until_ns, now); !ending.empty()) {
@@ -72,8 +71,7 @@ Inspection inspect(const std::string& folder, TimeNs now) {
   Inspection out;
   out.items.push_back(inspect_authority("identity_ca", files.identity_ca(), now));
   out.items.push_back(inspect_authority("permissions_ca", files.permissions_ca(), now));
-  const fs::path ca = files.identity_ca();
-  out.vehicle = subject_of(certificate_from_pem(read_text(ca), ca.string())).vehicle;
+  out.vehicle = subject_of(read_certificate(files.identity_ca())).vehicle;
   out.authority_present = fs::exists(files.authority());
   std::set<std::string> names;
   for (const Role& role : roles()) names.emplace(role.name);
@@ -82,14 +80,7 @@ Inspection inspect(const std::string& folder, TimeNs now) {
       names.insert(entry.path().filename());
   }
   if (!out.items[1].usable) return out;  // then nothing that it signed can be opened
-  const std::string place = files.governance().string();
-  const fs::path permissions_ca = files.permissions_ca();
-  out.domains =
-      governance_from_xml(
-          open_document(read_text(place),
-                        certificate_from_pem(read_text(permissions_ca), permissions_ca.string()), now, place),
-          place)
-          .domains;
+  out.domains = read_governance(files, read_certificate(files.permissions_ca()), now).domains;
   for (const std::string& name : names) {
     if (fs::exists(files.identity(name))) {
       out.items.push_back(inspect_identity(files, name, out.domains.first, now));

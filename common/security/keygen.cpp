@@ -52,8 +52,7 @@ Authority make(const std::string& name, const KeygenOptions& options, TimeNs now
 }
 
 Authority load(const fs::path& certificate, const fs::path& key) {
-  Authority out{key_from_pem(read_private(key), key.string()),
-                certificate_from_pem(read_text(certificate), certificate.string())};
+  Authority out{key_from_pem(read_private(key), key.string()), read_certificate(certificate)};
   if (!belong_together(out.key, out.certificate)) {
     throw SecurityError(key.string() + ": belongs to another certificate, expected the key of " +
                         certificate.string());
@@ -67,10 +66,7 @@ Authorities load(const CredentialFolder& files, TimeNs now) {
                   "",
                   {}};
   out.vehicle = subject_of(out.identity.certificate).vehicle;
-  const std::string place = files.governance().string();
-  out.domains =
-      governance_from_xml(open_document(read_text(place), out.permissions.certificate, now, place), place)
-          .domains;
+  out.domains = read_governance(files, out.permissions.certificate, now).domains;
   return out;
 }
 

@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "security/credentials.hpp"
+
 namespace fathom::console {
 namespace {
 
@@ -109,7 +111,7 @@ std::optional<ValidityNote> validity_note(TimeNs valid_from_ns, TimeNs valid_unt
                                    "; browsers refuse it. Replace it and restart the console."};
   }
   const DurationNs left_ns = valid_until_ns - utc_ns;
-  if (left_ns > kExpiryWarningNs) return std::nullopt;
+  if (left_ns > security::kExpiryWarning) return std::nullopt;
   return ValidityNote{true, "The TLS certificate expires in " + std::to_string(left_ns / kDayNs) +
                                 " days, at " + to_iso8601(valid_until_ns, 0) +
                                 "; replace it and restart the console."};

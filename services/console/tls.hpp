@@ -44,15 +44,12 @@ class TlsIdentity {
   TimeNs valid_until_ns_ = 0;
 };
 
-/// Within so long of its end a certificate is warned of.
-inline constexpr DurationNs kExpiryWarningNs = 30LL * 24 * 3600 * kNsPerSecond;
-
 /// What an operator has to know of a certificate's time; `usable` is false when browsers refuse it.
 struct ValidityNote {
   bool usable = true;
   std::string text;  ///< one English sentence
 };
-/// Nothing when all is well for longer than kExpiryWarningNs. Pure.
+/// Nothing when all is well for longer than security::kExpiryWarning. Pure.
 [[nodiscard]] std::optional<ValidityNote> validity_note(TimeNs valid_from_ns, TimeNs valid_until_ns,
                                                         TimeNs utc_ns);
 
