@@ -11,8 +11,9 @@ Parsed parse(int argc, char** argv) {
       "Shows a vehicle navigating: simulated instruments, bridges, fusion, monitor and guidance over DDS.\n"
       "Exit code 0 only if every service stayed healthy and the scenario's limits held."};
   app.name("deploy/demo");
-  auto* scenario = app.add_option("--scenario", options.scenario, "name of a file in deploy/config/scenarios, or a file")
-                       ->capture_default_str();
+  auto* scenario =
+      app.add_option("--scenario", options.scenario, "name of a file in deploy/config/scenarios, or a file")
+          ->capture_default_str();
   auto* dataset =
       app.add_option("--dataset", options.dataset, "play this recorded vehicle through the same bridges")
           ->check(CLI::ExistingDirectory)
