@@ -60,7 +60,7 @@ TEST(Permissions, AreWhatTheServicesUseAndNoMore) {
   Process demo("fathom-demo",
                {"--secure", "--standby", "--domain", std::to_string(kDomain), "--duration", "300"});
   const std::string sign = "FATHOM_SECURITY_DIR=";
-  ASSERT_TRUE(wait_until([&] { return demo.out().find(sign) != std::string::npos; }, 60.0)) << demo.err();
+  ASSERT_TRUE(wait_until([&] { return demo.out().find(sign) != std::string::npos; }, 240.0)) << demo.err();
   const std::string said = demo.out().substr(demo.out().find(sign) + sign.size());
 
   bus::ParticipantOptions presence = options(kDomain, "onlooker");
@@ -68,7 +68,7 @@ TEST(Permissions, AreWhatTheServicesUseAndNoMore) {
   {
     bus::Participant onlooker(presence);
     const Uses expected = table();
-    EXPECT_TRUE(wait_until([&] { return uses(onlooker) == expected; }, 60.0));
+    EXPECT_TRUE(wait_until([&] { return uses(onlooker) == expected; }, 240.0));
     EXPECT_EQ(uses(onlooker), expected);
     EXPECT_EQ(onlooker.counters().stranger_refused, 0U);
     EXPECT_EQ(onlooker.counters().permission_refused, 0U);
