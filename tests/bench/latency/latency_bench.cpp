@@ -157,8 +157,8 @@ void measure(double rate_hz, double seconds, bool with_limits) {
   const TemporaryFolder folder;
   Process demo("fathom-demo", {"--scenario", survey_at(rate_hz, folder), "--domain", std::to_string(kDomain),
                                "--duration", "600"});
+  Guidance guidance;  // before the hops, which take the number of a participant that is left
   RawHops raw(sizes().imu, sizes().nav);
-  Guidance guidance;
   ASSERT_TRUE(
       wait_until([&] { return guidance.aligned() && guidance.fusion() > 0 && raw.matched(); }, kPatienceS))
       << demo.err();
