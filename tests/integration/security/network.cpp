@@ -158,6 +158,7 @@ SecureNetwork::SecureNetwork(std::uint32_t domain, security::MessageProtection p
 SecureNetwork::~SecureNetwork() {
   stop_ = true;
   writing_.join();
+  reader.reset();  // what it tells goes before it
 }
 
 std::vector<std::uint64_t> SecureNetwork::sequences() const {
