@@ -186,7 +186,7 @@ void send(const std::string& file, const std::vector<std::string>& to, std::uint
     }
     if (rate_hz > 0.0) {
       const std::chrono::duration<double> due(static_cast<double>(sent) / rate_hz);
-      const auto left = due - (Clock::now() - began);
+      const std::chrono::duration<double> left = due - (Clock::now() - began);
       if (left.count() > 0.001) usleep(static_cast<useconds_t>(1e6 * left.count()));
     }
   }
