@@ -146,6 +146,7 @@ std::string estimation_hash(const FusionConfig& config) {
   shared.common.bus = {};
   shared.common.log = {};
   shared.common.realtime = {};
+  shared.common.clock.anchor_file.clear();
   shared.instance = FusionConfig().instance;
   shared.ownership_strength = 0;
   shared.checkpoint = {};
