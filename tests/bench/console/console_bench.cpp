@@ -14,34 +14,13 @@
 #include "bus/writer.hpp"
 #include "integration/console/console_fixture.hpp"
 #include "samples/verdict.hpp"
+#include "support/process_usage.hpp"
 
 namespace fathom::test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kMeasuredS = 20.0;
-
-/// Processor time that a process has had so far.
-double processor_s(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  std::istringstream fields(text.substr(text.rfind(')') + 2));
-  std::string skipped;
-  for (int i = 0; i < 11; ++i) fields >> skipped;
-  double user = 0.0;
-  double system = 0.0;
-  fields >> user >> system;
-  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
-}
-
-double resident_MB(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/statm");
-  double size = 0.0;
-  double resident = 0.0;
-  file >> size >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
-}
 
 class ConsoleBench : public ConsoleTest {};
 

@@ -8,7 +8,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <mutex>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <utility>
@@ -28,6 +27,7 @@
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
 #include "support/process.hpp"
+#include "support/process_usage.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom::test {
@@ -58,28 +58,6 @@ class Relay {
  private:
   pid_t pid_;
 };
-
-/// What a process has used so far.
-struct Usage {
-  double processor_s = 0.0;
-  double resident_MB = 0.0;
-};
-Usage usage_of(pid_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  std::string text;
-  std::getline(file, text);
-  std::istringstream fields(text.substr(text.rfind(')') + 2));
-  std::string skipped;
-  for (int i = 0; i < 11; ++i) fields >> skipped;
-  double user = 0.0;
-  double system = 0.0;
-  fields >> user >> system;
-  for (int i = 0; i < 8; ++i) fields >> skipped;
-  double pages = 0.0;
-  fields >> pages;
-  return {(user + system) / static_cast<double>(sysconf(_SC_CLK_TCK)),
-          pages * static_cast<double>(sysconf(_SC_PAGESIZE)) * 1e-6};
-}
 
 /// The survey with another inertial rate, as a file.
 std::string survey_at(double rate_hz, const TemporaryFolder& folder) {
@@ -165,7 +143,7 @@ void measure(double rate_hz, double seconds, bool with_limits) {
   std::this_thread::sleep_for(std::chrono::seconds(2));
   (void)guidance.take_latencies_us();
   (void)raw.take_round_us();
-  const Usage before = usage_of(guidance.fusion());
+  const double before_s = processor_s(guidance.fusion());
   const auto begin = std::chrono::steady_clock::now();
   auto next = begin;
   while (next - begin < std::chrono::duration<double>(seconds)) {
@@ -174,7 +152,8 @@ void measure(double rate_hz, double seconds, bool with_limits) {
     std::this_thread::sleep_until(next);
   }
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
-  const Usage after = usage_of(guidance.fusion());
+  const double used_s = processor_s(guidance.fusion()) - before_s;
+  const double memory_MB = resident_MB(guidance.fusion());
   const auto states_us = guidance.take_latencies_us();
   const auto rounds_us = raw.take_round_us();
   demo.kill(SIGINT);
@@ -182,7 +161,7 @@ void measure(double rate_hz, double seconds, bool with_limits) {
   const auto expected = static_cast<std::size_t>(0.9 * rate_hz * seconds);
   ASSERT_GE(states_us.size(), expected);
   ASSERT_GE(rounds_us.size(), expected);
-  const double processor = (after.processor_s - before.processor_s) / took.count();
+  const double processor = used_s / took.count();
   std::printf(
       "%6.0f Hz  state p50 %4.0f us  p99 %5.0f us   raw hops (%zu and %zu bytes) p50 %4.0f us  p99 %5.0f us  "
       " "
@@ -190,12 +169,12 @@ void measure(double rate_hz, double seconds, bool with_limits) {
       rate_hz, percentile(states_us, 0.5), percentile(states_us, 0.99), sizes().imu, sizes().nav,
       percentile(rounds_us, 0.5), percentile(rounds_us, 0.99),
       percentile(states_us, 0.5) / percentile(rounds_us, 0.5),
-      percentile(states_us, 0.99) / percentile(rounds_us, 0.99), 100.0 * processor, after.resident_MB);
+      percentile(states_us, 0.99) / percentile(rounds_us, 0.99), 100.0 * processor, memory_MB);
   if (!with_limits) return;
   EXPECT_LE(percentile(states_us, 0.5), 1.35 * percentile(rounds_us, 0.5));
   EXPECT_LE(percentile(states_us, 0.99), 2.0 * percentile(rounds_us, 0.99));
   EXPECT_LE(processor, 0.15);
-  EXPECT_LE(after.resident_MB, 60.0);
+  EXPECT_LE(memory_MB, 60.0);
 }
 
 TEST(LatencyBench, FromAnInertialSampleToTheNavigationState) {
