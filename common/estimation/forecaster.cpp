@@ -68,28 +68,33 @@ double radius_50(double larger_sigma, double smaller_sigma) {
   return larger_sigma * (0.671956 + c * (0.011405 + c * (1.013712 - c * 0.523462)));
 }
 
-Forecaster::Forecaster(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {}
+Forecaster::Forecaster(const Setup& setup) : setup_(&setup), core_(setup), filter_(setup.index.size()) {}
 
 void Forecaster::remember(int sensor, const AnySample& sample) {
-  last_[static_cast<std::size_t>(sensor)] = sample;
-  remembered_[static_cast<std::size_t>(sensor)] = true;
+  past_.last[static_cast<std::size_t>(sensor)] = sample;
+  past_.remembered[static_cast<std::size_t>(sensor)] = true;
 }
 
-bool Forecaster::aids(const Core& core, int sensor) const {
+void Forecaster::take(const Core& core) {
+  core_ = core;
+  core_.record_to(nullptr);
+  taken_ = past_;
+}
+
+bool Forecaster::aids(int sensor) const {
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(sensor)];
   if (config.kind == SourceKind::gps || config.kind == SourceKind::usbl) return false;
   // What a restored state was aided by may not have been heard here yet.
-  if (!remembered_[static_cast<std::size_t>(sensor)]) return false;
-  const TimeNs used = core.sensor(sensor).used_ns;
-  return core.sensor(sensor).enabled && used != 0 &&
-         to_seconds(core.now_ns() - used) <= setup_->config.velocity_timeout_s;
+  if (!taken_.remembered[static_cast<std::size_t>(sensor)]) return false;
+  const TimeNs used = core_.sensor(sensor).used_ns;
+  return core_.sensor(sensor).enabled && used != 0 &&
+         to_seconds(core_.now_ns() - used) <= setup_->config.velocity_timeout_s;
 }
 
-void Forecaster::begin(const Core& core) {
+void Forecaster::begin() {
   // (FC-1)
-  filter_ = core.filter();
-  filter_.record_to(nullptr);
-  state_ = core.state();
+  filter_ = core_.filter();
+  state_ = core_.state();
   const NavSolution& nav = state_.nav;
   const Vector3d rpy = geo::to_rpy(nav.q_NB);
   yaw_rad_ = rpy.z();
@@ -105,9 +110,10 @@ void Forecaster::begin(const Core& core) {
   still_.force_B_m_s2 = geo::to_matrix(nav.q_NB).transpose() * Vector3d(0.0, 0.0, -gravity);
 }
 
-void Forecaster::step(const Core& core, int lost, double dt_s) {
+void Forecaster::step(int lost, double dt_s) {
+  const MotionMemory& memory = taken_.motion;
   const MotionMemory::Second& motion =
-      memory_.size() >= kLeastMemory ? memory_.at(memory_.size() - 1 - second_++ % memory_.size()) : still_;
+      memory.size() >= kLeastMemory ? memory.at(memory.size() - 1 - second_++ % memory.size()) : still_;
   NavSolution& nav = state_.nav;
   const double course = yaw_rad_ + 0.5 * dt_s * motion.turned_rad + motion.slip_rad;
   nav.q_NB = geo::from_rpy({motion.roll_rad, motion.pitch_rad, yaw_rad_ + 0.5 * dt_s * motion.turned_rad});
@@ -115,15 +121,15 @@ void Forecaster::step(const Core& core, int lost, double dt_s) {
   yaw_rad_ += dt_s * motion.turned_rad;
   const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
   filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s),
-                    core.process_noise(c, motion.rate_B_rad_s, motion.force_B_m_s2));
-  core.settle_biases(filter_, ahead_s_, dt_s);
+                    core_.process_noise(c, motion.rate_B_rad_s, motion.force_B_m_s2));
+  core_.settle_biases(filter_, ahead_s_, dt_s);
   ahead_s_ += dt_s;
   if (lost == kAll) return;
   const AidingState state(setup_->index, state_, motion.rate_B_rad_s, 0.0, motion.force_B_m_s2);
   InnovationStatistics statistics;
   std::array<double, kMaxStates> ignored{};
   for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) {
-    if (i == lost || !aids(core, i)) continue;
+    if (i == lost || !aids(i)) continue;
     const auto slot = static_cast<std::size_t>(i);
     // The last sample is about one second old in the forecast's eyes, whatever its rate.
     const bool modelled =
@@ -132,12 +138,12 @@ void Forecaster::step(const Core& core, int lost, double dt_s) {
                             .sensor = setup_->config.sensors[slot],
                             .surface_altitude_m = setup_->config.states.surface_altitude_m,
                             .vehicle_model = &setup_->config.vehicle_model,
-                            .water = modelled ? &core.water_velocity() : nullptr,
+                            .water = modelled ? &core_.water_velocity() : nullptr,
                             .unused_s = dt_s};
     Observation observation;
     for (const AidingEntry& entry : aiding_registry())
       if (entry.source == setup_->config.sensors[slot].kind)
-        (void)entry.observe(input, last_[slot], observation);
+        (void)entry.observe(input, taken_.last[slot], observation);
     if (observation.rows == 0) continue;
     observation.list_columns(setup_->index.size());
     filter_.statistics(observation, kStep_s / dt_s, statistics);
@@ -145,21 +151,21 @@ void Forecaster::step(const Core& core, int lost, double dt_s) {
   }
 }
 
-double Forecaster::horizontal_95_m(const Core& core, double after_s) {
-  if (!core.navigating() || !std::isfinite(after_s)) return kUnknown;
-  begin(core);
+double Forecaster::horizontal_95_m(double after_s) {
+  if (!core_.navigating() || !std::isfinite(after_s)) return kUnknown;
+  begin();
   for (double elapsed = 0.0; elapsed < after_s;) {
     const double dt = std::min(kStep_s, after_s - elapsed);
-    step(core, kNone, dt);
+    step(kNone, dt);
     elapsed += dt;
   }
   return measure(filter_).horizontal.within_95;
 }
 
-void Forecaster::follow(const Core& core, int lost, Forecast& out, std::uint32_t first) {
+void Forecaster::follow(int lost, Forecast& out, std::uint32_t first) {
   const auto& limits = setup_->config.forecast_limits;
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  begin(core);
+  begin();
   const Now start = measure(filter_);
   for (std::size_t i = 0; i < limits.size(); ++i) {
     ForecastLimit& limit = out.limits[first + i];
@@ -177,7 +183,7 @@ void Forecaster::follow(const Core& core, int lost, Forecast& out, std::uint32_t
   Now before = start;
   bool open = true;
   for (double elapsed = 0.0; elapsed < setup_->config.forecast_span_s && open; elapsed += kStep_s) {
-    step(core, lost, kStep_s);
+    step(lost, kStep_s);
     const Now after = measure(filter_);
     open = false;
     for (std::size_t i = 0; i < limits.size(); ++i) {
@@ -196,11 +202,11 @@ void Forecaster::follow(const Core& core, int lost, Forecast& out, std::uint32_t
   }
 }
 
-void Forecaster::fill(const Core& core, Forecast& out) {
+void Forecaster::fill(Forecast& out) {
   const auto& limits = setup_->config.forecast_limits;
   const auto count = static_cast<std::uint32_t>(limits.size());
   out.horizontal_95_m = out.vertical_95_m = out.heading_95_rad = out.horizontal_growth_m_s = kUnknown;
-  if (!core.navigating()) {
+  if (!core_.navigating()) {
     out.limit_count = count;
     for (std::size_t i = 0; i < limits.size(); ++i) {
       out.limits[i] = {};
@@ -209,22 +215,22 @@ void Forecaster::fill(const Core& core, Forecast& out) {
     }
     return;
   }
-  const Now now = measure(core.filter());
+  const Now now = measure(core_.filter());
   out.horizontal_95_m = now.horizontal.within_95;
   out.vertical_95_m = now.vertical.within_95;
   out.heading_95_rad = now.heading.within_95;
-  follow(core, kNone, out, 0);
+  follow(kNone, out, 0);
   out.limit_count = count;
   const auto more = [&](int lost) {
     if (out.limit_count + count > Forecast::kMaxLimits) return;
-    follow(core, lost, out, out.limit_count);
+    follow(lost, out, out.limit_count);
     out.limit_count += count;
   };
   int aiding = 0;
-  for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) aiding += aids(core, i) ? 1 : 0;
+  for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) aiding += aids(i) ? 1 : 0;
   if (aiding > 0) more(kAll);
   for (int i = 0; aiding > 1 && i < static_cast<int>(setup_->config.sensors.size()); ++i)
-    if (aids(core, i)) more(i);
+    if (aids(i)) more(i);
 }
 
 }  // namespace fathom::estimation

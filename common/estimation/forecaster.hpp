@@ -12,36 +12,51 @@ namespace fathom::estimation {
 
 /// Propagates the covariance on without position fixes, along the motion of the last two minutes over again,
 /// with the other aiding that was in use a moment ago or without it (FC-1).
+///
+/// The work is done on a copy of the present, so that another thread may do it while the navigator goes on:
+/// take() by the one that steps the navigator, then what looks ahead by any one thread, until the next
+/// take().
 class Forecaster {
  public:
   explicit Forecaster(const Setup& setup);
   /// Remembers the last sample of a sensor: it stands for those to come.
   void remember(int sensor, const AnySample& sample);
   /// After each inertial step.
-  void watch(const Core& core) { memory_.watch(core); }
-  void fill(const Core& core, Forecast& out);
-  /// `after_s` from now, with what aids now; unknown without navigation.
-  [[nodiscard]] double horizontal_95_m(const Core& core, double after_s);
+  void watch(const Core& core) { past_.motion.watch(core); }
+  /// From here the following look ahead.
+  void take(const Core& core);
+
+  void fill(Forecast& out);
+  /// `after_s` ahead, with what aids now; unknown without navigation.
+  [[nodiscard]] double horizontal_95_m(double after_s);
 
  private:
   /// Which aiding goes on: a sensor that does not, or one of these.
   enum Lost : int { kNone = -1, kAll = -2 };
 
-  void begin(const Core& core);
-  void step(const Core& core, int lost, double dt_s);
-  [[nodiscard]] bool aids(const Core& core, int sensor) const;
-  void follow(const Core& core, int lost, Forecast& out, std::uint32_t first);
+  struct Past {
+    MotionMemory motion;
+    std::array<AnySample, kMaxSensors> last{};
+    std::array<bool, kMaxSensors> remembered{};
+  };
+
+  void begin();
+  void step(int lost, double dt_s);
+  [[nodiscard]] bool aids(int sensor) const;
+  void follow(int lost, Forecast& out, std::uint32_t first);
 
   const Setup* setup_;
-  MotionMemory memory_;
+  Past past_;
+  // Of the instant of take().
+  Core core_;
+  Past taken_;
+  // The instant that is looked at.
   ErrorFilter filter_;
   FilterState state_;  ///< as it may be then
   int second_ = 0;
   double ahead_s_ = 0.0;  ///< of the present
   double yaw_rad_ = 0.0;
   MotionMemory::Second still_;  ///< where nothing is remembered yet: straight ahead
-  std::array<AnySample, kMaxSensors> last_{};
-  std::array<bool, kMaxSensors> remembered_{};
 };
 
 }  // namespace fathom::estimation

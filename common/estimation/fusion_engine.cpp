@@ -198,13 +198,19 @@ class FusionEngine::Impl final : public VerdictSink {
     estimation::fill(setup_, history_.core(), out);
   }
 
-  void fill(Forecast& out) {
-    stamp(out.header);
-    forecaster_.fill(history_.core(), out);
+  void take_forecast() {
+    stamp(forecast_header_);
+    forecaster_.take(history_.core());
+  }
+
+  void fill_taken(Forecast& out) {
+    out.header = forecast_header_;
+    forecaster_.fill(out);
   }
 
   [[nodiscard]] double forecast_horizontal_95_m(double after_s) {
-    return forecaster_.horizontal_95_m(history_.core(), after_s);
+    forecaster_.take(history_.core());
+    return forecaster_.horizontal_95_m(after_s);
   }
 
   [[nodiscard]] Matrix9 navigation_covariance() const {
@@ -266,7 +272,8 @@ class FusionEngine::Impl final : public VerdictSink {
   ImuIntake intake_;
   History history_;
   Forecaster forecaster_;
-  mutable NavState nav_;  ///< filled when asked for
+  SampleHeader forecast_header_;  ///< of take_forecast()
+  mutable NavState nav_;          ///< filled when asked for
   mutable bool filled_ = true;
   Measurement incoming_;
   std::uint64_t commands_ = 0;
@@ -338,7 +345,14 @@ void FusionEngine::fill(AlignmentStatus& status) const {
   impl_->fill(status);
 }
 void FusionEngine::fill(Forecast& forecast) {
-  impl_->fill(forecast);
+  impl_->take_forecast();
+  impl_->fill_taken(forecast);
+}
+void FusionEngine::take_forecast() {
+  impl_->take_forecast();
+}
+void FusionEngine::fill_taken(Forecast& forecast) {
+  impl_->fill_taken(forecast);
 }
 bool FusionEngine::save(std::vector<std::byte>& out) const {
   return impl_->save(out);

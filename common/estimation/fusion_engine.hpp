@@ -92,6 +92,10 @@ class FusionEngine {
   /// and the other aiding goes on as it is, or is lost as well: by propagating the covariance (FC-1). A few
   /// milliseconds of work for each aiding sensor.
   void fill(Forecast& forecast);
+  /// The same in two parts: a copy of the present, some tens of microseconds, and the work, which another
+  /// thread may do while the engine goes on, until the next of either fill() or take_forecast().
+  void take_forecast();
+  void fill_taken(Forecast& forecast);
   /// Of the same: radius that holds 95 % of the horizontal errors `after_s` from now; unknown without
   /// navigation.
   [[nodiscard]] double forecast_horizontal_95_m(double after_s);

@@ -256,17 +256,15 @@ struct FusionService::Impl {
     AlignmentStatus alignment;
     Forecast forecast;
     if (!speaks()) return;
-    bool any = false;
+    const std::lock_guard one_forecast(forecast_mutex);
     {
       const std::lock_guard lock(mutex);
-      any = newest_nav_state_ns != 0;
-      if (any) {
-        engine.fill(detail);
-        engine.fill(alignment);
-        engine.fill(forecast);
-      }
+      if (newest_nav_state_ns == 0) return;
+      engine.fill(detail);
+      engine.fill(alignment);
+      engine.take_forecast();
     }
-    if (!any) return;
+    engine.fill_taken(forecast);  // milliseconds: navigation goes on meanwhile
     details.write(detail);
     alignments.write(alignment);
     forecasts.write(forecast);
@@ -349,8 +347,9 @@ struct FusionService::Impl {
 
   const CheckpointLabel label;
 
-  std::mutex mutex;  // guards what follows up to the writers
-  Name imu_sensor;   // the one listened to
+  std::mutex forecast_mutex;  // of the taken forecast; before the other
+  std::mutex mutex;           // guards what follows up to the writers
+  Name imu_sensor;            // the one listened to
   Started start;
   estimation::FusionEngine& engine = start.engine;
   ArrivalBook arrivals;

@@ -1,6 +1,8 @@
 // From an inertial sample's arrival at its bridge to the navigation state at a subscriber, with every service
 // of the survey running, beside two hops of as many bytes over Fast DDS alone, at the same time on the same
-// machine. Prints a table. FATHOM_SOAK=1: for a minute at each rate, with limits.
+// machine: with one reader a hop, and with as many as the services' topics have. A hop to several readers is
+// as many datagrams one after the other, and as many processes woken. Prints a table. FATHOM_SOAK=1: for a
+// minute at each rate, with limits.
 
 #include <algorithm>
 #include <chrono>
@@ -15,12 +17,11 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "base/clock.hpp"
 #include "bench/latency/raw_hops.hpp"
 #include "bus/cdr.hpp"
+#include "bus/network_map.hpp"
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "samples/health.hpp"
@@ -41,23 +42,6 @@ double percentile(std::vector<double> values, double share) {
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
 }
-
-/// The relay, in a process of its own until the end of the scope.
-class Relay {
- public:
-  Relay(std::size_t first_bytes, std::size_t second_bytes) : pid_(fork()) {
-    if (pid_ == 0) RawHops::relay(first_bytes, second_bytes);
-  }
-  ~Relay() {
-    ::kill(pid_, SIGKILL);
-    (void)waitpid(pid_, nullptr, 0);
-  }
-  Relay(const Relay&) = delete;
-  Relay& operator=(const Relay&) = delete;
-
- private:
-  pid_t pid_;
-};
 
 /// The survey with another inertial rate, as a file.
 std::string survey_at(double rate_hz, const TemporaryFolder& folder) {
@@ -92,6 +76,13 @@ class Guidance {
   [[nodiscard]] pid_t fusion() const {
     const std::lock_guard lock(mutex_);
     return fusion_;
+  }
+  /// As discovery knows them, those of this program among them.
+  [[nodiscard]] int readers_of(const std::string& topic) {
+    const auto all = bus::endpoints(participant_);
+    return static_cast<int>(std::count_if(all.begin(), all.end(), [&](const bus::NetworkEndpoint& one) {
+      return !one.writes && one.topic == topic;
+    }));
   }
   [[nodiscard]] std::vector<double> take_latencies_us() {
     const std::lock_guard lock(mutex_);
@@ -131,56 +122,83 @@ Sizes sizes() {
   return {bus::to_cdr(imu).size(), bus::to_cdr(nav).size()};
 }
 
-void measure(double rate_hz, double seconds, bool with_limits) {
+/// Of the topics on the way, as a run of the survey with this program has them.
+constexpr int kImuReaders = 2;
+constexpr int kNavReaders = 5;
+
+/// Taken by turns, a second each, while the services run all the time.
+struct Raw {
+  RawHops one{"one", {sizes().imu}, {sizes().nav}};
+  RawHops several{"several", {sizes().imu, kImuReaders}, {sizes().nav, kNavReaders}};
+};
+
+struct Figures {
+  explicit Figures(const std::vector<double>& us)
+      : p50_us(percentile(us, 0.5)), p99_us(percentile(us, 0.99)) {}
+  double p50_us;
+  double p99_us;
+};
+
+void measure(Raw& raw, double rate_hz, int seconds, bool with_limits) {
   const TemporaryFolder folder;
   Process demo("fathom-demo", {"--scenario", survey_at(rate_hz, folder), "--domain", std::to_string(kDomain),
                                "--duration", "600"});
-  Guidance guidance;  // before the hops, which take the number of a participant that is left
-  RawHops raw(sizes().imu, sizes().nav);
-  ASSERT_TRUE(
-      wait_until([&] { return guidance.aligned() && guidance.fusion() > 0 && raw.matched(); }, kPatienceS))
+  Guidance guidance;
+  ASSERT_TRUE(wait_until(
+      [&] {
+        return guidance.aligned() && guidance.fusion() > 0 && raw.one.matched() && raw.several.matched();
+      },
+      kPatienceS))
       << demo.err();
   std::this_thread::sleep_for(std::chrono::seconds(2));
+  EXPECT_EQ(guidance.readers_of("fathom/v1/imu"), kImuReaders);
+  EXPECT_EQ(guidance.readers_of("fathom/v1/nav_state"), kNavReaders);
   (void)guidance.take_latencies_us();
-  (void)raw.take_round_us();
+  (void)raw.one.take_round_us();
+  (void)raw.several.take_round_us();
   const double before_s = processor_s(guidance.fusion());
   const auto begin = std::chrono::steady_clock::now();
-  auto next = begin;
-  while (next - begin < std::chrono::duration<double>(seconds)) {
-    raw.send();
-    next += std::chrono::nanoseconds(from_seconds(1.0 / rate_hz));
-    std::this_thread::sleep_until(next);
+  for (int second = 1; second <= seconds; ++second) {
+    raw.one.send(second % 2 == 1 ? rate_hz : 0.0);
+    raw.several.send(second % 2 == 0 ? rate_hz : 0.0);
+    std::this_thread::sleep_until(begin + std::chrono::seconds(second));
   }
+  raw.several.send(0.0);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const double used_s = processor_s(guidance.fusion()) - before_s;
   const double memory_MB = resident_MB(guidance.fusion());
   const auto states_us = guidance.take_latencies_us();
-  const auto rounds_us = raw.take_round_us();
+  const auto one_us = raw.one.take_round_us();
+  const auto several_us = raw.several.take_round_us();
   demo.kill(SIGINT);
   (void)demo.wait();
   const auto expected = static_cast<std::size_t>(0.9 * rate_hz * seconds);
   ASSERT_GE(states_us.size(), expected);
-  ASSERT_GE(rounds_us.size(), expected);
+  ASSERT_GE(one_us.size(), expected / 2);
+  ASSERT_GE(several_us.size(), expected / 2);
+  const Figures state(states_us);
   const double processor = used_s / took.count();
   std::printf(
-      "%6.0f Hz  state p50 %4.0f us  p99 %5.0f us   raw hops (%zu and %zu bytes) p50 %4.0f us  p99 %5.0f us  "
-      " "
-      "ratio p50 %.2f  p99 %.2f   fusion %.1f %% of a core, %.0f MB resident\n",
-      rate_hz, percentile(states_us, 0.5), percentile(states_us, 0.99), sizes().imu, sizes().nav,
-      percentile(rounds_us, 0.5), percentile(rounds_us, 0.99),
-      percentile(states_us, 0.5) / percentile(rounds_us, 0.5),
-      percentile(states_us, 0.99) / percentile(rounds_us, 0.99), 100.0 * processor, memory_MB);
+      "%.0f Hz, %zu and %zu bytes: state p50 %.0f us, p99 %.0f us; fusion %.1f %% of a core, %.0f MB "
+      "resident\n",
+      rate_hz, sizes().imu, sizes().nav, state.p50_us, state.p99_us, 100.0 * processor, memory_MB);
+  const auto beside = [&](const char* what, const Figures& hops) {
+    std::printf("  raw hops, %s: p50 %.0f us, p99 %.0f us; ratio p50 %.2f, p99 %.2f\n", what, hops.p50_us,
+                hops.p99_us, state.p50_us / hops.p50_us, state.p99_us / hops.p99_us);
+  };
+  beside("one reader each", Figures(one_us));
+  beside("readers as many", Figures(several_us));
   if (!with_limits) return;
-  EXPECT_LE(percentile(states_us, 0.5), 1.35 * percentile(rounds_us, 0.5));
-  EXPECT_LE(percentile(states_us, 0.99), 2.0 * percentile(rounds_us, 0.99));
+  EXPECT_LE(state.p50_us, 1.35 * Figures(several_us).p50_us);
+  EXPECT_LE(state.p99_us, 2.0 * Figures(several_us).p99_us);
   EXPECT_LE(processor, 0.15);
   EXPECT_LE(memory_MB, 60.0);
 }
 
 TEST(LatencyBench, FromAnInertialSampleToTheNavigationState) {
   const bool soak = std::getenv("FATHOM_SOAK") != nullptr;
-  const Relay relay(sizes().imu, sizes().nav);  // first of all: it is forked from a process without threads
-  for (const double rate_hz : {100.0, 400.0}) measure(rate_hz, soak ? 60.0 : 3.0, soak);
+  Raw raw;  // first of all: it forks, and this process has no threads yet
+  for (const double rate_hz : {100.0, 400.0}) measure(raw, rate_hz, soak ? 60 : 4, soak);
 }
 
 }  // namespace
