@@ -39,9 +39,7 @@ estimation::EngineConfig config_of(const Run& run, EngineMethod method) {
   c.states.dvl_scale_sigma = 0.003;
   if (method == EngineMethod::without_model) return c;
   c.groups.current = c.groups.model_scale = c.groups.model_bias = true;
-  // (STUDY-6): a current that stays for the ten minutes, coefficients that are nearly those of the vehicle.
-  c.states.current_time_constant_s = 1e6;
-  c.states.model_bias_sigma_m_s = 0.007;
+  c.states.current_time_constant_s = 0.0;  // (STUDY-6): it stays for the ten minutes
   c.vehicle_model.sigma_m_s = {0.01, 0.01};
   c.vehicle_model.enabled = true;
   c.vehicle_model.coefficients = run.coefficients;

@@ -83,6 +83,15 @@ TEST(HydroStudy, ModelBridgesTheLossOfTheDvl) {
   EXPECT_LT(t.at("engine drift_since_loss").max, 0.3 * t.at("engine_no_model drift_since_loss").mean);
 }
 
+TEST(HydroStudy, UncertaintyWithoutTheDvlIsNeitherTooLargeNorTooSmall) {
+  // 95 % of means of eight runs with two degrees of freedom: chi-squared of 16, over 8.
+  for (const char* one : {"dvl_loss_300s", "dvl_loss_300s_coeff_30pct"}) {
+    const double nees = table(one, 8, {"engine"}).at("engine nees_position").mean;
+    EXPECT_GT(nees, 0.86) << one;
+    EXPECT_LT(nees, 3.61) << one;
+  }
+}
+
 TEST(HydroStudy, AnotherVehiclesCoefficientsDoNoHarm) {
   const Table t = table("dvl_loss_300s_other_vehicle", 2, {"engine", "engine_no_model"});
   EXPECT_LT(t.at("engine drift_since_loss").mean, 1.1 * t.at("engine_no_model drift_since_loss").mean);
