@@ -194,6 +194,10 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
     throw BusError("domain " + std::to_string(options.domain) + ": expected 0 to 232");
   }
   check_interfaces(options.interfaces);
+  if (!options.security.folder.empty() && detail::uses_servers(options)) {
+    throw BusError(
+        "discovery servers and security: expected only one of them, Fast DDS 2.9 aborts with both");
+  }
   const std::string profiles_dir = detail::find_profiles_dir(options.profiles_dir);
   detail::load_profiles(profiles_dir);
   dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);

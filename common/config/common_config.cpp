@@ -47,6 +47,9 @@ void describe(Schema<BusConfig>& s) {
     for (const std::string& server : bus.discovery_servers) {
       if (!is_address_and_port(server)) return {"discovery_servers", kAddressAndPort};
     }
+    if (!bus.discovery_servers.empty() && !bus.security.folder.empty()) {
+      return {"discovery_servers", "none where security.folder is set: Fast DDS 2.9 aborts with both"};
+    }
     return {};
   });
 }

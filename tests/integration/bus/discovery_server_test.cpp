@@ -214,6 +214,10 @@ TEST(DiscoveryServer, WhatCannotBeIsRefusedInWords) {
       "discovery server '127.0.0.1:70000': expected an IPv4 address and a port such as 192.168.2.1:11811");
   EXPECT_EQ(refusal(server(137, "127.0.0.2:11811")),
             "discovery_listen '127.0.0.2:11811': expected one of the interfaces");
+  bus::ParticipantOptions secure = client(137, "a", "127.0.0.1:11811");
+  secure.security.folder = "credentials";
+  EXPECT_EQ(refusal(secure),
+            "discovery servers and security: expected only one of them, Fast DDS 2.9 aborts with both");
   const std::string address = free_address();
   const bus::Participant first(server(137, address));
   EXPECT_EQ(

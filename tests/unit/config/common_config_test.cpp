@@ -61,6 +61,8 @@ TEST(CommonConfig, DiscoveryServersAreAddressesWithPorts) {
                 AllOf(HasSubstr("bus.discovery_servers"), HasSubstr("such as 192.168.2.1:11811")))
         << wrong;
   }
+  EXPECT_THAT(refusal({R"(bus.discovery_servers=["10.0.0.1:1"])", "bus.security.folder=credentials"}),
+              AllOf(HasSubstr("bus.discovery_servers"), HasSubstr("none where security.folder is set")));
 }
 
 TEST(CommonConfig, ADiscoveryServerListensAtOneOfItsInterfaces) {
