@@ -1,52 +1,25 @@
 // Open-loop manoeuvres of the REMUS 100 model: what its documentation states is recomputed here.
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "estimation/hydro/vehicle_model.hpp"
-#include "geo/so3.hpp"
 #include "study/hydro/vehicles.hpp"
+#include "unit/study/remus_motion.hpp"
 
 namespace fathom::study {
 namespace {
 
-using Eigen::Vector3d;
-using estimation::hydro::Controls;
 using estimation::hydro::Vector6;
 using estimation::hydro::VehicleModel;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kDt_s = 0.02;
+using Motion = RemusMotion;
+constexpr double kDegree = RemusMotion::kDegree;
 
-struct Motion {
-  Vector6 nu = Vector6::Zero();
-  geo::Quaternion q_NB;
-  Vector3d position_N_m = Vector3d::Zero();
-  double turned_rad = 0.0;
-
-  [[nodiscard]] double rpy_deg(int i) const { return geo::to_rpy(q_NB)(i) / kDegree; }
-};
-
-/// From steady flight ahead, fins held.
 Motion run(double rudder_deg, double stern_deg, double duration_s) {
-  const VehicleModel model(hydro::remus100());
-  Motion m;
-  m.nu[0] = 1.54;
-  m.q_NB = geo::from_rpy({-5.3 * kDegree, 0.0, 0.0});
-  const Controls controls{1500.0, rudder_deg * kDegree, stern_deg * kDegree};
-  for (int i = 0; i < static_cast<int>(std::lround(duration_s / kDt_s)); ++i) {
-    const Eigen::Matrix3d c = geo::to_matrix(m.q_NB);
-    const Vector6 after = model.step(m.nu, c.row(2).transpose(), controls, kDt_s);
-    const Vector6 mean = 0.5 * (m.nu + after);
-    m.position_N_m += c * mean.head<3>() * kDt_s;
-    m.turned_rad += (c * mean.tail<3>()).z() * kDt_s;
-    m.q_NB = geo::normalized(m.q_NB * geo::exp(Vector3d(mean.tail<3>() * kDt_s)));
-    m.nu = after;
-  }
-  return m;
+  return RemusMotion::run(rudder_deg, stern_deg, duration_s);
 }
 
 void record(const std::string& name, double value) {
