@@ -189,8 +189,8 @@ void measure(Raw& raw, double rate_hz, int seconds, bool with_limits) {
   beside("one reader each", Figures(one_us));
   beside("readers as many", Figures(several_us));
   if (!with_limits) return;
-  EXPECT_LE(state.p50_us, 1.35 * Figures(several_us).p50_us);
-  EXPECT_LE(state.p99_us, 2.0 * Figures(several_us).p99_us);
+  EXPECT_LE(state.p50_us, 1.35 * Figures(one_us).p50_us);
+  EXPECT_LE(state.p99_us, 2.0 * Figures(one_us).p99_us);
   EXPECT_LE(processor, 0.15);
   EXPECT_LE(memory_MB, 60.0);
 }
