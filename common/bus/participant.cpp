@@ -24,6 +24,7 @@
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos.hpp"
 #include "bus/detail/sample_type.hpp"
+#include "bus/detail/scheduling.hpp"
 #include "bus/detail/security.hpp"
 
 namespace fathom::bus {
@@ -211,7 +212,11 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
   qos.wire_protocol().participant_id = number_;
 
   auto* factory = dds::DomainParticipantFactory::get_instance();
-  participant = factory->create_participant(options.domain, qos, this, dds::StatusMask::none());
+  {
+    const detail::ScopedChores chores;
+    if (!options.looks_on) samples_as = chores.before();
+    participant = factory->create_participant(options.domain, qos, this, dds::StatusMask::none());
+  }
   if (participant != nullptr) {
     publisher = participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
     subscriber = participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT);

@@ -42,6 +42,9 @@ struct ParticipantOptions {
   /// deploy/dds or share/fathom/dds above the executable.
   std::string profiles_dir;
   SecurityOptions security{};
+  /// It looks on and nobody waits for what it makes of the samples: receiving them gives way to the services
+  /// that do more, on a processor that has not enough for all at once.
+  bool looks_on = false;
   /// "address:port" of discovery servers. Not empty: others are found through them alone, without multicast,
   /// and `peers` is not used. Only participants with a topic in common get to know each other, and one that
   /// falls silent is not told from one that leaves: its writers are no BusEventKind::writer_lost.

@@ -7,7 +7,8 @@ int main(int argc, char** argv) {
   using namespace fathom;
   return host::run<config::ConsoleConfig>(
       argc, argv,
-      {"console", "Shows navigation to people: a web page with live data, and their orders to the vehicle."},
+      {"console", "Shows navigation to people: a web page with live data, and their orders to the vehicle.",
+       true},
       [](host::ServiceHost& host, const config::ConsoleConfig& config) {
         const console::ConsoleService service(host, config);
         return host.run();

@@ -20,6 +20,7 @@ namespace fathom::host {
 struct ServiceInfo {
   std::string name;         ///< e.g. "fusion"; the executable is fathom-fusion
   std::string description;  ///< one sentence for --help
+  bool looks_on = false;    ///< as bus::ParticipantOptions has it
 };
 
 /// What every service shares: log, clock, presence on the bus, life sign once a second, orderly end.

@@ -5,7 +5,7 @@
 int main(int argc, char** argv) {
   using namespace fathom;
   return host::run<config::MonitorConfig>(
-      argc, argv, {"monitor", "Watches GPS, alignment, sensors and services, and keeps the alarms."},
+      argc, argv, {"monitor", "Watches GPS, alignment, sensors and services, and keeps the alarms.", true},
       [](host::ServiceHost& host, const config::MonitorConfig& config) {
         const monitor::MonitorService service(host, config);
         return host.run();

@@ -14,6 +14,7 @@
 #include "bus/detail/dds_log.hpp"
 #include "bus/detail/event_book.hpp"
 #include "bus/detail/peer_book.hpp"
+#include "bus/detail/scheduling.hpp"
 #include "bus/detail/stranger_book.hpp"
 #include "bus/detail/topic_ops.hpp"
 #include "bus/participant.hpp"
@@ -54,6 +55,7 @@ struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListen
   detail::EventBook events;
   detail::PeerBook peers;
   detail::StrangerBook strangers;
+  std::optional<detail::Scheduling> samples_as;      ///< of threads that carry samples; nothing: as chores
   std::optional<security::Credentials> credentials;  ///< nothing: the network is not protected
   eprosima::fastdds::dds::DomainParticipant* participant = nullptr;
   eprosima::fastdds::dds::Publisher* publisher = nullptr;

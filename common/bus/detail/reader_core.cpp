@@ -55,6 +55,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   }
 
   void on_data_available(dds::DataReader* from) override {
+    if (bus.samples_as) carry_samples(*bus.samples_as);
     const std::lock_guard lock(handler_mutex);
     dds::SampleInfo info;
     while (!closed && from->take_next_sample(&slot, &info) == ReturnCode_t::RETCODE_OK) {
@@ -66,8 +67,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
                           name + " sent bytes that are no " + ops.type_name);
         continue;
       }
-      if (requested.deadline_ns != kForever) track_deadline(info.instance_handle, guid);
       handler(slot.sample, {guid, info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()});
+      if (requested.deadline_ns != kForever) track_deadline(info.instance_handle, guid);
     }
   }
 

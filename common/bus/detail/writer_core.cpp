@@ -115,8 +115,8 @@ struct WriterCore::Impl final : dds::DataWriterListener {
 
   bool write(const void* sample) {
     SampleSlot slot{const_cast<void*>(sample), true};
-    if (offered.deadline_ns != kForever) track_deadline(slot);
     const bool written = writer->write(&slot);
+    if (offered.deadline_ns != kForever) track_deadline(slot);  // nobody waits for this
     if (written) {
       if (failed.exchange(false)) bus.events.recovered(BusEventKind::write_failed, ops.topic, "");
     } else {

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <future>
 
+#include <sched.h>
+
 #include "bus/writer.hpp"
 #include "samples/command.hpp"
 #include "samples/gps.hpp"
@@ -42,6 +44,28 @@ TEST(Delivery, EverySampleInOrderWithItsOrigin) {
   EXPECT_FALSE(peer->host.empty());
   EXPECT_EQ(peer->pid, static_cast<std::uint32_t>(getpid()));
   EXPECT_EQ(b.counters().sample_lost, 0U);
+}
+
+/// How the thread is scheduled that hands over samples of a participant made with `made_with`.
+int policy_of_handler(bus::ParticipantOptions made_with) {
+  bus::Participant a(options(103, "gps_bridge"));
+  bus::Participant b(made_with);
+  std::promise<int> policy;
+  bus::Writer<GpsSample> writer(a);
+  bus::Reader<GpsSample> reader(
+      b, [&](const GpsSample&, const bus::SampleInfo&) { policy.set_value(sched_getscheduler(0)); });
+  EXPECT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+  EXPECT_TRUE(writer.write(GpsSample{}));
+  auto said = policy.get_future();
+  return said.wait_for(std::chrono::seconds(10)) == std::future_status::ready ? said.get() : -1;
+}
+
+TEST(Delivery, OneThatLooksOnGivesWay) {
+  ASSERT_EQ(sched_getscheduler(0), SCHED_OTHER);
+  bus::ParticipantOptions made_with = options(103, "monitor");
+  EXPECT_EQ(policy_of_handler(made_with), SCHED_OTHER);
+  made_with.looks_on = true;
+  EXPECT_EQ(policy_of_handler(made_with), SCHED_BATCH);
 }
 
 TEST(Delivery, WithinOneParticipant) {
