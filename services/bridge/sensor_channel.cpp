@@ -1,7 +1,9 @@
 #include "bridge/sensor_channel.hpp"
 
 #include <utility>
+#include <vector>
 
+#include "bridge/backlog.hpp"
 #include "runtime/device_time.hpp"
 
 namespace fathom::bridge {
@@ -18,6 +20,9 @@ constexpr DurationNs kQuiet = 60 * kNsPerSecond;
 SampleHeader& header_of(codec::AnySample& sample) {
   return std::visit([](auto& value) -> SampleHeader& { return value.header; }, sample);
 }
+
+// Samples that are decoded from one read and wait for each other; a read has room for some hundred.
+constexpr std::size_t kMostAtOnce = 256;
 
 // Lets the first of a burst through.
 class Burst {
@@ -44,6 +49,8 @@ struct SensorChannel::Impl : codec::Sink {
         log(log_in),
         outlet(outlet_in),
         tracker(plan.sensor.time),
+        stamped_by_arrival(plan.sensor.time.mode == runtime::TimeMode::arrival && !paced()),
+        backlogs(kSampleKinds, Backlog(plan.intermittent ? 0.0 : plan.sensor.rate_hz)),
         health(plan.intermittent ? 0.0 : plan.sensor.rate_hz, config::stale_after_s(plan.sensor),
                plan.sensor.first_sample_s, clock.monotonic_ns()),
         source(
@@ -51,6 +58,7 @@ struct SensorChannel::Impl : codec::Sink {
             [this](std::span<const std::uint8_t> bytes, const Arrival& at) { on_bytes(bytes, at); },
             [this](const SourceEvent& event) { on_event(event); }) {
     plan.options.ascii_prefix = plan.ascii_prefix;
+    waiting.reserve(kMostAtOnce);
     new_codec();
   }
 
@@ -61,6 +69,9 @@ struct SensorChannel::Impl : codec::Sink {
   void on_rejected(const codec::Rejected& rejected) override;
 
   [[nodiscard]] bool is_ours(const codec::AnySample& sample) const;
+  [[nodiscard]] bool paced() const;
+  void stamp_and_publish(const codec::Decoded& decoded, const Arrival& at);
+  void publish_waiting();
   void keep_pace(const DeviceTime& time);
   void note_time(const runtime::Stamp& stamp);
   void add_totals();
@@ -76,6 +87,9 @@ struct SensorChannel::Impl : codec::Sink {
   codec::Totals before;  ///< of the codec, as already counted
   runtime::DeviceTimeTracker tracker;
   Arrival arrival;
+  const bool stamped_by_arrival;
+  std::vector<codec::Decoded> waiting;  ///< stamped by arrival: until all of one read are decoded
+  std::vector<Backlog> backlogs;        ///< of each kind of sample
   std::array<std::uint64_t, kSampleKinds> sequence{};
   std::array<Burst, kRejectReasons> said_rejected;
   std::array<Burst, kRefusals> said_refused;
@@ -103,7 +117,28 @@ bool SensorChannel::Impl::is_ours(const codec::AnySample& sample) const {
 void SensorChannel::Impl::on_bytes(std::span<const std::uint8_t> bytes, const Arrival& at) {
   arrival = at;
   codec->feed(bytes, *this);
+  publish_waiting();
   add_totals();
+}
+
+bool SensorChannel::Impl::paced() const {
+  const auto& from = plan.sensor.source;
+  return from.type == runtime::SourceType::file && from.pace == runtime::Pace::original;
+}
+
+void SensorChannel::Impl::publish_waiting() {
+  std::array<std::size_t, kSampleKinds> left{};
+  for (const codec::Decoded& decoded : waiting) ++left[decoded.sample.index()];
+  std::array<DurationNs, kSampleKinds> spacing_ns{};
+  for (std::size_t kind = 0; kind < kSampleKinds; ++kind) {
+    if (left[kind] > 0) spacing_ns[kind] = backlogs[kind].spacing(left[kind], arrival.monotonic_ns);
+  }
+  for (const codec::Decoded& decoded : waiting) {
+    const std::size_t kind = decoded.sample.index();
+    const DurationNs ago_ns = static_cast<DurationNs>(--left[kind]) * spacing_ns[kind];
+    stamp_and_publish(decoded, {arrival.utc_ns - ago_ns, arrival.monotonic_ns - ago_ns});
+  }
+  waiting.clear();
 }
 
 void SensorChannel::Impl::add_totals() {
@@ -124,6 +159,8 @@ void SensorChannel::Impl::on_event(const SourceEvent& event) {
   if (event.state == SourceState::lost || event.state == SourceState::finished) {
     // Half a frame of the old connection must not meet half a frame of the new one.
     codec->finish(*this);
+    publish_waiting();
+    for (Backlog& backlog : backlogs) backlog.reset();
     add_totals();
     new_codec();
     before = {};
@@ -166,9 +203,16 @@ void SensorChannel::Impl::on_sample(const codec::Decoded& decoded) {
     ++counters.ignored;
     return;
   }
-  const auto& from = plan.sensor.source;
-  if (from.type == runtime::SourceType::file && from.pace == runtime::Pace::original) keep_pace(decoded.time);
-  const runtime::Stamp stamp = tracker.stamp(decoded.time, arrival);
+  if (stamped_by_arrival) {
+    waiting.push_back(decoded);
+    return;
+  }
+  if (paced()) keep_pace(decoded.time);
+  stamp_and_publish(decoded, arrival);
+}
+
+void SensorChannel::Impl::stamp_and_publish(const codec::Decoded& decoded, const Arrival& at) {
+  const runtime::Stamp stamp = tracker.stamp(decoded.time, at);
   note_time(stamp);
 
   codec::AnySample sample = decoded.sample;

@@ -29,6 +29,7 @@
 #include "samples/health.hpp"
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
+#include "support/presence.hpp"
 #include "support/process.hpp"
 #include "support/process_usage.hpp"
 #include "support/temporary_folder.hpp"
@@ -55,14 +56,6 @@ std::string survey_at(double rate_hz, const TemporaryFolder& folder) {
   return path;
 }
 
-bus::ParticipantOptions presence(const std::string& name) {
-  bus::ParticipantOptions out;
-  out.name = name;
-  out.domain = kDomain;
-  out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
-  return out;
-}
-
 /// When each inertial sample was published, by its arrival at the bridge, which is in the state made of it.
 class Publications {
  public:
@@ -80,7 +73,7 @@ class Publications {
 
  private:
   static bus::ParticipantOptions options() {
-    auto out = presence("latency_bench_publications");
+    auto out = presence(kDomain, "latency_bench_publications");
     out.looks_on = true;
     return out;
   }
@@ -99,7 +92,7 @@ struct Heard {
 class Guidance {
  public:
   Guidance()
-      : participant_(presence("latency_bench")),
+      : participant_(presence(kDomain, "latency_bench")),
         states_(participant_,
                 [this](const NavState& state, const bus::SampleInfo&) {
                   const TimeNs here_ns = clock_.utc_ns();

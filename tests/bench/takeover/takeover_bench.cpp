@@ -40,6 +40,7 @@
 #include "samples/nav_state.hpp"
 #include "samples/replication.hpp"
 #include "samples/usbl.hpp"
+#include "support/presence.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
@@ -54,19 +55,11 @@ struct Heard {
   TimeNs arrived_ns = 0;
 };
 
-bus::ParticipantOptions presence(const std::string& name) {
-  bus::ParticipantOptions out;
-  out.name = name;
-  out.domain = kDomain;
-  out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
-  return out;
-}
-
 /// Guidance, and what the services say of themselves.
 class Guidance {
  public:
   Guidance()
-      : participant_(presence("takeover_bench")),
+      : participant_(presence(kDomain, "takeover_bench")),
         states_(participant_,
                 [this](const NavState& state, const bus::SampleInfo&) {
                   const std::lock_guard lock(mutex_);
@@ -164,7 +157,7 @@ class Witness {
         .value;
   }
   static bus::ParticipantOptions options() {
-    auto out = presence("takeover_bench_witness");
+    auto out = presence(kDomain, "takeover_bench_witness");
     out.looks_on = true;
     return out;
   }

@@ -21,6 +21,8 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "support/presence.hpp"
+
 extern char** environ;
 
 namespace fathom::test {
@@ -201,11 +203,7 @@ int free_port(int type) {
 }
 
 bus::ParticipantOptions test_participant(int domain) {
-  bus::ParticipantOptions out;
-  out.name = "test";
-  out.domain = static_cast<std::uint32_t>(domain);
-  out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
-  return out;
+  return presence(static_cast<std::uint32_t>(domain), "test");
 }
 
 bool is_in_state(const Collector<ServiceStatus>& status, ServiceState state, const std::string& text) {

@@ -12,17 +12,14 @@
 
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
+#include "support/presence.hpp"
 
 namespace fathom::test {
 
 using std::chrono::milliseconds;
 
 inline bus::ParticipantOptions options(std::uint32_t domain, const std::string& name) {
-  bus::ParticipantOptions options;
-  options.name = name;
-  options.domain = domain;
-  options.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
-  return options;
+  return presence(domain, name);
 }
 
 /// True as soon as `condition` is; false when it has not become so within `limit`.

@@ -12,6 +12,7 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "samples/health.hpp"
+#include "support/presence.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
@@ -48,10 +49,7 @@ class Ear {
 
  private:
   static bus::ParticipantOptions options() {
-    bus::ParticipantOptions out;
-    out.name = "ear";
-    out.domain = kDomain;
-    out.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
+    auto out = presence(kDomain, "ear");
     out.peers = {};
     out.discovery_servers = {kServer};
     return out;

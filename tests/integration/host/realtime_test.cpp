@@ -19,6 +19,7 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "samples/health.hpp"
+#include "support/presence.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
@@ -54,11 +55,7 @@ class RealtimeService : public ::testing::Test {
  protected:
   void listen(std::uint32_t domain) {
     domain_ = domain;
-    bus::ParticipantOptions options;
-    options.name = "ear";
-    options.domain = domain;
-    options.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
-    participant_ = std::make_unique<bus::Participant>(options);
+    participant_ = std::make_unique<bus::Participant>(presence(domain, "ear"));
     reader_ = std::make_unique<bus::Reader<ServiceStatus>>(
         *participant_, [this](const ServiceStatus& status, const bus::SampleInfo&) {
           const std::lock_guard lock(mutex_);

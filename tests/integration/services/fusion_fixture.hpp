@@ -29,6 +29,7 @@
 #include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/verdict.hpp"
+#include "support/presence.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
@@ -44,7 +45,7 @@ inline constexpr double kGravity = 9.798;
 class StillVehicle {
  public:
   explicit StillVehicle(std::uint32_t domain, TimeNs start_ns = kStart_ns)
-      : start_ns_(start_ns), participant_(options(domain)) {}
+      : start_ns_(start_ns), participant_(presence(domain, "still_vehicle")) {}
 
   [[nodiscard]] bool heard() const {
     return imu_.matched_readers() > 0 && gps_.matched_readers() > 0 && dvl_.matched_readers() > 0 &&
@@ -116,14 +117,6 @@ class StillVehicle {
   }
 
  private:
-  static bus::ParticipantOptions options(std::uint32_t domain) {
-    bus::ParticipantOptions out;
-    out.name = "still_vehicle";
-    out.domain = domain;
-    out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
-    return out;
-  }
-
   TimeNs start_ns_;
   int ticks_ = 0;
   std::uint64_t sequence_ = 0;

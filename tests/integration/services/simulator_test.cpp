@@ -15,6 +15,7 @@
 #include "bus/reader.hpp"
 #include "codec/registry.hpp"
 #include "samples/truth.hpp"
+#include "support/presence.hpp"
 #include "support/process.hpp"
 
 namespace fathom {
@@ -115,11 +116,7 @@ TEST_F(Simulator, ALinkLeftByAKilledSimulatorIsReplaced) {
 }
 
 TEST_F(Simulator, TheTruthIsOnItsTopic) {
-  bus::ParticipantOptions options;
-  options.name = "test";
-  options.domain = kDomain;
-  options.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
-  bus::Participant participant(options);
+  bus::Participant participant(test::presence(kDomain, "test"));
   std::atomic<int> received{0};
   const bus::Reader<Truth> reader(participant, [&](const Truth& truth, const bus::SampleInfo&) {
     if (known(truth.latitude_rad)) ++received;

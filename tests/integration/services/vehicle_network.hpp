@@ -16,6 +16,7 @@
 #include "samples/gps.hpp"
 #include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "support/presence.hpp"
 
 namespace fathom::test {
 
@@ -23,7 +24,7 @@ namespace fathom::test {
 class VehicleNetwork {
  public:
   VehicleNetwork(std::uint32_t domain, const Clock& clock, const std::string& name = "test_vehicle")
-      : clock_(clock), began_ns_(clock.utc_ns()), participant_(options(domain, name)) {}
+      : clock_(clock), began_ns_(clock.utc_ns()), participant_(presence(domain, name)) {}
 
   SampleHeader header(const Name& sensor) {
     SampleHeader out;
@@ -108,14 +109,6 @@ class VehicleNetwork {
   [[nodiscard]] bool commands_heard_by_someone() const { return command_.matched_readers() > 0; }
 
  private:
-  static bus::ParticipantOptions options(std::uint32_t domain, const std::string& name) {
-    bus::ParticipantOptions out;
-    out.name = name;
-    out.domain = domain;
-    out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
-    return out;
-  }
-
   const Clock& clock_;
   TimeNs began_ns_;
   std::atomic<std::uint64_t> sequence_{0};  ///< samples may be written from several threads

@@ -13,6 +13,7 @@
 #include "bus/topics.hpp"
 #include "bus/writer.hpp"
 #include "sample_fields.hpp"
+#include "support/presence.hpp"
 
 namespace fathom {
 namespace {
@@ -21,11 +22,7 @@ using bus::detail::EffectiveQos;
 using bus::detail::kForever;
 
 bus::ParticipantOptions options() {
-  bus::ParticipantOptions options;
-  options.name = "qos_test";
-  options.domain = 101;
-  options.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
-  return options;
+  return test::presence(101, "qos_test");
 }
 
 struct Pair {

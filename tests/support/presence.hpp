@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bus/participant.hpp"
+
+namespace fathom::test {
+
+/// Of a participant on this host alone, with the project's QoS profiles.
+inline bus::ParticipantOptions presence(std::uint32_t domain, const std::string& name) {
+  bus::ParticipantOptions out;
+  out.name = name;
+  out.domain = domain;
+  out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
+  return out;
+}
+
+}  // namespace fathom::test
