@@ -30,6 +30,8 @@ bus::ParticipantOptions participant_options(const ClientOptions& options) {
   return out;
 }
 
+constexpr DurationNs kOvertaken_ns = 10 * kNsPerSecond;
+
 /// A handler that may be replaced at any time, also by itself.
 template <class T>
 class Callback {
@@ -86,11 +88,12 @@ struct Client::Impl {
   }
 
   /// When one fusion service takes over from another, a state of the one may come in behind newer ones of the
-  /// other. Precondition: mutex held.
+  /// other; on a machine that has too much to do, by seconds. Further behind, it is of a clock set anew.
+  /// Precondition: mutex held.
   [[nodiscard]] bool overtaken(const NavState& state) const {
     if (!latest || state.header.sensor == latest->header.sensor) return false;
     const DurationNs behind_ns = latest->header.stamp_ns - state.header.stamp_ns;
-    return behind_ns > 0 && behind_ns < kNsPerSecond;
+    return behind_ns > 0 && behind_ns < kOvertaken_ns;
   }
 
   void take(const NavState& state) {

@@ -4,11 +4,17 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <fathom/client.hpp>
 #include <gtest/gtest.h>
 
+#include "bus/participant.hpp"
+#include "bus/writer.hpp"
+#include "samples/nav_state.hpp"
+#include "support/presence.hpp"
 #include "support/process.hpp"
 #include "vehicle_network.hpp"
 
@@ -53,6 +59,47 @@ TEST(Client, GivesTheNewestStateByCallbackByValueAndByWaiting) {
   EXPECT_FALSE(client.health().ok);
   EXPECT_FALSE(client.health().fresh);
   EXPECT_NE(client.health().reason.find("old"), std::string::npos);
+}
+
+TEST(Client, TimeDoesNotGoBackWhenOneFusionTakesOverFromAnother) {
+  const TimeNs now = SystemClock().utc_ns();
+  bus::Participant participant(presence(184, "two_fusions"));
+  bus::Writer<NavState> writer(participant);
+  Client client(options(184));
+  std::mutex mutex;
+  std::vector<std::pair<std::string, DurationNs>> heard;
+  client.on_nav_state([&](const NavState& state) {
+    const std::lock_guard lock(mutex);
+    heard.emplace_back(state.header.sensor.str(), (state.header.stamp_ns - now) / kNsPerMillisecond);
+  });
+  ASSERT_TRUE(wait_until([&] { return writer.matched_readers() == 1; }));
+  const auto arrived = [&] {
+    const std::lock_guard lock(mutex);
+    return heard.size();
+  };
+  const auto say = [&](const Name& fusion, DurationNs stamp_ms) {
+    NavState state;
+    state.header.vehicle = "auv";
+    state.header.sensor = fusion;
+    state.header.stamp_ns = now + stamp_ms * kNsPerMillisecond;
+    EXPECT_TRUE(writer.write(state));
+  };
+  say("leader", 1000);
+  ASSERT_TRUE(wait_until([&] { return arrived() == 1; }));
+  say("standby", 7000);
+  ASSERT_TRUE(wait_until([&] { return arrived() == 2; }));
+  say("leader", 2000);  // it had been held up, and goes on with what it had not said
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the client's reader keeps the newest alone
+  say("leader", 6500);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  say("leader", 7500);
+  ASSERT_TRUE(wait_until([&] { return arrived() >= 3; }));
+  say("standby", -30'000);  // UTC was set
+  ASSERT_TRUE(wait_until([&] { return arrived() >= 4; }));
+  const std::vector<std::pair<std::string, DurationNs>> expected{
+      {"leader", 1000}, {"standby", 7000}, {"leader", 7500}, {"standby", -30'000}};
+  const std::lock_guard lock(mutex);
+  EXPECT_EQ(heard, expected);
 }
 
 TEST(Client, KeepsToOneVehicleAndPassesOnAlarmsAndTheMonitorsView) {

@@ -110,7 +110,7 @@ class Client {
   /// returned, unless this is called from within a handler.
   ///
   /// header.sensor says which fusion service it is from: several may stand by for each other. What comes from
-  /// one of them behind newer states of another one is left out.
+  /// one of them up to ten seconds behind newer states of another one is left out.
   void on_nav_state(NavStateHandler handler);
   /// Likewise for alarms of the monitor: raised, escalated, cleared, acknowledged, and every few seconds
   /// again.
