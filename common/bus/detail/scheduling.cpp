@@ -15,9 +15,8 @@ bool set(const Scheduling& to) {
 
 Scheduling current() {
   sched_param parameters{};
-  const int policy = sched_getscheduler(0);
-  return sched_getparam(0, &parameters) == 0 ? Scheduling{policy, parameters.sched_priority}
-                                             : Scheduling{policy, 0};
+  (void)sched_getparam(0, &parameters);
+  return {sched_getscheduler(0), parameters.sched_priority};
 }
 
 std::optional<Scheduling> of_chores(const Scheduling& samples) {
@@ -42,8 +41,7 @@ void carry_samples(const Scheduling& as) {
   thread_local bool done = false;
   if (done) return;
   done = true;
-  const Scheduling now = current();
-  if (now.policy != as.policy || now.priority != as.priority) set(as);
+  set(as);
 }
 
 }  // namespace fathom::bus::detail

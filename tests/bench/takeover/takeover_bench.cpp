@@ -219,9 +219,8 @@ double quantile(std::vector<double> values, double share) {
 }
 
 /// A vehicle navigates, in the soak test in the dive; one that has come to its end is begun again.
-bool under_way(
-    const Guidance& guidance, std::optional<Process>& demo, bool soak,
-    const std::vector<std::string>& options, const std::function<void()>& begins = [] {}) {
+bool under_way(const Guidance& guidance, std::optional<Process>& demo, bool soak,
+               const std::vector<std::string>& options, const std::function<void()>& begins) {
   if (!demo || !demo->running()) {
     begins();
     std::vector<std::string> arguments{"--no-console", "--domain", std::to_string(kDomain), "--duration",
@@ -341,7 +340,7 @@ TEST(Restart, OfTheOnlyFusion) {
   std::vector<double> gaps_s;
   std::vector<double> steps_sigma;
   while (first_ms.size() < times) {
-    ASSERT_TRUE(wait_until([&] { return under_way(guidance, demo, soak, {}); }, 3.0 * kPatienceS));
+    ASSERT_TRUE(wait_until([&] { return under_way(guidance, demo, soak, {}, [] {}); }, 3.0 * kPatienceS));
     // Long enough for a checkpoint, and for what the killed one said to be over.
     const std::size_t calm = guidance.count();
     ASSERT_TRUE(wait_until([&] { return guidance.count() > calm + 300; }, kPatienceS));
