@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <mutex>
 #include <set>
+#include <string_view>
 
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
@@ -111,6 +113,8 @@ bool loopback(const std::string& address) {
   return address.starts_with("127.");
 }
 
+constexpr std::string_view kLooksOn = ";looks_on";
+
 dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
                                           const std::string& profiles_dir) {
   dds::DomainParticipantQos qos;
@@ -119,7 +123,8 @@ dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
     throw BusError(profiles_dir + ": the QoS profiles have no participant '" + kParticipantProfile + "'");
   }
   qos.name(options.name);
-  const std::string user = "host=" + host_name() + ";pid=" + std::to_string(getpid());
+  std::string user = "host=" + host_name() + ";pid=" + std::to_string(getpid());
+  if (options.looks_on) user += kLooksOn;
   qos.user_data().setValue(std::vector<rtps::octet>(user.begin(), user.end()));
 
   // The profile's transport is shared by everybody in this process who loads it: give interfaces to a copy.
@@ -162,6 +167,7 @@ Peer to_peer(const rtps::ParticipantProxyData& data) {
   if (host != 0 || pid == std::string::npos) return peer;
   peer.host = text.substr(5, pid - 5);
   peer.pid = static_cast<std::uint32_t>(std::strtoul(text.c_str() + pid + 5, nullptr, 10));
+  peer.looks_on = text.ends_with(kLooksOn);
   return peer;
 }
 
@@ -202,6 +208,9 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
   const std::string profiles_dir = detail::find_profiles_dir(options.profiles_dir);
   detail::load_profiles(profiles_dir);
   dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);
+  auto& sockets = qos.transport().user_transports.front();
+  sockets = std::make_shared<detail::TransportDescriptor>(
+      sockets, onlookers_, [this](const std::string& address) { refuse_datagram(address); });
   if (!options.security.folder.empty()) {
     credentials = detail::credentials_of(options);
     detail::protect(qos, *credentials);
@@ -303,9 +312,25 @@ void Participant::Impl::participant_dropped(const detail::GuidPrefix& prefix) {
   }
 }
 
+void Participant::Impl::refuse_datagram(const std::string& address) {
+  // The address is hearsay, and there may be many of them: reported once.
+  events.report(BusEventKind::malformed_datagram, "", "",
+                "one from " + address + " would have ended this service; left out, and those that follow");
+}
+
+void Participant::Impl::note_order(const detail::GuidPrefix& prefix,
+                                   const rtps::ParticipantDiscoveryInfo& info) {
+  const bool left = info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT ||
+                    info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT;
+  if (left || !to_peer(info.info).looks_on) return onlookers_->gone(prefix);
+  const auto& at = info.info.default_locators.unicast;
+  onlookers_->seen(prefix, {at.begin(), at.end()});
+}
+
 void Participant::Impl::on_participant_discovery(dds::DomainParticipant*,
                                                  rtps::ParticipantDiscoveryInfo&& info) {
   const detail::GuidPrefix prefix = to_prefix(info.info.m_guid);
+  note_order(prefix, info);
   switch (info.status) {
     case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
     case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:

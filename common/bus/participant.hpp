@@ -42,8 +42,9 @@ struct ParticipantOptions {
   /// deploy/dds or share/fathom/dds above the executable.
   std::string profiles_dir;
   SecurityOptions security{};
-  /// It looks on and nobody waits for what it makes of the samples: receiving them gives way to the services
-  /// that do more, on a processor that has not enough for all at once.
+  /// It looks on and nobody waits for what it makes of the samples: it is sent them after all others, and
+  /// receiving them gives way to the services that do more, on a processor that has not enough for all at
+  /// once.
   bool looks_on = false;
   /// "address:port" of discovery servers. Not empty: others are found through them alone, without multicast,
   /// and `peers` is not used. Only participants with a topic in common get to know each other, and one that
@@ -66,6 +67,7 @@ enum class BusEventKind : std::uint8_t {
   invalid_sample,      ///< bytes arrived that are no sample of the topic's type
   stranger_refused,    ///< somebody has not proved an identity of this vehicle; no topic
   permission_refused,  ///< somebody tried to read or write a topic without permission
+  malformed_datagram,  ///< one that would have ended this process; no topic
 };
 
 /// The kind in words, e.g. "deadline missed".
@@ -90,6 +92,7 @@ struct BusCounters {
   std::uint64_t invalid_sample = 0;
   std::uint64_t stranger_refused = 0;
   std::uint64_t permission_refused = 0;
+  std::uint64_t malformed_datagram = 0;
 };
 
 /// Identity of a writer, unique on the network; SampleInfo carries it.
@@ -101,6 +104,7 @@ struct Peer {
   std::string host;  ///< empty when the participant does not say
   std::uint32_t pid = 0;
   bool offers_identity = false;  ///< it expects others to prove theirs
+  bool looks_on = false;         ///< as its ParticipantOptions have it
 };
 
 /// Somebody on a protected network who has not proved an identity of this vehicle. Name and address are

@@ -22,9 +22,11 @@ void IntruderWatch::add(const ServiceStatus& status, const Instant& now) {
     started_ns_[service] = status.started_ns;
     strangers_.counted[service] = 0;
     permissions_.counted[service] = 0;
+    malformed_.counted[service] = 0;
   }
   follow(strangers_, service, status.counter("bus_stranger_refused"), now);
   follow(permissions_, service, status.counter("bus_permission_refused"), now);
+  follow(malformed_, service, status.counter("bus_malformed_datagram"), now);
 }
 
 void IntruderWatch::follow(Refusals& refusals, const Name& service, std::uint64_t value, const Instant& now) {
@@ -77,6 +79,16 @@ void IntruderWatch::report(AlarmBook& book, const Instant& now) const {
                 "there.",
                 denied.c_str()),
             .began_ago_s = to_seconds(now.monotonic_ns - permissions_.since_ns)},
+           now);
+  const std::string hit = recent(malformed_, now);
+  book.set(!hit.empty(),
+           {.key = "malformed_datagram",
+            .severity = Severity::warning,
+            .text = sentence(
+                "Somebody sends datagrams that would end a service, and are left out; counted by %.100s, see "
+                "the log there.",
+                hit.c_str()),
+            .began_ago_s = to_seconds(now.monotonic_ns - malformed_.since_ns)},
            now);
 }
 

@@ -9,9 +9,10 @@
 
 namespace fathom::health {
 
-/// Who knocks on a protected network, by what services count in their life signs and by whom the monitor
-/// itself sees: "stranger_refused", somebody who proved no identity, and "permission_refused", an identity
-/// that tried what it may not. Both are warnings, active while it goes on and for kWindowS after.
+/// Who knocks on the network, by what services count in their life signs and by whom the monitor itself sees:
+/// "stranger_refused", somebody who proved no identity, and "permission_refused", an identity that tried what
+/// it may not, where the network is protected; "malformed_datagram", bytes that would have ended a service.
+/// All are warnings, active while it goes on and for kWindowS after.
 class IntruderWatch {
  public:
   static constexpr double kWindowS = 30.0;
@@ -37,6 +38,7 @@ class IntruderWatch {
   std::map<Name, TimeNs> started_ns_;
   Refusals strangers_;
   Refusals permissions_;
+  Refusals malformed_;
   std::vector<std::string> present_;
   TimeNs present_since_ns_ = 0;
 };

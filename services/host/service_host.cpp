@@ -60,7 +60,8 @@ void append_bus_counters(const bus::BusCounters& counters, ServiceStatus& status
       {"bus_resource_limit", counters.resource_limit},
       {"bus_invalid_sample", counters.invalid_sample},
       {"bus_stranger_refused", counters.stranger_refused},
-      {"bus_permission_refused", counters.permission_refused}};
+      {"bus_permission_refused", counters.permission_refused},
+      {"bus_malformed_datagram", counters.malformed_datagram}};
   // The bus's counters are the same for every service and must not be crowded out.
   status.counters.resize(std::min(status.counters.size(), kMostCounters - std::size(all)));
   for (const auto& [name, value] : all) status.counters.push_back({name, value});

@@ -26,6 +26,8 @@ std::string_view to_string(BusEventKind kind) {
       return "stranger refused";
     case BusEventKind::permission_refused:
       return "permission refused";
+    case BusEventKind::malformed_datagram:
+      return "malformed datagram";
   }
   return "unknown";
 }
@@ -52,9 +54,11 @@ std::uint64_t& counter(BusCounters& counters, BusEventKind kind) {
     case BusEventKind::stranger_refused:
       return counters.stranger_refused;
     case BusEventKind::permission_refused:
+      return counters.permission_refused;
+    case BusEventKind::malformed_datagram:
       break;
   }
-  return counters.permission_refused;
+  return counters.malformed_datagram;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "bus/detail/scheduling.hpp"
 #include "bus/detail/stranger_book.hpp"
 #include "bus/detail/topic_ops.hpp"
+#include "bus/detail/transport.hpp"
 #include "bus/participant.hpp"
 #include "security/credentials.hpp"
 
@@ -67,6 +68,10 @@ struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListen
     std::string topic;
     std::chrono::steady_clock::time_point when;
   };
+  void refuse_datagram(const std::string& address);
+  /// Whether samples go to this participant after all others.
+  void note_order(const detail::GuidPrefix& prefix,
+                  const eprosima::fastrtps::rtps::ParticipantDiscoveryInfo& info);
   void participant_dropped(const detail::GuidPrefix& prefix);
   void meet(const detail::GuidPrefix& prefix, const Peer& peer,
             const eprosima::fastrtps::rtps::ParticipantProxyData& data);
@@ -75,6 +80,7 @@ struct Participant::Impl final : eprosima::fastdds::dds::DomainParticipantListen
   void on_dds_error(const std::string& message);
   void close();
 
+  const std::shared_ptr<detail::Onlookers> onlookers_ = std::make_shared<detail::Onlookers>();
   int number_ = -1;  // among the participants of this process
 
   std::mutex mutex_;

@@ -55,6 +55,9 @@ int policy_of_handler(bus::ParticipantOptions made_with) {
   bus::Reader<GpsSample> reader(
       b, [&](const GpsSample&, const bus::SampleInfo&) { policy.set_value(sched_getscheduler(0)); });
   EXPECT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+  const auto others = a.peers();
+  EXPECT_EQ(others.size(), 1U);
+  for (const bus::Peer& other : others) EXPECT_EQ(other.looks_on, made_with.looks_on);
   EXPECT_TRUE(writer.write(GpsSample{}));
   auto said = policy.get_future();
   return said.wait_for(std::chrono::seconds(10)) == std::future_status::ready ? said.get() : -1;

@@ -82,6 +82,7 @@ TEST(EventBook, CountsEachKindByItself) {
   book.report(BusEventKind::invalid_sample, "t", "", "", 7);
   book.report(BusEventKind::stranger_refused, "", "", "", 8);
   book.report(BusEventKind::permission_refused, "t", "", "", 9);
+  book.report(BusEventKind::malformed_datagram, "", "", "", 10);
   const BusCounters counters = book.counters();
   EXPECT_EQ(counters.incompatible_qos, 1U);
   EXPECT_EQ(counters.deadline_missed, 2U);
@@ -92,6 +93,7 @@ TEST(EventBook, CountsEachKindByItself) {
   EXPECT_EQ(counters.invalid_sample, 7U);
   EXPECT_EQ(counters.stranger_refused, 8U);
   EXPECT_EQ(counters.permission_refused, 9U);
+  EXPECT_EQ(counters.malformed_datagram, 10U);
 }
 
 WriterGuid guid(std::uint8_t participant, std::uint8_t entity) {

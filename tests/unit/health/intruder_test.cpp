@@ -14,9 +14,12 @@ using testing::HasSubstr;
 class Intruders : public testing::Test {
  protected:
   void life(const Name& service, double seconds, std::uint64_t strangers, std::uint64_t denied = 0,
-            std::uint32_t pid = 100) {
+            std::uint32_t pid = 100, std::uint64_t malformed = 0) {
     ServiceStatus status = life_sign(service, seconds, ServiceState::healthy, pid);
-    status.counters = {{"other", 7}, {"bus_stranger_refused", strangers}, {"bus_permission_refused", denied}};
+    status.counters = {{"other", 7},
+                       {"bus_stranger_refused", strangers},
+                       {"bus_permission_refused", denied},
+                       {"bus_malformed_datagram", malformed}};
     watch.add(status, at(seconds));
   }
   const Alarm* alarm(const Name& key, double seconds) {
@@ -36,6 +39,15 @@ TEST_F(Intruders, NobodyIsNoAlarm) {
   for (int second = 0; second < 60; ++second) life("fusion", second, 0);
   EXPECT_EQ(alarm("stranger_refused", 60), nullptr);
   EXPECT_EQ(alarm("permission_refused", 60), nullptr);
+  EXPECT_EQ(alarm("malformed_datagram", 60), nullptr);
+}
+
+TEST_F(Intruders, DatagramsThatWouldEndAServiceAreAnAlarm) {
+  life("fusion", 0, 0, 0, 100, 1);
+  ASSERT_TRUE(active("malformed_datagram", 0));
+  EXPECT_EQ(book.find("malformed_datagram")->severity, Severity::warning);
+  EXPECT_THAT(book.find("malformed_datagram")->text, HasSubstr("counted by fusion,"));
+  EXPECT_EQ(alarm("stranger_refused", 0), nullptr);
 }
 
 TEST_F(Intruders, ACountThatGrowsIsAnAlarmThatStaysUntilAcknowledged) {

@@ -1,0 +1,249 @@
+// What stands between Fast DDS and the sockets: who is sent a datagram first, and what is not let in.
+
+#include "bus/detail/transport.hpp"
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fastdds/rtps/network/SenderResource.h>
+#include <fastdds/rtps/transport/TransportReceiverInterface.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
+#include <fastrtps/utils/IPLocator.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bus/detail/datagram_check.hpp"
+#include "bus/detail/onlookers.hpp"
+#include "support/rtps_datagram.hpp"
+
+namespace fathom::bus::detail {
+namespace {
+
+namespace rtps = eprosima::fastdds::rtps;
+using test::rtps::Bytes;
+using test::rtps::data;
+using test::rtps::datagram;
+using test::rtps::kHeartbeat;
+using test::rtps::kStatistics;
+using test::rtps::kTimestamp;
+using test::rtps::parameter;
+using test::rtps::put_u16;
+using test::rtps::submessage;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using Locators = std::vector<rtps::Locator>;
+
+rtps::Locator locator(std::uint32_t port, const std::string& address = "127.0.0.1") {
+  rtps::Locator out;
+  eprosima::fastrtps::rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, address, port, out);
+  return out;
+}
+
+GuidPrefix prefix(std::uint8_t last) {
+  GuidPrefix out{};
+  out[11] = last;
+  return out;
+}
+
+std::vector<std::uint32_t> ports(const Locators& locators) {
+  std::vector<std::uint32_t> out;
+  for (const rtps::Locator& one : locators) out.push_back(one.port);
+  return out;
+}
+
+std::vector<std::uint32_t> ordered(const Onlookers& onlookers, Locators destinations) {
+  onlookers.to_the_back(destinations);
+  return ports(destinations);
+}
+
+TEST(Onlookers, ComeLastAndTheOrderStaysOtherwise) {
+  Onlookers onlookers;
+  const Locators all{locator(1), locator(2), locator(3), locator(4), locator(5)};
+  EXPECT_THAT(ordered(onlookers, all), ElementsAre(1, 2, 3, 4, 5));
+  onlookers.seen(prefix(1), {locator(4)});
+  onlookers.seen(prefix(2), {locator(1), locator(1, "10.0.0.9")});
+  EXPECT_THAT(ordered(onlookers, all), ElementsAre(2, 3, 5, 1, 4));
+  EXPECT_THAT(ordered(onlookers, {locator(1), locator(4)}), ElementsAre(1, 4));
+  EXPECT_THAT(ordered(onlookers, {}), IsEmpty());
+}
+
+TEST(Onlookers, AnotherAddressIsAnotherReceiver) {
+  Onlookers onlookers;
+  onlookers.seen(prefix(1), {locator(1, "10.0.0.9")});
+  EXPECT_THAT(ordered(onlookers, {locator(1), locator(2)}), ElementsAre(1, 2));
+}
+
+TEST(Onlookers, OneThatMovedOrLeftIsNotAskedForWhereItWas) {
+  Onlookers onlookers;
+  onlookers.seen(prefix(1), {locator(1)});
+  onlookers.seen(prefix(1), {locator(2)});
+  EXPECT_THAT(ordered(onlookers, {locator(1), locator(2), locator(3)}), ElementsAre(1, 3, 2));
+  onlookers.gone(prefix(1));
+  EXPECT_THAT(ordered(onlookers, {locator(1), locator(2), locator(3)}), ElementsAre(1, 2, 3));
+}
+
+TEST(Harmless, WhatFastDdsAndOthersSend) {
+  EXPECT_TRUE(harmless(
+      datagram({submessage(kTimestamp, 8), submessage(kHeartbeat, 300), submessage(kStatistics, 56)})));
+  EXPECT_TRUE(harmless(datagram({submessage(kHeartbeat, 20, false), submessage(kStatistics, 56, false)})));
+  EXPECT_TRUE(harmless(datagram({submessage(kTimestamp, 0), submessage(kHeartbeat, 20)})));
+  EXPECT_TRUE(harmless(datagram({})));
+  EXPECT_TRUE(harmless({}));
+}
+
+TEST(Harmless, DataWithAndWithoutInlineQos) {
+  for (const bool little : {true, false}) {
+    EXPECT_TRUE(harmless(datagram({data({}, 156, little), submessage(kStatistics, 56)})));
+    EXPECT_TRUE(harmless(datagram({data({}, 0, little)})));
+    EXPECT_TRUE(
+        harmless(datagram({data({parameter(0x70, 16, little), parameter(1, 0, little)}, 40, little)})));
+    EXPECT_TRUE(harmless(datagram({data({parameter(0x71, 4, little), parameter(1, 0, little)}, 0, little)})));
+    EXPECT_TRUE(harmless(datagram({data({parameter(1, 0, little)}, 100, little, -1, true)})));
+    EXPECT_TRUE(
+        harmless(datagram({data({parameter(1, 300, little)}, 4, little)})));  // a sentinel has no content
+  }
+}
+
+TEST(Harmless, NotDataWhoseInlineQosGoesOnBehindItsEnd) {
+  for (const bool fragment : {true, false}) {
+    for (const bool little : {true, false}) {
+      const auto cut = [&](const std::vector<Bytes>& inline_qos) {
+        return harmless(datagram({data(inline_qos, 0, little, -1, fragment), submessage(kHeartbeat, 200)}));
+      };
+      EXPECT_TRUE(cut({parameter(0x70, 16, little), parameter(1, 0, little)}));
+      EXPECT_FALSE(cut({parameter(0x70, 16, little)}));
+      Bytes longer = parameter(0x70, 16, little);
+      put_u16(longer, 2, 100, little);
+      EXPECT_FALSE(cut({longer, parameter(1, 0, little)}));
+      EXPECT_FALSE(cut({Bytes{1, 0}}));
+    }
+  }
+}
+
+TEST(Harmless, NotDataWhoseContentBeginsElsewhere) {
+  EXPECT_TRUE(harmless(datagram({data({}, 20, true, 36)})));
+  for (const int offset : {0, 15, 37, 0x7FFF, 0x8000, 0xFFFF}) {
+    EXPECT_FALSE(harmless(datagram({data({}, 20, true, offset), submessage(kHeartbeat, 200)}))) << offset;
+  }
+  EXPECT_FALSE(harmless(datagram({submessage(0x15, 19)})));
+  EXPECT_FALSE(harmless(datagram({submessage(0x16, 31)})));
+}
+
+TEST(Harmless, NotAFragmentThatItsSampleDoesNotHave) {
+  for (const bool little : {true, false}) {
+    const Bytes good = data({}, 100, little, -1, true);
+    EXPECT_TRUE(harmless(datagram({good})));
+    const auto with = [&](std::size_t at, unsigned value) {
+      Bytes changed = good;
+      put_u16(changed, at, value, little);
+      return harmless(datagram({changed}));
+    };
+    const std::size_t low = little ? 0 : 2;
+    EXPECT_TRUE(with(24 + low, 3));
+    EXPECT_FALSE(with(24 + low, 4));
+    EXPECT_FALSE(with(24 + low, 0));
+    EXPECT_FALSE(with(26 - low, 1));  // of the upper half
+    EXPECT_TRUE(with(28, 2));
+    EXPECT_FALSE(with(28, 3));
+    EXPECT_FALSE(with(28, 0));
+    EXPECT_FALSE(with(30, 0));
+    EXPECT_FALSE(with(32 + low, 100));
+  }
+}
+
+TEST(Harmless, NotWithAnythingBehindTheStatistics) {
+  EXPECT_FALSE(harmless(datagram({submessage(kStatistics, 56), submessage(kHeartbeat, 20)})));
+  EXPECT_FALSE(harmless(datagram({submessage(kStatistics, 56, false), {0}})));
+  EXPECT_FALSE(
+      harmless(datagram({submessage(kTimestamp, 0), submessage(kStatistics, 56), submessage(1, 0)})));
+  EXPECT_FALSE(harmless(datagram({submessage(kHeartbeat, 18), {0, 0}, submessage(kStatistics, 56), {0, 0}})));
+}
+
+TEST(Harmless, TheSameOfAnotherVendorMeansSomethingElse) {
+  EXPECT_TRUE(harmless(datagram({submessage(kStatistics, 56), submessage(kHeartbeat, 20)}, 0x10)));
+}
+
+TEST(Harmless, WhatFastDdsDoesNotWalkToDoesNoHarm) {
+  Bytes beyond = submessage(kHeartbeat, 20);
+  beyond[2] = 0xFF;
+  EXPECT_TRUE(harmless(datagram({beyond, submessage(kStatistics, 56), {0}})));
+  EXPECT_TRUE(harmless(datagram({submessage(kHeartbeat, 0), submessage(kStatistics, 56), {0}})));
+}
+
+TEST(Harmless, AnyCutOfADatagramIsJudgedWithinItsBytes) {
+  const Bytes whole =
+      datagram({submessage(kTimestamp, 8), submessage(kStatistics, 56), submessage(kHeartbeat, 20)});
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_EQ(harmless(cut), size <= 20 + 12 + 60) << size;
+  }
+}
+
+struct Socket final : eprosima::fastrtps::rtps::SenderResource {
+  Socket() : SenderResource(LOCATOR_KIND_UDPv4) {
+    send_lambda_ = [this](const std::uint8_t* bytes, std::uint32_t count, rtps::LocatorsIterator* from,
+                          rtps::LocatorsIterator* to, const std::chrono::steady_clock::time_point&) {
+      sent.assign(bytes, bytes + count);
+      for (; *from != *to; ++*from) at.push_back(**from);
+      return works;
+    };
+  }
+  Bytes sent;
+  Locators at;
+  bool works = true;
+};
+
+struct Dds final : rtps::TransportReceiverInterface {
+  void OnDataReceived(const std::uint8_t* bytes, const std::uint32_t count, const rtps::Locator&,
+                      const rtps::Locator&) override {
+    received.emplace_back(bytes, bytes + count);
+  }
+  std::vector<Bytes> received;
+};
+
+class Transports : public testing::Test {
+ protected:
+  Transports()
+      : transport(dynamic_cast<rtps::ChainingTransport*>(
+            TransportDescriptor(std::make_shared<rtps::UDPv4TransportDescriptor>(), onlookers,
+                                [this](const std::string& address) { refused.push_back(address); })
+                .create_transport())) {}
+
+  const std::shared_ptr<Onlookers> onlookers = std::make_shared<Onlookers>();
+  std::vector<std::string> refused;
+  const std::unique_ptr<rtps::ChainingTransport> transport;
+};
+
+TEST_F(Transports, SendToOnlookersLast) {
+  onlookers->seen(prefix(1), {locator(7413)});
+  eprosima::fastrtps::rtps::LocatorList_t list;
+  for (const std::uint32_t port : {7411, 7413, 7415}) list.push_back(locator(port));
+  rtps::Locators from(list.begin());
+  rtps::Locators to(list.end());
+  Socket socket;
+  const Bytes bytes{1, 2, 3};
+  EXPECT_TRUE(transport->send(&socket, bytes.data(), 3, &from, &to, {}));
+  EXPECT_EQ(socket.sent, bytes);
+  EXPECT_THAT(ports(socket.at), ElementsAre(7411, 7415, 7413));
+  socket.works = false;
+  EXPECT_FALSE(transport->send(&socket, bytes.data(), 3, &from, &to, {}));
+}
+
+TEST_F(Transports, LetInWhatIsHarmlessAndNameTheSenderOfTheRest) {
+  Dds dds;
+  const Bytes good = datagram({submessage(kHeartbeat, 20), submessage(kStatistics, 56)});
+  Bytes bad = good;
+  bad.push_back(0);
+  for (const Bytes* one : {&good, static_cast<const Bytes*>(&bad), &good}) {
+    transport->receive(&dds, one->data(), static_cast<std::uint32_t>(one->size()), locator(7411),
+                       locator(40000, "10.0.0.66"));
+  }
+  EXPECT_THAT(dds.received, ElementsAre(good, good));
+  EXPECT_THAT(refused, ElementsAre("10.0.0.66"));
+}
+
+}  // namespace
+}  // namespace fathom::bus::detail
