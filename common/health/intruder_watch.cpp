@@ -70,25 +70,20 @@ void IntruderWatch::report(AlarmBook& book, const Instant& now) const {
             .limit = 0.0,
             .began_ago_s = to_seconds(now.monotonic_ns - since_ns)},
            now);
-  const std::string denied = recent(permissions_, now);
-  book.set(!denied.empty(),
-           {.key = "permission_refused",
+  warn(book, permissions_, "permission_refused", "A known identity tried to read or write what it may not",
+       now);
+  warn(book, malformed_, "malformed_datagram",
+       "Somebody sends datagrams that would end a service, and are left out", now);
+}
+
+void IntruderWatch::warn(AlarmBook& book, const Refusals& refusals, const char* key, const char* what,
+                         const Instant& now) {
+  const std::string services = recent(refusals, now);
+  book.set(!services.empty(),
+           {.key = key,
             .severity = Severity::warning,
-            .text = sentence(
-                "A known identity tried to read or write what it may not; counted by %.100s, see the log "
-                "there.",
-                denied.c_str()),
-            .began_ago_s = to_seconds(now.monotonic_ns - permissions_.since_ns)},
-           now);
-  const std::string hit = recent(malformed_, now);
-  book.set(!hit.empty(),
-           {.key = "malformed_datagram",
-            .severity = Severity::warning,
-            .text = sentence(
-                "Somebody sends datagrams that would end a service, and are left out; counted by %.100s, see "
-                "the log there.",
-                hit.c_str()),
-            .began_ago_s = to_seconds(now.monotonic_ns - malformed_.since_ns)},
+            .text = sentence("%.80s; counted by %.100s, see the log there.", what, services.c_str()),
+            .began_ago_s = to_seconds(now.monotonic_ns - refusals.since_ns)},
            now);
 }
 

@@ -32,6 +32,8 @@ class IntruderWatch {
     TimeNs since_ns = 0;                    ///< monotonic, of the first within the window
   };
   static void follow(Refusals& refusals, const Name& service, std::uint64_t value, const Instant& now);
+  static void warn(AlarmBook& book, const Refusals& refusals, const char* key, const char* what,
+                   const Instant& now);
   /// Names of the services that counted one within the window, in words; empty: none did.
   static std::string recent(const Refusals& refusals, const Instant& now);
 
