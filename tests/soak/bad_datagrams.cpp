@@ -1,8 +1,7 @@
 // What a stranger or a broken box may send: RTPS datagrams that once were right, with something changed in
 // each.
-//   soak_bad_datagrams capture INTERFACE FILE --seconds S      keeps the RTPS datagrams seen on an interface
-//   soak_bad_datagrams send FILE --to ADDRESS ... --count N    mutates and sends them to the ports of a
-//   domain
+//   soak_bad_datagrams capture INTERFACE FILE --seconds S     keeps the RTPS datagrams seen on an interface
+//   soak_bad_datagrams send FILE --to ADDRESS ... --count N   sends them, mutated, to the ports of a domain
 // The same seed sends the same datagrams.
 
 #include <algorithm>

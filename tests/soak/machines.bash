@@ -59,6 +59,7 @@ start() {  # start MACHINE SERVICE: as commands.txt says, bound to that machine'
   command=$(sed -nE "s/^$2\t//p" "$state/commands.txt" |
     sed -E "s/bus.interfaces=\[\"${address[hull]}\"\]/bus.interfaces=[\"${address[$1]}\"]/
             s|(clock.anchor_file=[^ ']*)|\1.$1|")
+  if [ "${realtime:-}" ] && [[ $2 =~ fusion|imu_bridge ]]; then command+=" --set realtime.policy=fifo"; fi
   [ -n "$command" ] || { echo "$0: no service $2 in $state/commands.txt" >&2; exit 4; }
   if [ "${faked_clock:-}" ] && [ "$1" != guide ]; then
     clock=("LD_PRELOAD=$(ls /usr/lib/*/faketime/libfaketimeMT.so.1)" "FAKETIME_TIMESTAMP_FILE=$run/utc"
@@ -85,8 +86,11 @@ while IFS=$'\t' read -r service _; do
 done <"$state/commands.txt"
 log=$run/guidance.txt
 watch_from "$log"
+if [ "${realtime:-}" ]; then chrt --all-tasks --fifo --pid 20 "$watcher"; fi
 sleep 3
 start hull simulator
+# It stands for instruments, which wait for no processor.
+if [ "${realtime:-}" ]; then sleep 1; chrt --all-tasks --fifo --pid 40 "${pid_of[simulator]}"; fi
 
 now() { cut -d' ' -f1 /proc/uptime; }
 # Lines of guidance's log from an instant on.

@@ -1,8 +1,6 @@
-// What guidance software sees of the navigation state, as text to be evaluated by a script: each gap longer
-// than
-// --gap, each change of the source with the step in position that came with it, and once a second a line with
-// the error against the truth. Usage: soak_nav_watch --domain N --interface ADDRESS --peer ADDRESS ... --gap
-// SECONDS
+// What guidance software sees of the navigation state, as text for a script: each gap longer than --gap, each
+// change of the source with the step in position that came with it, and once a second the error.
+// Usage: soak_nav_watch --domain N --interface ADDRESS --peer ADDRESS ... --gap SECONDS
 
 #include <array>
 #include <atomic>
