@@ -1,7 +1,5 @@
 #include "bus/detail/datagram_check.hpp"
 
-#include <optional>
-
 namespace fathom::bus::detail {
 namespace {
 
@@ -51,16 +49,16 @@ class Submessage {
   Bytes content_;
 };
 
-/// Where a list of parameters that begins at `at` ends, its sentinel included; nothing: not within.
-std::optional<std::size_t> end_of_parameters(const Submessage& submessage, std::size_t at) {
+/// A list of parameters that begins at `at` ends within the submessage, its sentinel included.
+bool parameters_end(const Submessage& submessage, std::size_t at) {
   while (at + 4 <= submessage.size()) {
     const std::uint16_t parameter = submessage.u16(at);
     const std::size_t length = submessage.u16(at + 2);
     at += 4;
-    if (parameter == kSentinel) return at;
+    if (parameter == kSentinel) return true;
     at += to_words(length);
   }
-  return std::nullopt;
+  return false;
 }
 
 /// DATA or DATA_FRAG: nothing of it lies behind its end.
@@ -70,7 +68,7 @@ bool holds_together(const Submessage& data) {
   if (data.size() < kBeforeOffset + fixed) return false;
   const std::size_t offset = data.u16(2);
   if (offset < fixed || kBeforeOffset + offset > data.size()) return false;
-  return !data.has_inline_qos() || end_of_parameters(data, kBeforeOffset + offset);
+  return !data.has_inline_qos() || parameters_end(data, kBeforeOffset + offset);
 }
 
 bool is_part_of_its_sample(const Submessage& fragment) {

@@ -155,10 +155,12 @@ Sizes sizes() {
 constexpr int kImuReaders = 3;
 constexpr int kNavReaders = 5;
 
-/// Taken by turns, a second each, while the services run all the time; a hop is compared with the states of
-/// the same seconds. A little faster than the inertial samples, so that the two do not meet, or miss, each
-/// other all the time.
+/// Raw samples come a little faster than inertial ones, so that the two do not meet, or miss, each other all
+/// the time.
 constexpr double kDrift = 1.013;
+
+/// Taken by turns, a second each, while the services run all the time; a hop is compared with the states of
+/// the same seconds.
 struct Raw {
   RawHops one{"one", {sizes().imu}, {sizes().nav}};
   RawHops several{"several", {sizes().imu, kImuReaders}, {sizes().nav, kNavReaders}};
