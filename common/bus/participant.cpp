@@ -10,13 +10,6 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <fastdds/rtps/builtin/data/ReaderProxyData.h>
-#include <fastdds/rtps/builtin/data/WriterProxyData.h>
-#include <fastdds/rtps/participant/ParticipantDiscoveryInfo.h>
-#include <fastdds/rtps/reader/ReaderDiscoveryInfo.h>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastdds/rtps/writer/WriterDiscoveryInfo.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <ifaddrs.h>
 #include <netinet/in.h>
 #include <unistd.h>
@@ -28,14 +21,15 @@
 #include "bus/detail/sample_type.hpp"
 #include "bus/detail/scheduling.hpp"
 #include "bus/detail/security.hpp"
+#include "bus/detail/versions/transports.hpp"
 
 namespace fathom::bus {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace dds = detail::dds;
+namespace rtps = detail::rtps;
+using detail::done;
 using eprosima::fastdds::rtps::UDPv4TransportDescriptor;
-using eprosima::fastrtps::types::ReturnCode_t;
 
 constexpr const char* kParticipantProfile = "fathom";
 
@@ -118,8 +112,8 @@ constexpr std::string_view kLooksOn = ";looks_on";
 dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
                                           const std::string& profiles_dir) {
   dds::DomainParticipantQos qos;
-  if (dds::DomainParticipantFactory::get_instance()->get_participant_qos_from_profile(
-          kParticipantProfile, qos) != ReturnCode_t::RETCODE_OK) {
+  if (!done(dds::DomainParticipantFactory::get_instance()->get_participant_qos_from_profile(
+          kParticipantProfile, qos))) {
     throw BusError(profiles_dir + ": the QoS profiles have no participant '" + kParticipantProfile + "'");
   }
   qos.name(options.name);
@@ -156,12 +150,11 @@ dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
   return qos;
 }
 
-Peer to_peer(const rtps::ParticipantProxyData& data) {
+Peer to_peer(const detail::Announcement& announcement) {
   Peer peer;
-  peer.name = data.m_participantName.to_string();
-  peer.offers_identity = !data.identity_token_.is_nil();
-  const auto& user = data.m_userData.data_vec();
-  const std::string text(user.begin(), user.end());
+  peer.name = announcement.name;
+  peer.offers_identity = announcement.offers_identity;
+  const std::string& text = announcement.user_data;
   const std::size_t host = text.find("host=");
   const std::size_t pid = text.find(";pid=");
   if (host != 0 || pid == std::string::npos) return peer;
@@ -171,34 +164,7 @@ Peer to_peer(const rtps::ParticipantProxyData& data) {
   return peer;
 }
 
-detail::GuidPrefix to_prefix(const rtps::GUID_t& guid) {
-  return detail::prefix_of(detail::to_guid(guid));
-}
-
-/// Fast DDS 2.9.1 forgets a participant that left on the thread that heard of it, while another may be about to
-/// check its lease and asserts that it is not forgotten. That check looks at this flag first, under a lock that
-/// is taken for the forgetting, after this; the next participant in its place has the flag set anew.
-void check_lease_no_more(const rtps::ParticipantProxyData& left) {
-  // A reference to what Fast DDS itself keeps, and not as constant as it is shown.
-  const_cast<rtps::ParticipantProxyData&>(left).should_check_lease_duration = false;
-}
-
-template <class ProxyData>
-detail::RemoteEndpoint to_endpoint(const ProxyData& data) {
-  const auto& qos = data.m_qos;
-  return {data.topicName().to_string(), data.typeName().to_string(),
-          detail::summarise(qos.m_reliability, qos.m_durability, qos.m_deadline, qos.m_ownership,
-                            qos.m_liveliness)};
-}
-
 }  // namespace
-
-WriterGuid detail::to_guid(const rtps::GUID_t& guid) {
-  WriterGuid bytes{};
-  std::copy_n(&guid.guidPrefix.value[0], 12, bytes.begin());
-  std::copy_n(&guid.entityId.value[0], 4, bytes.begin() + 12);
-  return bytes;
-}
 
 Participant::Impl::Impl(const ParticipantOptions& options) {
   detail::capture_dds_log();
@@ -263,7 +229,7 @@ dds::Topic* Participant::Impl::topic(const detail::TopicOps& ops) {
   dds::Topic*& topic = topics_[ops.topic];
   if (topic != nullptr) return topic;
   const dds::TypeSupport type(new detail::SampleType(ops));
-  if (type.register_type(participant) == ReturnCode_t::RETCODE_OK) {
+  if (done(type.register_type(participant))) {
     topic = participant->create_topic(ops.topic, ops.type_name, dds::TOPIC_QOS_DEFAULT);
   }
   if (topic == nullptr) {
@@ -326,61 +292,46 @@ void Participant::Impl::refuse_datagram(const std::string& address) {
                 "one from " + address + " would have ended this service; left out, and those that follow");
 }
 
-void Participant::Impl::note_order(const detail::GuidPrefix& prefix,
-                                   const rtps::ParticipantDiscoveryInfo& info) {
-  const bool left = info.status == rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT ||
-                    info.status == rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT;
-  if (left || !to_peer(info.info).looks_on) return onlookers_->gone(prefix);
-  const auto& at = info.info.default_locators.unicast;
-  onlookers_->seen(prefix, {at.begin(), at.end()});
+void Participant::Impl::participant_seen(const detail::GuidPrefix& who,
+                                         const detail::Announcement& announcement) {
+  const Peer peer = to_peer(announcement);
+  if (peer.looks_on) {
+    onlookers_->seen(who, announcement.samples_at);
+  } else {
+    onlookers_->gone(who);
+  }
+  if (credentials) {
+    meet(who, peer, announcement);  // one of the peers when it has proved who it is
+  } else {
+    peers.participant_seen(who, peer);
+  }
 }
 
-void Participant::Impl::on_participant_discovery(dds::DomainParticipant*,
-                                                 rtps::ParticipantDiscoveryInfo&& info) {
-  const detail::GuidPrefix prefix = to_prefix(info.info.m_guid);
-  note_order(prefix, info);
-  switch (info.status) {
-    case rtps::ParticipantDiscoveryInfo::DISCOVERED_PARTICIPANT:
-    case rtps::ParticipantDiscoveryInfo::CHANGED_QOS_PARTICIPANT:
-      if (credentials) {
-        meet(prefix, to_peer(info.info), info.info);  // one of the peers when it has proved who it is
-      } else {
-        peers.participant_seen(prefix, to_peer(info.info));
-      }
-      return;
-    case rtps::ParticipantDiscoveryInfo::DROPPED_PARTICIPANT:
-      participant_dropped(prefix);
-      break;
-    case rtps::ParticipantDiscoveryInfo::REMOVED_PARTICIPANT:
-      check_lease_no_more(info.info);
-      break;
-  }
-  peers.participant_gone(prefix);
-  if (credentials) part(prefix);
+void Participant::Impl::participant_gone(const detail::GuidPrefix& who, bool fell_silent) {
+  onlookers_->gone(who);
+  if (fell_silent) participant_dropped(who);
+  peers.participant_gone(who);
+  if (credentials) part(who);
   const std::lock_guard lock(mutex_);
-  std::erase_if(unmatched_, [&](const Unmatched& entry) { return detail::prefix_of(entry.guid) == prefix; });
+  std::erase_if(unmatched_, [&](const Unmatched& entry) { return detail::prefix_of(entry.guid) == who; });
 }
 
-void Participant::Impl::on_publisher_discovery(dds::DomainParticipant*, rtps::WriterDiscoveryInfo&& info) {
-  const WriterGuid guid = detail::to_guid(info.info.guid());
-  if (info.status == rtps::WriterDiscoveryInfo::REMOVED_WRITER) {
-    peers.writer_gone(guid);
-    return;
-  }
-  const detail::RemoteEndpoint endpoint = to_endpoint(info.info);
-  peers.writer_seen(guid, endpoint);
-  check_types(endpoint.topic);
+void Participant::Impl::writer_seen(const WriterGuid& guid, const detail::RemoteEndpoint& writer) {
+  peers.writer_seen(guid, writer);
+  check_types(writer.topic);
 }
 
-void Participant::Impl::on_subscriber_discovery(dds::DomainParticipant*, rtps::ReaderDiscoveryInfo&& info) {
-  const WriterGuid guid = detail::to_guid(info.info.guid());
-  if (info.status == rtps::ReaderDiscoveryInfo::REMOVED_READER) {
-    peers.reader_gone(guid);
-    return;
-  }
-  const detail::RemoteEndpoint endpoint = to_endpoint(info.info);
-  peers.reader_seen(guid, endpoint);
-  check_types(endpoint.topic);
+void Participant::Impl::writer_gone(const WriterGuid& guid) {
+  peers.writer_gone(guid);
+}
+
+void Participant::Impl::reader_seen(const WriterGuid& guid, const detail::RemoteEndpoint& reader) {
+  peers.reader_seen(guid, reader);
+  check_types(reader.topic);
+}
+
+void Participant::Impl::reader_gone(const WriterGuid& guid) {
+  peers.reader_gone(guid);
 }
 
 Participant::Participant(const ParticipantOptions& options) : impl_(std::make_unique<Impl>(options)) {}

@@ -8,17 +8,14 @@
 #include <thread>
 
 #include <arpa/inet.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "bus/detail/versions/settings.hpp"
+
 namespace fathom::bus::detail {
 namespace {
-
-namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
-using rtps::DiscoveryProtocol_t;
 
 std::string text_of(const ServerAddress& server) {
   return server.address + ":" + std::to_string(server.port);
@@ -91,8 +88,7 @@ bool uses_servers(const ParticipantOptions& options) {
 void discover_through_servers(dds::DomainParticipantQos& qos, const ParticipantOptions& options) {
   auto& builtin = qos.wire_protocol().builtin;
   auto& discovery = builtin.discovery_config;
-  discovery.discoveryProtocol =
-      options.discover_everything ? DiscoveryProtocol_t::SUPER_CLIENT : DiscoveryProtocol_t::CLIENT;
+  discovery.discoveryProtocol = options.discover_everything ? kDiscoverySuperClient : kDiscoveryClient;
   // Named unicast locators, and so no multicast socket.
   builtin.metatrafficUnicastLocatorList.clear();
   for (const std::string& interface : options.interfaces) {
@@ -108,7 +104,7 @@ void discover_through_servers(dds::DomainParticipantQos& qos, const ParticipantO
       throw BusError("discovery_listen '" + options.discovery_listen + "': expected one of the interfaces");
     }
     check_free(own);
-    discovery.discoveryProtocol = DiscoveryProtocol_t::SERVER;
+    discovery.discoveryProtocol = kDiscoveryServer;
     qos.wire_protocol().prefix = prefix_of(own, options.domain);
     builtin.metatrafficUnicastLocatorList.clear();
     builtin.metatrafficUnicastLocatorList.push_back(locator_of(own));
@@ -116,10 +112,7 @@ void discover_through_servers(dds::DomainParticipantQos& qos, const ParticipantO
   for (const std::string& text : options.discovery_servers) {
     if (text == options.discovery_listen) continue;  // one file may list the servers for all, itself included
     const ServerAddress server = parse_server_address("discovery server", text);
-    rtps::RemoteServerAttributes remote;
-    remote.guidPrefix = prefix_of(server, options.domain);
-    remote.metatrafficUnicastLocatorList.push_back(locator_of(server));
-    discovery.m_DiscoveryServers.push_back(remote);
+    add_server(discovery, locator_of(server), prefix_of(server, options.domain));
   }
 }
 

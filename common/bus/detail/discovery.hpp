@@ -5,6 +5,7 @@
 
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
+#include "bus/detail/versions/names.hpp"
 #include "bus/participant.hpp"
 
 namespace fathom::bus::detail {
@@ -23,12 +24,11 @@ struct ServerAddress {
 
 /// Discovery without multicast: as a client of options.discovery_servers, and as a server where
 /// options.discovery_listen says so. The interfaces of `options` must be this host's. Throws BusError.
-void discover_through_servers(eprosima::fastdds::dds::DomainParticipantQos& qos,
-                              const ParticipantOptions& options);
+void discover_through_servers(dds::DomainParticipantQos& qos, const ParticipantOptions& options);
 
 /// For a server, before it starts: waits until every client has given up a predecessor that was killed just
 /// now. It has the same GUID but not the same memory, and clients that take the one for the other would wait
 /// for ever for what the new one does not know.
-void outlast_predecessor(const eprosima::fastdds::dds::DomainParticipantQos& qos, const std::string& listen);
+void outlast_predecessor(const dds::DomainParticipantQos& qos, const std::string& listen);
 
 }  // namespace fathom::bus::detail

@@ -5,11 +5,10 @@
 
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos.hpp"
+#include "bus/detail/versions/settings.hpp"
 
 namespace fathom::bus::detail {
 namespace {
-
-namespace dds = eprosima::fastdds::dds;
 
 template <class Qos>
 EffectiveQos common(const Qos& qos) {
@@ -34,7 +33,7 @@ EffectiveQos effective_writer_qos(Participant& participant, const std::string& t
   const dds::DataWriterQos& qos = writer->get_qos();
   EffectiveQos result = common(qos);
   result.synchronous = qos.publish_mode().kind == dds::SYNCHRONOUS_PUBLISH_MODE;
-  result.heartbeat_ns = to_ns(qos.reliable_writer_qos().times.heartbeatPeriod);
+  result.heartbeat_ns = to_ns(heartbeat_period(qos));
   result.ownership_strength = qos.ownership_strength().value;
   return result;
 }

@@ -15,12 +15,11 @@
 #include <utility>
 #include <vector>
 
-#include <fastcdr/Cdr.h>
-
 #include "base/name.hpp"
 #include "bus/cdr.hpp"
 #include "bus/detail/endpoint.hpp"
 #include "bus/detail/topic_ops.hpp"
+#include "bus/detail/versions/cdr.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "samples/header.hpp"
@@ -124,7 +123,7 @@ struct FromWire {
 /// them: four bytes from the network could otherwise claim gigabytes. Text beyond its bound, which the wire
 /// types would cut in silence, is refused as well. Relies on fields() having the order of the IDL.
 struct ListCheck {
-  eprosima::fastcdr::Cdr& cdr;
+  Cdr& cdr;
   bool valid = true;
 
   template <class Plain, class Wire>
@@ -224,32 +223,31 @@ template <class T>
 TopicOps make_ops() {
   using M = Mapping<T>;
   using Wire = typename M::Wire;
-  using eprosima::fastcdr::Cdr;
   TopicOps ops{};
   ops.topic = M::kTopic;
   ops.type_name = M::kType;
-  ops.max_size = static_cast<std::uint32_t>(Wire::getMaxCdrSerializedSize());
-  ops.max_key_size = static_cast<std::uint32_t>(Wire::getKeyMaxCdrSerializedSize());
+  ops.max_size = max_encoding<Wire>();
+  ops.max_key_size = max_key_encoding<Wire>();
   ops.create = [] { return static_cast<void*>(new T()); };
   ops.destroy = [](void* sample) { delete static_cast<T*>(sample); };
-  ops.encode = [](const void* sample, Cdr& cdr) { to_wire(*static_cast<const T*>(sample)).serialize(cdr); };
+  ops.encode = [](const void* sample, Cdr& cdr) { cdr << to_wire(*static_cast<const T*>(sample)); };
   ops.decode = [](Cdr& cdr, void* sample) {
     Wire wire;
     if constexpr (requires { M::kHasLists; }) {
-      Cdr::state start = cdr.getState();
+      Cdr::state start = position_of(cdr);
       T scratch;
       ListCheck check{cdr};
       M::fields(check, scratch, wire);
       if (!check.valid) return false;
-      cdr.setState(start);
+      go_back(cdr, start);
     }
-    wire.deserialize(cdr);
+    if (!decode_whole(cdr, wire)) return false;
     FromWire copy;
     M::fields(copy, *static_cast<T*>(sample), static_cast<const Wire&>(wire));
     return copy.valid;
   };
   ops.encode_key = [](const void* sample, Cdr& cdr) {
-    to_wire(*static_cast<const T*>(sample)).serializeKey(cdr);
+    detail::encode_key(to_wire(*static_cast<const T*>(sample)), cdr);
   };
   ops.key_text = [](const void* sample) { return M::key_text(*static_cast<const T*>(sample)); };
   return ops;

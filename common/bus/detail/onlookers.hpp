@@ -3,16 +3,15 @@
 #include <mutex>
 #include <vector>
 
-#include <fastdds/rtps/common/Locator.h>
-
 #include "bus/detail/peer_book.hpp"
+#include "bus/detail/versions/names.hpp"
 
 namespace fathom::bus::detail {
 
 /// Where the participants that look on (ParticipantOptions::looks_on) receive samples. Thread-safe.
 class Onlookers {
  public:
-  using Locator = eprosima::fastdds::rtps::Locator;
+  using Locator = rtps::Locator_t;
 
   /// Replaces what was known of this participant.
   void seen(const GuidPrefix& prefix, const std::vector<Locator>& at);

@@ -5,16 +5,15 @@
 #include <filesystem>
 #include <vector>
 
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include "bus/detail/dds_log.hpp"
+#include "bus/detail/versions/settings.hpp"
 
 namespace fathom::bus::detail {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
 namespace fs = std::filesystem;
-using eprosima::fastrtps::types::ReturnCode_t;
 
-eprosima::fastrtps::Duration_t to_duration(DurationNs ns) {
+Duration to_duration(DurationNs ns) {
   return {static_cast<std::int32_t>(ns / kNsPerSecond), static_cast<std::uint32_t>(ns % kNsPerSecond)};
 }
 
@@ -66,9 +65,9 @@ void load_profiles(const std::string& folder) {
   if (failed || files.empty()) throw BusError(folder + ": expected a folder with QoS profiles (*.xml)");
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
-    if (dds::DomainParticipantFactory::get_instance()->load_XML_profiles_file(file.string()) !=
-        ReturnCode_t::RETCODE_OK) {
-      throw BusError(file.string() + ": not a file of QoS profiles that Fast DDS understands");
+    if (!load_profiles_file(file.string())) {
+      throw BusError(file.string() + ": not a file of QoS profiles that Fast DDS understands" +
+                     last_dds_error());
     }
   }
 }
@@ -77,7 +76,7 @@ dds::DataWriterQos writer_qos(const dds::Publisher& publisher, const std::string
                               const WriterOptions& options) {
   check_deadline(topic, options.deadline_ns);
   dds::DataWriterQos qos;
-  if (publisher.get_datawriter_qos_from_profile(topic, qos) != ReturnCode_t::RETCODE_OK) {
+  if (!done(publisher.get_datawriter_qos_from_profile(topic, qos))) {
     no_profile(topic, "data_writer");
   }
   if (options.deadline_ns) qos.deadline().period = to_duration(*options.deadline_ns);
@@ -95,14 +94,13 @@ dds::DataReaderQos reader_qos(const dds::Subscriber& subscriber, const std::stri
                               const ReaderOptions& options) {
   check_deadline(topic, options.deadline_ns);
   dds::DataReaderQos qos;
-  const bool variant = !options.profile_suffix.empty() &&
-                       subscriber.get_datareader_qos_from_profile(topic + "." + options.profile_suffix,
-                                                                  qos) == ReturnCode_t::RETCODE_OK;
+  const bool variant = !options.profile_suffix.empty() && done(subscriber.get_datareader_qos_from_profile(
+                                                              topic + "." + options.profile_suffix, qos));
   if (!variant) {
     if (!options.profile_suffix.empty() && options.profile_suffix != "deep") {
       no_profile(topic + "." + options.profile_suffix, "data_reader");
     }
-    if (subscriber.get_datareader_qos_from_profile(topic, qos) != ReturnCode_t::RETCODE_OK) {
+    if (!done(subscriber.get_datareader_qos_from_profile(topic, qos))) {
       no_profile(topic, "data_reader");
     }
   }

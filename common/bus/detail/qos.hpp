@@ -8,6 +8,7 @@
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 
 #include "bus/detail/qos_summary.hpp"
+#include "bus/detail/versions/names.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 
@@ -22,17 +23,15 @@ namespace fathom::bus::detail {
 void load_profiles(const std::string& folder);
 
 /// The topic's profile with what the configuration says on top. Throws BusError.
-[[nodiscard]] eprosima::fastdds::dds::DataWriterQos writer_qos(
-    const eprosima::fastdds::dds::Publisher& publisher, const std::string& topic,
-    const WriterOptions& options);
-[[nodiscard]] eprosima::fastdds::dds::DataReaderQos reader_qos(
-    const eprosima::fastdds::dds::Subscriber& subscriber, const std::string& topic,
-    const ReaderOptions& options);
+[[nodiscard]] dds::DataWriterQos writer_qos(const dds::Publisher& publisher, const std::string& topic,
+                                            const WriterOptions& options);
+[[nodiscard]] dds::DataReaderQos reader_qos(const dds::Subscriber& subscriber, const std::string& topic,
+                                            const ReaderOptions& options);
 
-[[nodiscard]] Policy policy_of(eprosima::fastdds::dds::QosPolicyId_t id);
+[[nodiscard]] Policy policy_of(dds::QosPolicyId_t id);
 
-[[nodiscard]] inline DurationNs to_ns(const eprosima::fastrtps::Duration_t& duration) {
-  if (duration.seconds == eprosima::fastrtps::c_TimeInfinite.seconds) return kForever;
+[[nodiscard]] inline DurationNs to_ns(const Duration& duration) {
+  if (duration.seconds == infinite_duration().seconds) return kForever;
   return duration.seconds * kNsPerSecond + static_cast<DurationNs>(duration.nanosec);
 }
 
@@ -41,7 +40,7 @@ template <class Reliability, class Durability, class Deadline, class Ownership, 
 QosSummary summarise(const Reliability& reliability, const Durability& durability, const Deadline& deadline,
                      const Ownership& ownership, const Liveliness& liveliness) {
   QosSummary summary;
-  summary.reliability = reliability.kind == eprosima::fastdds::dds::RELIABLE_RELIABILITY_QOS ? 1 : 0;
+  summary.reliability = reliability.kind == dds::RELIABLE_RELIABILITY_QOS ? 1 : 0;
   summary.durability = durability.kind;
   summary.deadline_ns = to_ns(deadline.period);
   summary.ownership = ownership.kind;

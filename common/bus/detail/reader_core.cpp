@@ -16,13 +16,7 @@
 #include "bus/detail/sample_type.hpp"
 
 namespace fathom::bus::detail {
-namespace {
-
-namespace dds = eprosima::fastdds::dds;
-using eprosima::fastrtps::rtps::InstanceHandle_t;
-using eprosima::fastrtps::types::ReturnCode_t;
-
-}  // namespace
+using rtps::InstanceHandle_t;
 
 struct ReaderCore::Impl final : dds::DataReaderListener {
   Impl(Participant::Impl& bus_in, const TopicOps& ops_in, Handler handler_in, const ReaderOptions& options)
@@ -58,7 +52,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     if (bus.samples_as) carry_samples(*bus.samples_as);
     const std::lock_guard lock(handler_mutex);
     dds::SampleInfo info;
-    while (!closed && from->take_next_sample(&slot, &info) == ReturnCode_t::RETCODE_OK) {
+    while (!closed && done(from->take_next_sample(&slot, &info))) {
       if (!info.valid_data) continue;  // an instance ended
       const WriterGuid guid = to_guid(info.sample_identity.writer_guid());
       if (!slot.valid) {

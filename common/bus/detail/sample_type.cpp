@@ -6,39 +6,32 @@
 #include <new>
 #include <stdexcept>
 
-#include <fastcdr/Cdr.h>
-#include <fastcdr/FastBuffer.h>
 #include <fastcdr/exceptions/Exception.h>
-#include <fastrtps/utils/md5.h>
 
 #include "bus/detail/endpoint.hpp"
+#include "bus/detail/versions/cdr.hpp"
 
 namespace fathom::bus::detail {
 namespace {
 
-using eprosima::fastcdr::Cdr;
-using eprosima::fastcdr::FastBuffer;
-using eprosima::fastrtps::rtps::InstanceHandle_t;
-using eprosima::fastrtps::rtps::SerializedPayload_t;
-
 constexpr std::uint32_t kEncapsulation = 4;
 
 /// Bytes written; 0 when they do not fit.
-std::size_t encode_into(const TopicOps& ops, const void* sample, char* buffer, std::size_t capacity) {
-  FastBuffer fast(buffer, capacity);
-  Cdr cdr(fast, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+std::size_t encode_into(const TopicOps& ops, const void* sample, std::span<char> into) {
+  FastBuffer fast(into.data(), into.size());
+  Cdr cdr(fast, Cdr::DEFAULT_ENDIAN, kPlainCdr);
   try {
     cdr.serialize_encapsulation();
     ops.encode(sample, cdr);
   } catch (const eprosima::fastcdr::exception::Exception&) {
     return 0;
   }
-  return cdr.getSerializedDataLength();
+  return length_of(cdr);
 }
 
-bool decode_from(const TopicOps& ops, char* bytes, std::size_t size, void* sample) {
-  FastBuffer fast(bytes, size);
-  Cdr cdr(fast, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+bool decode_from(const TopicOps& ops, std::span<char> bytes, void* sample) {
+  FastBuffer fast(bytes.data(), bytes.size());
+  Cdr cdr(fast, Cdr::DEFAULT_ENDIAN, kPlainCdr);
   try {
     cdr.read_encapsulation();
     return ops.decode(cdr, sample);
@@ -53,73 +46,50 @@ bool decode_from(const TopicOps& ops, char* bytes, std::size_t size, void* sampl
 
 }  // namespace
 
-SampleType::SampleType(const TopicOps& ops) : ops_(ops) {
-  setName(ops.type_name);
-  m_typeSize = ops.max_size + kEncapsulation;
-  m_isGetKeyDefined = true;
-  // Type objects in discovery keep Cyclone DDS from matching, and the IDL files tell the same.
-  auto_fill_type_object(false);
-  auto_fill_type_information(false);
-}
+SampleType::SampleType(const TopicOps& ops) : TopicType(ops.type_name, ops.max_size), ops_(ops) {}
 
-bool SampleType::serialize(void* data, SerializedPayload_t* payload) {
-  const auto* slot = static_cast<const SampleSlot*>(data);
-  const std::size_t size =
-      encode_into(ops_, slot->sample, reinterpret_cast<char*>(payload->data), payload->max_size);
-  payload->encapsulation = Cdr::DEFAULT_ENDIAN == Cdr::BIG_ENDIANNESS ? CDR_BE : CDR_LE;
-  payload->length = static_cast<std::uint32_t>(size);
-  return size != 0;
-}
-
-bool SampleType::deserialize(SerializedPayload_t* payload, void* data) {
-  auto* slot = static_cast<SampleSlot*>(data);
-  slot->valid = decode_from(ops_, reinterpret_cast<char*>(payload->data), payload->length, slot->sample);
-  return true;
-}
-
-std::function<std::uint32_t()> SampleType::getSerializedSizeProvider(void* /*data*/) {
-  // Every type is bounded and small: room for the largest sample costs less than measuring each one.
-  return [size = m_typeSize] { return size; };
-}
-
-void* SampleType::createData() {
+void* SampleType::create() const {
   return new SampleSlot{ops_.create(), true};
 }
 
-void SampleType::deleteData(void* data) {
+void SampleType::destroy(void* data) const {
   auto* slot = static_cast<SampleSlot*>(data);
   ops_.destroy(slot->sample);
   delete slot;
 }
 
-bool SampleType::getKey(void* data, InstanceHandle_t* handle, bool force_md5) {
+std::size_t SampleType::encode(const void* data, std::span<char> into) const {
+  return encode_into(ops_, static_cast<const SampleSlot*>(data)->sample, into);
+}
+
+void SampleType::decode(std::span<char> bytes, void* data) const {
+  auto* slot = static_cast<SampleSlot*>(data);
+  slot->valid = decode_from(ops_, bytes, slot->sample);
+}
+
+Digest SampleType::key(const void* data, bool force_md5) const {
   const auto* slot = static_cast<const SampleSlot*>(data);
   std::array<char, 128> buffer{};
   assert(ops_.max_key_size <= buffer.size());
   FastBuffer fast(buffer.data(), buffer.size());
-  Cdr cdr(fast, Cdr::BIG_ENDIANNESS);  // RTPS 9.6.3.8: the key is hashed as big-endian CDR
+  Cdr cdr(fast, Cdr::BIG_ENDIANNESS, kPlainCdr);  // the key is hashed as big-endian CDR
   ops_.encode_key(slot->sample, cdr);
-  if (force_md5 || ops_.max_key_size > 16) {
-    MD5 md5;
-    md5.update(buffer.data(), static_cast<unsigned int>(cdr.getSerializedDataLength()));
-    md5.finalize();
-    std::copy_n(md5.digest, 16, &handle->value[0]);
-  } else {
-    std::copy_n(buffer.data(), 16, &handle->value[0]);
-  }
-  return true;
+  if (force_md5 || ops_.max_key_size > 16) return md5({buffer.data(), length_of(cdr)});
+  Digest digest{};
+  std::copy_n(buffer.data(), digest.size(), digest.begin());
+  return digest;
 }
 
 std::vector<std::uint8_t> encode(const TopicOps& ops, const void* sample) {
   std::vector<std::uint8_t> bytes(ops.max_size + kEncapsulation);
-  bytes.resize(encode_into(ops, sample, reinterpret_cast<char*>(bytes.data()), bytes.size()));
+  bytes.resize(encode_into(ops, sample, {reinterpret_cast<char*>(bytes.data()), bytes.size()}));
   return bytes;
 }
 
 bool decode(const TopicOps& ops, std::span<const std::uint8_t> bytes, void* sample) {
   // Fast CDR reads through a non-const pointer and does not write.
   auto* data = const_cast<std::uint8_t*>(bytes.data());
-  return decode_from(ops, reinterpret_cast<char*>(data), bytes.size(), sample);
+  return decode_from(ops, {reinterpret_cast<char*>(data), bytes.size()}, sample);
 }
 
 }  // namespace fathom::bus::detail

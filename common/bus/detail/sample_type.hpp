@@ -1,8 +1,7 @@
 #pragma once
 
-#include <fastdds/dds/topic/TopicDataType.hpp>
-
 #include "bus/detail/topic_ops.hpp"
+#include "bus/detail/versions/topic_type.hpp"
 
 namespace fathom::bus::detail {
 
@@ -16,20 +15,17 @@ struct SampleSlot {
 
 /// Teaches Fast DDS one topic's type. Unlike generated type supports it is safe to share between threads, and
 /// no bytes from the network make it throw.
-class SampleType final : public eprosima::fastdds::dds::TopicDataType {
+class SampleType final : public TopicType {
  public:
   explicit SampleType(const TopicOps& ops);
 
-  bool serialize(void* data, eprosima::fastrtps::rtps::SerializedPayload_t* payload) override;
-  bool deserialize(eprosima::fastrtps::rtps::SerializedPayload_t* payload, void* data) override;
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* data) override;
-  void* createData() override;
-  void deleteData(void* data) override;
-  bool getKey(void* data, eprosima::fastrtps::rtps::InstanceHandle_t* handle, bool force_md5) override;
-  bool is_bounded() const override { return true; }
-  bool is_plain() const override { return false; }
-
  private:
+  [[nodiscard]] void* create() const override;
+  void destroy(void* data) const override;
+  [[nodiscard]] std::size_t encode(const void* data, std::span<char> into) const override;
+  void decode(std::span<char> bytes, void* data) const override;
+  [[nodiscard]] Digest key(const void* data, bool force_md5) const override;
+
   const TopicOps& ops_;
 };
 

@@ -4,8 +4,6 @@
 #include <string>
 #include <utility>
 
-#include <fastrtps/utils/IPLocator.h>
-
 #include "base/clock.hpp"
 #include "bus/detail/dds_log.hpp"
 #include "bus/detail/participant_impl.hpp"
@@ -17,14 +15,14 @@
 namespace fathom::bus {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace dds = detail::dds;
+namespace rtps = detail::rtps;
 
 // Names are the stranger's own: after so many, the rest is reported as one.
 constexpr std::size_t kReportedByName = 16;
 
-std::string address_of(const rtps::ParticipantProxyData& data) {
-  const auto& locators = data.metatraffic_locators.unicast;
+std::string address_of(const detail::Announcement& announcement) {
+  const auto& locators = announcement.discovery_at;
   return locators.empty() ? "" : rtps::IPLocator::toIPv4string(locators[0]);
 }
 
@@ -69,8 +67,8 @@ void Participant::Impl::report(const Stranger& stranger) {
 }
 
 void Participant::Impl::meet(const detail::GuidPrefix& prefix, const Peer& peer,
-                             const rtps::ParticipantProxyData& data) {
-  strangers.announced(prefix, peer, address_of(data), !data.identity_token_.is_nil());
+                             const detail::Announcement& announcement) {
+  strangers.announced(prefix, peer, address_of(announcement), announcement.offers_identity);
 }
 
 void Participant::Impl::part(const detail::GuidPrefix& prefix) {

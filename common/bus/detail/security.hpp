@@ -4,6 +4,7 @@
 
 #include <fastdds/dds/domain/qos/DomainParticipantQos.hpp>
 
+#include "bus/detail/versions/names.hpp"
 #include "bus/participant.hpp"
 #include "security/credentials.hpp"
 
@@ -18,6 +19,6 @@ inline constexpr std::int32_t kProtectedLease_s = 30;
 [[nodiscard]] security::Credentials credentials_of(const ParticipantOptions& options);
 
 /// Switches Fast DDS's plugins for authentication, access control and encryption on.
-void protect(eprosima::fastdds::dds::DomainParticipantQos& qos, const security::Credentials& credentials);
+void protect(dds::DomainParticipantQos& qos, const security::Credentials& credentials);
 
 }  // namespace fathom::bus::detail

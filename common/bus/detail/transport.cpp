@@ -1,64 +1,56 @@
 #include "bus/detail/transport.hpp"
 
-#include <chrono>
 #include <cstdint>
 #include <utility>
 #include <vector>
-
-#include <fastdds/rtps/common/LocatorsIterator.hpp>
-#include <fastdds/rtps/network/SenderResource.h>
-#include <fastdds/rtps/transport/TransportReceiverInterface.h>
-#include <fastrtps/utils/IPLocator.h>
 
 #include "bus/detail/datagram_check.hpp"
 
 namespace fathom::bus::detail {
 namespace {
 
-namespace rtps = eprosima::fastdds::rtps;
-using eprosima::fastrtps::rtps::octet;
-using eprosima::fastrtps::rtps::SenderResource;
+namespace fastdds = eprosima::fastdds::rtps;
 
 /// Walks over the destinations of one datagram.
-class Walk final : public rtps::LocatorsIterator {
+class Walk final : public fastdds::LocatorsIterator {
  public:
-  explicit Walk(const rtps::Locator* at) : at_(at) {}
-  rtps::LocatorsIterator& operator++() override {
+  explicit Walk(const rtps::Locator_t* at) : at_(at) {}
+  fastdds::LocatorsIterator& operator++() override {
     ++at_;
     return *this;
   }
-  bool operator==(const rtps::LocatorsIterator& other) const override {
+  bool operator==(const fastdds::LocatorsIterator& other) const override {
     return at_ == static_cast<const Walk&>(other).at_;
   }
-  bool operator!=(const rtps::LocatorsIterator& other) const override { return !(*this == other); }
-  const rtps::Locator& operator*() const override { return *at_; }
+  bool operator!=(const fastdds::LocatorsIterator& other) const override { return !(*this == other); }
+  const rtps::Locator_t& operator*() const override { return *at_; }
 
  private:
-  const rtps::Locator* at_;
+  const rtps::Locator_t* at_;
 };
 
-class Transport final : public rtps::ChainingTransport {
+class Transport final : public RoutingTransport<Transport> {
  public:
   explicit Transport(const TransportDescriptor& descriptor)
-      : ChainingTransport(descriptor), descriptor_(descriptor) {}
+      : RoutingTransport(descriptor), descriptor_(descriptor) {}
 
-  rtps::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
+  fastdds::TransportDescriptorInterface* get_configuration() override { return &descriptor_; }
 
-  bool send(SenderResource* socket, const octet* bytes, std::uint32_t count, rtps::LocatorsIterator* begin,
-            rtps::LocatorsIterator* end, const std::chrono::steady_clock::time_point& until) override {
-    thread_local std::vector<rtps::Locator> destinations;  // keeps its memory from datagram to datagram
+  template <class PassOn>
+  bool route(Locators* begin, Locators* end, const PassOn& pass_on) {
+    thread_local std::vector<rtps::Locator_t> destinations;  // keeps its memory from datagram to datagram
     destinations.clear();
     for (; *begin != *end; ++*begin) destinations.push_back(**begin);
     if (destinations.size() > 1) descriptor_.onlookers->to_the_back(destinations);
     Walk from(destinations.data());
     Walk to(destinations.data() + destinations.size());
-    return socket->send(bytes, count, &from, &to, until);
+    return pass_on(&from, &to);
   }
 
-  void receive(rtps::TransportReceiverInterface* dds, const octet* bytes, std::uint32_t count,
-               const rtps::Locator& local, const rtps::Locator& remote) override {
+  void receive(fastdds::TransportReceiverInterface* dds, const rtps::octet* bytes, std::uint32_t count,
+               const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
     if (harmless({bytes, count})) return dds->OnDataReceived(bytes, count, local, remote);
-    descriptor_.refused(eprosima::fastrtps::rtps::IPLocator::toIPv4string(remote));
+    descriptor_.refused(rtps::IPLocator::toIPv4string(remote));
   }
 
  private:
@@ -67,13 +59,13 @@ class Transport final : public rtps::ChainingTransport {
 
 }  // namespace
 
-TransportDescriptor::TransportDescriptor(std::shared_ptr<rtps::TransportDescriptorInterface> sockets,
+TransportDescriptor::TransportDescriptor(std::shared_ptr<fastdds::TransportDescriptorInterface> sockets,
                                          std::shared_ptr<const Onlookers> who_look_on, Refused on_refused)
     : ChainingTransportDescriptor(std::move(sockets)),
       onlookers(std::move(who_look_on)),
       refused(std::move(on_refused)) {}
 
-rtps::TransportInterface* TransportDescriptor::create_transport() const {
+fastdds::TransportInterface* TransportDescriptor::create_transport() const {
   return new Transport(*this);
 }
 

@@ -4,10 +4,8 @@
 #include <memory>
 #include <string>
 
-#include <fastdds/rtps/transport/ChainingTransport.h>
-#include <fastdds/rtps/transport/ChainingTransportDescriptor.h>
-
 #include "bus/detail/onlookers.hpp"
+#include "bus/detail/versions/transports.hpp"
 
 namespace fathom::bus::detail {
 

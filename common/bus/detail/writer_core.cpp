@@ -19,8 +19,6 @@
 namespace fathom::bus::detail {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
-
 // How long a writer's end may wait for its readers: two heartbeats of the profiles and the answer.
 constexpr std::uint32_t kLastWords_ns = 150'000'000;
 
@@ -85,7 +83,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   }
 
   struct Instance {
-    eprosima::fastrtps::rtps::InstanceHandle_t handle;
+    rtps::InstanceHandle_t handle;
     bool missed = false;
   };
 
@@ -95,14 +93,14 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     {
       const std::lock_guard lock(mutex);
       const auto [found, is_new] = instances.try_emplace(key);
-      if (is_new) type.getKey(const_cast<SampleSlot*>(&slot), &found->second.handle, false);
+      if (is_new) found->second.handle = type.handle_of(&slot);
       if (!found->second.missed) return;
       found->second.missed = false;
     }
     bus.events.recovered(BusEventKind::deadline_missed, ops.topic, "own:" + key);
   }
 
-  std::string missed(const eprosima::fastrtps::rtps::InstanceHandle_t& handle) {
+  std::string missed(const rtps::InstanceHandle_t& handle) {
     const std::lock_guard lock(mutex);
     for (auto& [key, instance] : instances) {
       if (instance.handle == handle) {
@@ -115,7 +113,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
 
   bool write(const void* sample) {
     SampleSlot slot{const_cast<void*>(sample), true};
-    const bool written = writer->write(&slot);
+    const bool written = done(writer->write(&slot));
     if (offered.deadline_ns != kForever) track_deadline(slot);  // nobody waits for this
     if (written) {
       if (failed.exchange(false)) bus.events.recovered(BusEventKind::write_failed, ops.topic, "");

@@ -13,7 +13,7 @@ struct Mapping<Alarm> {
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
     copy(plain.alarm, wire.alarm());
-    copy_enum<Severity::critical, v1::SEVERITY_CRITICAL>(copy, plain.severity, wire.severity());
+    copy_enum<Severity::critical, v1::Severity::SEVERITY_CRITICAL>(copy, plain.severity, wire.severity());
     copy(plain.active, wire.active());
     copy(plain.acknowledged, wire.acknowledged());
     copy(plain.since_ns, wire.since_ns());

@@ -13,7 +13,8 @@ struct Mapping<AlignmentStatus> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<AlignmentPhase::lost, v1::ALIGNMENT_PHASE_LOST>(copy, plain.phase, wire.phase());
+    copy_enum<AlignmentPhase::lost, v1::AlignmentPhase::ALIGNMENT_PHASE_LOST>(copy, plain.phase,
+                                                                              wire.phase());
     copy(plain.in_phase_s, wire.in_phase_s());
     copy.sequence(plain.conditions, plain.condition_count, wire.conditions(),
                   [](auto& each, auto& condition, auto& w) {

@@ -13,7 +13,8 @@ struct Mapping<Command> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<CommandKind::mark_at_rest, v1::COMMAND_MARK_AT_REST>(copy, plain.kind, wire.kind());
+    copy_enum<CommandKind::mark_at_rest, v1::CommandKind::COMMAND_MARK_AT_REST>(copy, plain.kind,
+                                                                                wire.kind());
     copy(plain.target, wire.target());
     copy(plain.latitude_rad, wire.latitude_rad());
     copy(plain.longitude_rad, wire.longitude_rad());

@@ -13,8 +13,9 @@ struct Mapping<DvlSample> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<DvlMode::water, v1::DVL_MODE_WATER>(copy, plain.mode, wire.mode());
-    copy_enum<DvlFrame::earth, v1::DVL_FRAME_EARTH>(copy, plain.recorded_frame, wire.recorded_frame());
+    copy_enum<DvlMode::water, v1::DvlMode::DVL_MODE_WATER>(copy, plain.mode, wire.mode());
+    copy_enum<DvlFrame::earth, v1::DvlFrame::DVL_FRAME_EARTH>(copy, plain.recorded_frame,
+                                                              wire.recorded_frame());
     copy(plain.velocity_D_m_s, wire.velocity_D_m_s());
     copy(plain.error_velocity_m_s, wire.error_velocity_m_s());
     copy(plain.sigma_m_s, wire.sigma_m_s());

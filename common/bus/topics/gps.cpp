@@ -13,7 +13,7 @@ struct Mapping<GpsSample> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<GpsFix::rtk_fixed, v1::GPS_FIX_RTK_FIXED>(copy, plain.fix, wire.fix());
+    copy_enum<GpsFix::rtk_fixed, v1::GpsFix::GPS_FIX_RTK_FIXED>(copy, plain.fix, wire.fix());
     copy(plain.satellites, wire.satellites());
     copy(plain.latitude_rad, wire.latitude_rad());
     copy(plain.longitude_rad, wire.longitude_rad());
@@ -24,8 +24,10 @@ struct Mapping<GpsSample> {
     copy(plain.velocity_sigma_N_m_s, wire.velocity_sigma_N_m_s());
     copy(plain.hdop, wire.hdop());
     copy(plain.course_rad, wire.course_rad());
-    copy_enum<GpsJamming::critical, v1::GPS_JAMMING_CRITICAL>(copy, plain.jamming, wire.jamming());
-    copy_enum<GpsSpoofing::affirmed, v1::GPS_SPOOFING_AFFIRMED>(copy, plain.spoofing, wire.spoofing());
+    copy_enum<GpsJamming::critical, v1::GpsJamming::GPS_JAMMING_CRITICAL>(copy, plain.jamming,
+                                                                          wire.jamming());
+    copy_enum<GpsSpoofing::affirmed, v1::GpsSpoofing::GPS_SPOOFING_AFFIRMED>(copy, plain.spoofing,
+                                                                             wire.spoofing());
   }
 
   static std::string key_text(const GpsSample& sample) { return vehicle_and_sensor(sample); }

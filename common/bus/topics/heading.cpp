@@ -13,7 +13,7 @@ struct Mapping<HeadingSample> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<North::magnetic, v1::NORTH_MAGNETIC>(copy, plain.north, wire.north());
+    copy_enum<North::magnetic, v1::North::NORTH_MAGNETIC>(copy, plain.north, wire.north());
     copy(plain.heading_rad, wire.heading_rad());
     copy(plain.sigma_rad, wire.sigma_rad());
     copy(plain.variation_rad, wire.variation_rad());

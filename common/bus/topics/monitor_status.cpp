@@ -14,12 +14,13 @@ struct Mapping<MonitorStatus> {
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
     copy(plain.healthy, wire.healthy());
-    copy_enum<NavMode::inertial, v1::NAV_MODE_INERTIAL>(copy, plain.mode, wire.mode());
-    copy_enum<AlignmentPhase::lost, v1::ALIGNMENT_PHASE_LOST>(copy, plain.alignment, wire.alignment());
+    copy_enum<NavMode::inertial, v1::NavMode::NAV_MODE_INERTIAL>(copy, plain.mode, wire.mode());
+    copy_enum<AlignmentPhase::lost, v1::AlignmentPhase::ALIGNMENT_PHASE_LOST>(copy, plain.alignment,
+                                                                              wire.alignment());
     copy(plain.nav_state_age_s, wire.nav_state_age_s());
     copy(plain.gps_outage_active, wire.gps_outage_active());
-    copy_enum<Severity::critical, v1::SEVERITY_CRITICAL>(copy, plain.gps_outage_severity,
-                                                         wire.gps_outage_severity());
+    copy_enum<Severity::critical, v1::Severity::SEVERITY_CRITICAL>(copy, plain.gps_outage_severity,
+                                                                   wire.gps_outage_severity());
     copy(plain.gps_outage_since_ns, wire.gps_outage_since_ns());
     copy(plain.gps_outage_s, wire.gps_outage_s());
     copy(plain.gps_outage_longest_s, wire.gps_outage_longest_s());
@@ -29,7 +30,7 @@ struct Mapping<MonitorStatus> {
     copy(plain.alarms_unacknowledged, wire.alarms_unacknowledged());
     const auto item = [](auto& each, auto& watched, auto& w) {
       each(watched.name, w.name());
-      copy_enum<Presence::missing, v1::PRESENCE_MISSING>(each, watched.presence, w.presence());
+      copy_enum<Presence::missing, v1::Presence::PRESENCE_MISSING>(each, watched.presence, w.presence());
       each(watched.age_s, w.age_s());
       each(watched.rate_hz, w.rate_hz());
     };
@@ -38,7 +39,7 @@ struct Mapping<MonitorStatus> {
     const auto receiver = [](auto& each, auto& outage, auto& w) {
       each(outage.name, w.name());
       each(outage.active, w.active());
-      copy_enum<Severity::critical, v1::SEVERITY_CRITICAL>(each, outage.severity, w.severity());
+      copy_enum<Severity::critical, v1::Severity::SEVERITY_CRITICAL>(each, outage.severity, w.severity());
       each(outage.since_ns, w.since_ns());
       each(outage.outage_s, w.outage_s());
       each(outage.longest_s, w.longest_s());

@@ -13,8 +13,9 @@ struct Mapping<NavState> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<NavMode::inertial, v1::NAV_MODE_INERTIAL>(copy, plain.mode, wire.mode());
-    copy_enum<AlignmentPhase::lost, v1::ALIGNMENT_PHASE_LOST>(copy, plain.alignment, wire.alignment());
+    copy_enum<NavMode::inertial, v1::NavMode::NAV_MODE_INERTIAL>(copy, plain.mode, wire.mode());
+    copy_enum<AlignmentPhase::lost, v1::AlignmentPhase::ALIGNMENT_PHASE_LOST>(copy, plain.alignment,
+                                                                              wire.alignment());
     copy(plain.latitude_rad, wire.latitude_rad());
     copy(plain.longitude_rad, wire.longitude_rad());
     copy(plain.altitude_m, wire.altitude_m());

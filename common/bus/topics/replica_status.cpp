@@ -12,7 +12,8 @@ struct Mapping<ReplicaStatus> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<ReplicaPhase::in_step, v1::REPLICA_PHASE_IN_STEP>(copy, plain.phase, wire.phase());
+    copy_enum<ReplicaPhase::in_step, v1::ReplicaPhase::REPLICA_PHASE_IN_STEP>(copy, plain.phase,
+                                                                              wire.phase());
     copy(plain.in_step_s, wire.in_step_s());
     copy(plain.leads, wire.leads());
     copy(plain.ownership_strength, wire.ownership_strength());

@@ -18,7 +18,8 @@ struct Mapping<ServiceStatus> {
     copy(plain.header.stamp_ns, wire.stamp_ns());
     copy(plain.header.received_ns, wire.received_ns());
     copy(plain.header.sequence, wire.sequence_number());
-    copy_enum<ServiceState::stopping, v1::SERVICE_STATE_STOPPING>(copy, plain.state, wire.state());
+    copy_enum<ServiceState::stopping, v1::ServiceState::SERVICE_STATE_STOPPING>(copy, plain.state,
+                                                                                wire.state());
     copy(plain.version, wire.version());
     copy(plain.config_hash, wire.config_hash());
     copy(plain.host, wire.host());

@@ -13,7 +13,7 @@ struct Mapping<UsblSample> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<UsblFrame::vehicle_frd, v1::USBL_FRAME_VEHICLE_FRD>(copy, plain.frame, wire.frame());
+    copy_enum<UsblFrame::vehicle_frd, v1::UsblFrame::USBL_FRAME_VEHICLE_FRD>(copy, plain.frame, wire.frame());
     copy(plain.transponder, wire.transponder());
     copy(plain.latitude_rad, wire.latitude_rad());
     copy(plain.longitude_rad, wire.longitude_rad());

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -23,55 +24,45 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bus/detail/versions/topic_type.hpp"
+#include "bus/detail/versions/transports.hpp"
+
 namespace fathom::test {
 namespace {
 
-namespace dds = eprosima::fastdds::dds;
-namespace rtps = eprosima::fastrtps::rtps;
+namespace dds = bus::detail::dds;
+namespace rtps = bus::detail::rtps;
 
 constexpr std::uint32_t kDomain = 97;
 
 using Bytes = std::vector<unsigned char>;
 
 /// So many bytes, as they are.
-class BytesType final : public dds::TopicDataType {
+class BytesType final : public bus::detail::TopicType {
  public:
-  BytesType(const char* name, std::size_t size) : size_(size) {
-    setName(name);
-    m_typeSize = static_cast<std::uint32_t>(size);
-    m_isGetKeyDefined = false;
-    auto_fill_type_information(false);
-    auto_fill_type_object(false);
-  }
-  bool serialize(void* data, rtps::SerializedPayload_t* payload) override {
-    std::memcpy(payload->data, static_cast<Bytes*>(data)->data(), size_);
-    payload->length = static_cast<std::uint32_t>(size_);
-    return true;
-  }
-  bool deserialize(rtps::SerializedPayload_t* payload, void* data) override {
-    if (payload->length != size_) return false;
-    std::memcpy(static_cast<Bytes*>(data)->data(), payload->data, size_);
-    return true;
-  }
-  std::function<std::uint32_t()> getSerializedSizeProvider(void* /*data*/) override {
-    return [this] { return m_typeSize; };
-  }
-  void* createData() override { return new Bytes(size_); }
-  void deleteData(void* data) override { delete static_cast<Bytes*>(data); }
-  bool getKey(void* /*data*/, rtps::InstanceHandle_t* /*handle*/, bool /*force_md5*/) override {
-    return false;
-  }
+  BytesType(const char* name, std::size_t size)
+      : TopicType(name, static_cast<std::uint32_t>(size), false), size_(size) {}
 
  private:
+  [[nodiscard]] std::size_t encode(const void* data, std::span<char> into) const override {
+    std::memcpy(into.data(), static_cast<const Bytes*>(data)->data(), size_);
+    return size_;
+  }
+  void decode(std::span<char> bytes, void* data) const override {
+    std::memcpy(static_cast<Bytes*>(data)->data(), bytes.data(), std::min(bytes.size(), size_));
+  }
+  [[nodiscard]] void* create() const override { return new Bytes(size_); }
+  void destroy(void* data) const override { delete static_cast<Bytes*>(data); }
+  [[nodiscard]] bus::detail::Digest key(const void* /*data*/, bool /*force_md5*/) const override {
+    return {};
+  }
+
   std::size_t size_;
 };
 
@@ -131,7 +122,7 @@ class Listener final : public dds::DataReaderListener {
       : buffer_(bytes), arrived_(std::move(arrived)) {}
   void on_data_available(dds::DataReader* reader) override {
     dds::SampleInfo info;
-    while (reader->take_next_sample(&buffer_, &info) == eprosima::fastrtps::types::ReturnCode_t::RETCODE_OK) {
+    while (bus::detail::done(reader->take_next_sample(&buffer_, &info))) {
       if (info.valid_data) arrived_(buffer_);
     }
   }

@@ -2,27 +2,23 @@
 
 #include "bus/detail/transport.hpp"
 
-#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <fastdds/rtps/network/SenderResource.h>
-#include <fastdds/rtps/transport/TransportReceiverInterface.h>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
-#include <fastrtps/utils/IPLocator.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "bus/detail/datagram_check.hpp"
 #include "bus/detail/onlookers.hpp"
+#include "support/dds_socket.hpp"
 #include "support/rtps_datagram.hpp"
 
 namespace fathom::bus::detail {
 namespace {
 
-namespace rtps = eprosima::fastdds::rtps;
+namespace fastdds = eprosima::fastdds::rtps;
 using test::rtps::Bytes;
 using test::rtps::data;
 using test::rtps::datagram;
@@ -34,11 +30,11 @@ using test::rtps::put_u16;
 using test::rtps::submessage;
 using testing::ElementsAre;
 using testing::IsEmpty;
-using Locators = std::vector<rtps::Locator>;
+using Locators = std::vector<rtps::Locator_t>;
 
-rtps::Locator locator(std::uint32_t port, const std::string& address = "127.0.0.1") {
-  rtps::Locator out;
-  eprosima::fastrtps::rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, address, port, out);
+rtps::Locator_t locator(std::uint32_t port, const std::string& address = "127.0.0.1") {
+  rtps::Locator_t out;
+  rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, address, port, out);
   return out;
 }
 
@@ -50,7 +46,7 @@ GuidPrefix prefix(std::uint8_t last) {
 
 std::vector<std::uint32_t> ports(const Locators& locators) {
   std::vector<std::uint32_t> out;
-  for (const rtps::Locator& one : locators) out.push_back(one.port);
+  for (const rtps::Locator_t& one : locators) out.push_back(one.port);
   return out;
 }
 
@@ -182,23 +178,9 @@ TEST(Harmless, AnyCutOfADatagramIsJudgedWithinItsBytes) {
   }
 }
 
-struct Socket final : eprosima::fastrtps::rtps::SenderResource {
-  Socket() : SenderResource(LOCATOR_KIND_UDPv4) {
-    send_lambda_ = [this](const std::uint8_t* bytes, std::uint32_t count, rtps::LocatorsIterator* from,
-                          rtps::LocatorsIterator* to, const std::chrono::steady_clock::time_point&) {
-      sent.assign(bytes, bytes + count);
-      for (; *from != *to; ++*from) at.push_back(**from);
-      return works;
-    };
-  }
-  Bytes sent;
-  Locators at;
-  bool works = true;
-};
-
-struct Dds final : rtps::TransportReceiverInterface {
-  void OnDataReceived(const std::uint8_t* bytes, const std::uint32_t count, const rtps::Locator&,
-                      const rtps::Locator&) override {
+struct Dds final : fastdds::TransportReceiverInterface {
+  void OnDataReceived(const std::uint8_t* bytes, std::uint32_t count, const rtps::Locator_t&,
+                      const rtps::Locator_t&) override {
     received.emplace_back(bytes, bytes + count);
   }
   std::vector<Bytes> received;
@@ -207,29 +189,29 @@ struct Dds final : rtps::TransportReceiverInterface {
 class Transports : public testing::Test {
  protected:
   Transports()
-      : transport(dynamic_cast<rtps::ChainingTransport*>(
-            TransportDescriptor(std::make_shared<rtps::UDPv4TransportDescriptor>(), onlookers,
+      : transport(dynamic_cast<fastdds::ChainingTransport*>(
+            TransportDescriptor(std::make_shared<fastdds::UDPv4TransportDescriptor>(), onlookers,
                                 [this](const std::string& address) { refused.push_back(address); })
                 .create_transport())) {}
 
   const std::shared_ptr<Onlookers> onlookers = std::make_shared<Onlookers>();
   std::vector<std::string> refused;
-  const std::unique_ptr<rtps::ChainingTransport> transport;
+  const std::unique_ptr<fastdds::ChainingTransport> transport;
 };
 
 TEST_F(Transports, SendToOnlookersLast) {
   onlookers->seen(prefix(1), {locator(7413)});
-  eprosima::fastrtps::rtps::LocatorList_t list;
+  rtps::LocatorList_t list;
   for (const std::uint32_t port : {7411, 7413, 7415}) list.push_back(locator(port));
-  rtps::Locators from(list.begin());
-  rtps::Locators to(list.end());
-  Socket socket;
+  fastdds::Locators from(list.begin());
+  fastdds::Locators to(list.end());
+  test::DdsSocket socket;
   const Bytes bytes{1, 2, 3};
-  EXPECT_TRUE(transport->send(&socket, bytes.data(), 3, &from, &to, {}));
+  EXPECT_TRUE(socket.send_over(*transport, bytes, &from, &to));
   EXPECT_EQ(socket.sent, bytes);
   EXPECT_THAT(ports(socket.at), ElementsAre(7411, 7415, 7413));
   socket.works = false;
-  EXPECT_FALSE(transport->send(&socket, bytes.data(), 3, &from, &to, {}));
+  EXPECT_FALSE(socket.send_over(*transport, bytes, &from, &to));
 }
 
 TEST_F(Transports, LetInWhatIsHarmlessAndNameTheSenderOfTheRest) {
