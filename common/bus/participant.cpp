@@ -184,7 +184,7 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
   dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);
   auto& sockets = qos.transport().user_transports.front();
   sockets = std::make_shared<detail::TransportDescriptor>(
-      sockets, onlookers_, [this](const std::string& address) { refuse_datagram(address); });
+      sockets, onlookers_, hearing, [this](const std::string& address) { refuse_datagram(address); });
   if (!options.security.folder.empty()) {
     credentials = detail::credentials_of(options);
     detail::protect(qos, *credentials);
@@ -289,7 +289,7 @@ void Participant::Impl::participant_dropped(const detail::GuidPrefix& prefix) {
 void Participant::Impl::refuse_datagram(const std::string& address) {
   // The address is hearsay, and there may be many of them: reported once.
   events.report(BusEventKind::malformed_datagram, "", "",
-                "one from " + address + " would have ended this service; left out, and those that follow");
+                "one from " + address + " would have ended or blocked this service; left out, and those that follow");
 }
 
 void Participant::Impl::participant_seen(const detail::GuidPrefix& who,

@@ -67,7 +67,7 @@ enum class BusEventKind : std::uint8_t {
   invalid_sample,      ///< bytes arrived that are no sample of the topic's type
   stranger_refused,    ///< somebody has not proved an identity of this vehicle; no topic
   permission_refused,  ///< somebody tried to read or write a topic without permission
-  malformed_datagram,  ///< one that would have ended this process; no topic
+  malformed_datagram,  ///< one that would have ended or blocked this process; no topic
 };
 
 /// The kind in words, e.g. "deadline missed".

@@ -11,7 +11,8 @@ namespace fathom::health {
 
 /// Who knocks on the network, by what services count in their life signs and by whom the monitor itself sees:
 /// "stranger_refused", somebody who proved no identity, and "permission_refused", an identity that tried what
-/// it may not, where the network is protected; "malformed_datagram", bytes that would have ended a service.
+/// it may not, where the network is protected; "malformed_datagram", bytes that would have ended or blocked a
+/// service.
 /// All are warnings, active while it goes on and for kWindowS after.
 class IntruderWatch {
  public:

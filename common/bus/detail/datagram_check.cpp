@@ -1,5 +1,8 @@
 #include "bus/detail/datagram_check.hpp"
 
+#include <algorithm>
+#include <optional>
+
 namespace fathom::bus::detail {
 namespace {
 
@@ -7,9 +10,12 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kHeader = 20;  // "RTPS", version, vendor, GUID prefix
 constexpr std::size_t kVendor = 6;
+constexpr std::size_t kPrefix = 8;
 constexpr std::uint8_t kFastDds[] = {0x01, 0x0F};
 
 constexpr std::uint8_t kPad = 0x01;
+constexpr std::uint8_t kHeartbeat = 0x07;
+constexpr std::uint8_t kGap = 0x08;
 constexpr std::uint8_t kInfoTimestamp = 0x09;
 constexpr std::uint8_t kData = 0x15;
 constexpr std::uint8_t kDataFragment = 0x16;
@@ -35,6 +41,11 @@ class Submessage {
     const auto second = static_cast<unsigned>(content_[at + 1]);
     return static_cast<std::uint16_t>(little() ? second << 8U | first : first << 8U | second);
   }
+  /// A sequence number.
+  [[nodiscard]] std::uint64_t number(std::size_t at) const {
+    return static_cast<std::uint64_t>(u32(at)) << 32U | u32(at + 4);
+  }
+  [[nodiscard]] Bytes bytes(std::size_t at, std::size_t count) const { return content_.subspan(at, count); }
   [[nodiscard]] std::uint32_t u32(std::size_t at) const {
     const std::uint32_t first = u16(at);
     const std::uint32_t second = u16(at + 2);
@@ -92,11 +103,38 @@ bool harmless(const Submessage& submessage, bool last, bool from_fast_dds) {
   }
 }
 
-}  // namespace
+/// What it says of a writer's samples, but for the writer's participant; nothing when it says none.
+std::optional<Claim> claim_of(const Submessage& one) {
+  std::size_t reader = 0;  // where its id is, and then the writer's, and a number of a sample
+  switch (one.id()) {
+    case kData:
+    case kDataFragment:
+      reader = 4;
+      break;
+    case kHeartbeat:
+    case kGap:
+      break;
+    default:
+      return std::nullopt;
+  }
+  const std::size_t number = reader + 8;
+  const bool one_number = reader != 0;
+  if (one.size() < number + (one_number ? 8 : 16)) return std::nullopt;
+  Claim claim;
+  claim.carries_sample = one_number;
+  claim.reader = to_entity_id(one.bytes(reader, 4));
+  const Bytes writer = one.bytes(reader + 4, 4);
+  std::copy_n(writer.begin(), 4, claim.writer.begin() + 12);
+  claim.number = one.number(one_number ? number : number + 8);
+  // The first that a heartbeat says it has may be one behind the last, when there is none.
+  if (one.id() == kHeartbeat) claim.number = std::max(claim.number, one.number(number));
+  return claim;
+}
 
-bool harmless(Bytes datagram) {
-  if (datagram.size() < kHeader) return true;
-  const bool from_fast_dds = datagram[kVendor] == kFastDds[0] && datagram[kVendor + 1] == kFastDds[1];
+/// Calls `look(submessage, is_last)` for each that Fast DDS reads, until one call returns false, which it
+/// returns.
+template <class Look>
+bool all_submessages(Bytes datagram, const Look& look) {
   std::size_t at = kHeader;
   while (at + 4 <= datagram.size()) {
     const Submessage head(datagram[at], datagram[at + 1], datagram.subspan(at, 4));
@@ -105,10 +143,30 @@ bool harmless(Bytes datagram) {
     if (at + length > datagram.size()) return true;  // Fast DDS reads no further
     if (length == 0 && head.id() != kInfoTimestamp && head.id() != kPad) length = datagram.size() - at;
     const Submessage whole(head.id(), datagram[at - 3], datagram.subspan(at, length));
-    if (!harmless(whole, at + length == datagram.size(), from_fast_dds)) return false;
+    if (!look(whole, at + length == datagram.size())) return false;
     at += to_words(length);
   }
   return true;
+}
+
+}  // namespace
+
+bool harmless(Bytes datagram) {
+  if (datagram.size() < kHeader) return true;
+  const bool from_fast_dds = datagram[kVendor] == kFastDds[0] && datagram[kVendor + 1] == kFastDds[1];
+  return all_submessages(datagram, [&](const Submessage& submessage, bool last) {
+    return harmless(submessage, last, from_fast_dds);
+  });
+}
+
+bool all_claims(Bytes datagram, const std::function<bool(const Claim&)>& look) {
+  if (datagram.size() < kHeader) return true;
+  return all_submessages(datagram, [&](const Submessage& one, bool /*last*/) {
+    auto claim = claim_of(one);
+    if (!claim) return true;
+    std::copy_n(datagram.begin() + kPrefix, 12, claim->writer.begin());
+    return look(*claim);
+  });
 }
 
 }  // namespace fathom::bus::detail

@@ -2,7 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
+
+#include "bus/detail/hearing.hpp"
 
 namespace fathom::bus::detail {
 
@@ -15,5 +18,9 @@ namespace fathom::bus::detail {
 /// - DATA_FRAG of a part that the sample does not have.
 /// Submessages are walked as Fast DDS walks them; what else may be wrong it refuses by itself.
 [[nodiscard]] bool harmless(std::span<const std::uint8_t> datagram);
+
+/// Calls `look` for each claim (DATA, DATA_FRAG, HEARTBEAT, GAP) in a harmless datagram about the samples of
+/// a writer, until one call returns false, which it returns.
+bool all_claims(std::span<const std::uint8_t> datagram, const std::function<bool(const Claim&)>& look);
 
 }  // namespace fathom::bus::detail

@@ -11,7 +11,9 @@
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 
 #include "bus/detail/dds_log.hpp"
+#include "bus/detail/errands.hpp"
 #include "bus/detail/event_book.hpp"
+#include "bus/detail/hearing.hpp"
 #include "bus/detail/peer_book.hpp"
 #include "bus/detail/scheduling.hpp"
 #include "bus/detail/stranger_book.hpp"
@@ -55,6 +57,8 @@ struct Participant::Impl final : detail::DiscoveryListener {
 
   detail::EventBook events;
   detail::PeerBook peers;
+  const std::shared_ptr<detail::Hearing> hearing = std::make_shared<detail::Hearing>();
+  detail::Errands errands;
   detail::StrangerBook strangers;
   std::optional<detail::Scheduling> samples_as;      ///< of threads that carry samples; nothing: as chores
   std::optional<security::Credentials> credentials;  ///< nothing: the network is not protected

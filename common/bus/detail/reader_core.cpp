@@ -1,7 +1,10 @@
 #include <atomic>
+#include <chrono>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -18,19 +21,22 @@
 namespace fathom::bus::detail {
 using rtps::InstanceHandle_t;
 
+namespace {
+
+constexpr std::chrono::seconds kRest(30);  // from one renewal of a reader to the next
+
+}  // namespace
+
 struct ReaderCore::Impl final : dds::DataReaderListener {
   Impl(Participant::Impl& bus_in, const TopicOps& ops_in, Handler handler_in, const ReaderOptions& options)
-      : bus(bus_in), ops(ops_in), handler(std::move(handler_in)) {
-    dds::Topic* topic = bus.topic(ops);
-    const dds::DataReaderQos qos = reader_qos(*bus.subscriber, ops.topic, options);
-    requested =
-        summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(), qos.liveliness());
+      : bus(bus_in),
+        ops(ops_in),
+        qos(reader_qos(*bus.subscriber, ops.topic, options)),
+        requested(summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(),
+                            qos.liveliness())),
+        handler(std::move(handler_in)) {
     slot.sample = ops.create();
-    dds::StatusMask mask = dds::StatusMask::data_available();
-    mask << dds::StatusMask::subscription_matched() << dds::StatusMask::requested_deadline_missed()
-         << dds::StatusMask::requested_incompatible_qos() << dds::StatusMask::sample_lost()
-         << dds::StatusMask::sample_rejected();
-    reader = bus.subscriber->create_datareader(topic, qos, this, mask);
+    open();
     if (reader == nullptr) {
       ops.destroy(slot.sample);
       throw BusError("reader of " + std::string(ops.topic) + ": Fast DDS could not create it" +
@@ -40,12 +46,59 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   }
 
   ~Impl() override {
+    bus.hearing->leave(this);
+    bus.errands.forget(this);
+    close();
+    ops.destroy(slot.sample);
+  }
+
+  void open() {
+    dds::StatusMask mask = dds::StatusMask::data_available();
+    mask << dds::StatusMask::subscription_matched() << dds::StatusMask::requested_deadline_missed()
+         << dds::StatusMask::requested_incompatible_qos() << dds::StatusMask::sample_lost()
+         << dds::StatusMask::sample_rejected();
+    dds::Topic* topic = bus.topic(ops);
+    closed = false;
+    // Joined before Fast DDS knows it, for writers may be matched at once.
+    bus.hearing->join(this, requested.ownership == dds::EXCLUSIVE_OWNERSHIP_QOS,
+                      [this] { bus.errands.run(this, [this] { renew(); }); });
+    reader = bus.subscriber->create_datareader(topic, qos, this, mask);
+    if (reader == nullptr) return bus.hearing->leave(this);
+    const WriterGuid guid = to_guid(reader->guid());
+    bus.hearing->is_entity(this, to_entity_id(std::span(guid).subspan(12)));
+  }
+
+  void close() {
     closed = true;
     // Whoever is in the handler now is waited for; whoever comes later sees `closed`.
     { const std::lock_guard wait(handler_mutex); }
+    if (reader == nullptr) return;
     reader->set_listener(nullptr);
     bus.subscriber->delete_datareader(reader);
-    ops.destroy(slot.sample);
+    reader = nullptr;
+  }
+
+  /// Another Fast DDS reader in the place of one that hands nothing over. Not too often, for whoever can make
+  /// a reader deaf may go on doing so, and the topic's other writers have to find the new one.
+  void renew() {
+    const auto now = std::chrono::steady_clock::now();
+    if (renewed && now - *renewed < kRest) return;
+    renewed = now;
+    bus.hearing->leave(this);
+    close();
+    {
+      const std::lock_guard lock(mutex);
+      writers.clear();
+      instances.clear();
+      matched = 0;
+    }
+    open();
+    bus.events.report(
+        BusEventKind::sample_lost, ops.topic, "deaf",
+        reader == nullptr
+            ? "samples came in and were not handed over, and no other reader could be made" + last_dds_error()
+            : "samples came in and were not handed over: another reader was made");
+    bus.events.recovered(BusEventKind::sample_lost, ops.topic, "deaf");
   }
 
   void on_data_available(dds::DataReader* from) override {
@@ -53,8 +106,9 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     const std::lock_guard lock(handler_mutex);
     dds::SampleInfo info;
     while (!closed && done(from->take_next_sample(&slot, &info))) {
-      if (!info.valid_data) continue;  // an instance ended
       const WriterGuid guid = to_guid(info.sample_identity.writer_guid());
+      bus.hearing->heard(this, guid);
+      if (!info.valid_data) continue;  // an instance ended
       if (!slot.valid) {
         const std::string name = bus.peers.name(guid);
         bus.events.report(BusEventKind::invalid_sample, ops.topic, name,
@@ -80,8 +134,10 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
       matched = static_cast<int>(writers.size());
     }
     if (status.current_count_change > 0) {
+      bus.hearing->matched(this, guid);
       bus.writer_matched(guid, ops.topic);
     } else {
+      bus.hearing->unmatched(this, guid);
       bus.writer_unmatched(guid, ops.topic);
     }
   }
@@ -126,6 +182,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   }
 
   void on_sample_rejected(dds::DataReader*, const dds::SampleRejectedStatus& status) override {
+    bus.hearing->refused(this);
     bus.events.report(BusEventKind::resource_limit, ops.topic, "",
                       "this reader has no room for more samples or keys", status.total_count_change);
   }
@@ -153,7 +210,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 
   Participant::Impl& bus;
   const TopicOps& ops;
-  QosSummary requested;
+  const dds::DataReaderQos qos;
+  const QosSummary requested;
   std::atomic<bool> closed = false;
   std::atomic<int> matched = 0;
 
@@ -166,6 +224,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   std::map<InstanceHandle_t, Instance> instances;
 
   dds::DataReader* reader = nullptr;
+  std::optional<std::chrono::steady_clock::time_point> renewed;
 };
 
 ReaderCore::ReaderCore(Participant& participant, const TopicOps& ops, Handler handler,

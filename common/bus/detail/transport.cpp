@@ -1,6 +1,7 @@
 #include "bus/detail/transport.hpp"
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -49,8 +50,12 @@ class Transport final : public RoutingTransport<Transport> {
 
   void receive(fastdds::TransportReceiverInterface* dds, const rtps::octet* bytes, std::uint32_t count,
                const rtps::Locator_t& local, const rtps::Locator_t& remote) override {
-    if (harmless({bytes, count})) return dds->OnDataReceived(bytes, count, local, remote);
-    descriptor_.refused(rtps::IPLocator::toIPv4string(remote));
+    const std::span datagram(bytes, count);
+    if (!harmless(datagram) ||
+        !all_claims(datagram, [this](const Claim& claim) { return descriptor_.hearing->arrived(claim); })) {
+      return descriptor_.refused(rtps::IPLocator::toIPv4string(remote));
+    }
+    dds->OnDataReceived(bytes, count, local, remote);
   }
 
  private:
@@ -60,9 +65,11 @@ class Transport final : public RoutingTransport<Transport> {
 }  // namespace
 
 TransportDescriptor::TransportDescriptor(std::shared_ptr<fastdds::TransportDescriptorInterface> sockets,
-                                         std::shared_ptr<const Onlookers> who_look_on, Refused on_refused)
+                                         std::shared_ptr<const Onlookers> who_look_on,
+                                         std::shared_ptr<Hearing> what_arrives, Refused on_refused)
     : ChainingTransportDescriptor(std::move(sockets)),
       onlookers(std::move(who_look_on)),
+      hearing(std::move(what_arrives)),
       refused(std::move(on_refused)) {}
 
 fastdds::TransportInterface* TransportDescriptor::create_transport() const {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "bus/detail/hearing.hpp"
 #include "bus/detail/onlookers.hpp"
 #include "bus/detail/versions/transports.hpp"
 
@@ -15,16 +16,18 @@ namespace fathom::bus::detail {
 /// in the order in which it found the readers; each datagram wakes a process, which then stands in line for a
 /// processor behind those that were woken before.
 ///
-/// A datagram that would end this process (harmless()) is left out, and `refused` told its sender's address,
-/// on the thread that received it.
+/// A datagram that would end this process (harmless()), or claims what cannot be (Hearing), is left out, and
+/// `refused` told its sender's address, on the thread that received it.
 struct TransportDescriptor final : eprosima::fastdds::rtps::ChainingTransportDescriptor {
   using Refused = std::function<void(const std::string& address)>;
 
   TransportDescriptor(std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> sockets,
-                      std::shared_ptr<const Onlookers> who_look_on, Refused on_refused);
+                      std::shared_ptr<const Onlookers> who_look_on, std::shared_ptr<Hearing> what_arrives,
+                      Refused on_refused);
   [[nodiscard]] eprosima::fastdds::rtps::TransportInterface* create_transport() const override;
 
   std::shared_ptr<const Onlookers> onlookers;
+  std::shared_ptr<Hearing> hearing;
   Refused refused;
 };
 

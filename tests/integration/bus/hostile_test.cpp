@@ -1,6 +1,7 @@
 // Datagrams that end a process which lets Fast DDS read them, sent to one that does not.
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <unistd.h>
 
 #include "bus/writer.hpp"
+#include "samples/dvl.hpp"
 #include "samples/nav_state.hpp"
 #include "support.hpp"
 #include "support/rtps_datagram.hpp"
@@ -70,6 +72,60 @@ TEST(HostileDatagrams, AreLeftOutCountedAndReported) {
   const auto reported = events.of(bus::BusEventKind::malformed_datagram);
   ASSERT_THAT(reported, SizeIs(1));
   EXPECT_THAT(reported[0].detail, HasSubstr("127.0.0.1"));
+}
+
+/// A heartbeat as if from this writer, that it has nothing below sample `leap` (a multiple of 65536).
+rtps::Bytes forged_heartbeat(const bus::WriterGuid& writer, std::uint32_t leap) {
+  rtps::Bytes heartbeat = rtps::submessage(rtps::kHeartbeat, 28);
+  std::fill(heartbeat.begin() + 4, heartbeat.end(), 0);
+  std::copy(writer.begin() + 12, writer.end(), heartbeat.begin() + 8);
+  for (const std::size_t number : {12U, 20U}) {  // the first and the last that it has, high word first
+    heartbeat[number + 6] = static_cast<std::uint8_t>(leap >> 16U);
+    heartbeat[number + 7] = static_cast<std::uint8_t>(leap >> 24U);
+  }
+  heartbeat[30] = 0xFF;  // so many heartbeats it has sent
+  rtps::Bytes out = rtps::datagram({heartbeat});
+  std::copy(writer.begin(), writer.begin() + 12, out.begin() + 8);
+  return out;
+}
+
+class ForgedHeartbeats : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+    ASSERT_TRUE(hears(std::chrono::seconds(5)));
+  }
+  [[nodiscard]] bool hears(std::chrono::milliseconds patience) {
+    const std::size_t before = inbox.size();
+    return eventually(
+        [&] {
+          EXPECT_TRUE(writer.write(DvlSample{}));
+          return inbox.size() > before;
+        },
+        patience);
+  }
+
+  bus::Participant bridge{options(kDomain, "dvl_bridge")};
+  bus::Participant fusion{options(kDomain, "fusion")};
+  Events events{fusion};
+  Inbox<DvlSample> inbox;
+  bus::Writer<DvlSample> writer{bridge};
+  bus::Reader<DvlSample> reader{fusion, inbox.handler()};
+};
+
+TEST_F(ForgedHeartbeats, OfALeapThatNoWriterMakesAreLeftOut) {
+  send_to_all({forged_heartbeat(writer.guid(), 0x7FFF'0000)});
+  EXPECT_TRUE(eventually([&] { return fusion.counters().malformed_datagram > 0; }));
+  EXPECT_TRUE(hears(std::chrono::seconds(5)));
+}
+
+TEST_F(ForgedHeartbeats, ThatMakeAReaderDeafDoSoForSeconds) {
+  send_to_all({forged_heartbeat(writer.guid(), 0x1'0000)});
+  EXPECT_TRUE(hears(std::chrono::seconds(30)));
+  ASSERT_TRUE(eventually([&] { return !events.of(bus::BusEventKind::sample_lost).empty(); }));
+  const auto lost = events.of(bus::BusEventKind::sample_lost);
+  EXPECT_THAT(lost.back().detail, HasSubstr("another reader was made"));
+  EXPECT_EQ(lost.back().topic, "fathom/v1/dvl");
 }
 
 }  // namespace

@@ -190,11 +190,12 @@ class Transports : public testing::Test {
  protected:
   Transports()
       : transport(dynamic_cast<fastdds::ChainingTransport*>(
-            TransportDescriptor(std::make_shared<fastdds::UDPv4TransportDescriptor>(), onlookers,
+            TransportDescriptor(std::make_shared<fastdds::UDPv4TransportDescriptor>(), onlookers, hearing,
                                 [this](const std::string& address) { refused.push_back(address); })
                 .create_transport())) {}
 
   const std::shared_ptr<Onlookers> onlookers = std::make_shared<Onlookers>();
+  const std::shared_ptr<Hearing> hearing = std::make_shared<Hearing>();
   std::vector<std::string> refused;
   const std::unique_ptr<fastdds::ChainingTransport> transport;
 };
