@@ -16,6 +16,11 @@ struct WriterOptions {
   std::int32_t ownership_strength = 0;
   /// It falls silent by intent, while another writer speaks for it: its own missed deadlines are no event.
   bool may_rest = false;
+  /// After so many samples a Fast DDS writer is followed by another, without a sample lost or late; of
+  /// reliable, volatile topics, others keep theirs. To a reader that comes anew Fast DDS 2.9.1 counts all
+  /// samples that the writer ever wrote, up to the newest, before it hands over one: a second for four
+  /// million, which at 400 Hz are three hours. 0: never.
+  std::uint64_t successor_after = 250'000;
 };
 
 /// Publishes plain samples of type T on the topic of T (bus/topics/). Instantiated for every topic's type;
@@ -32,8 +37,8 @@ class Writer {
   /// False when the sample could not be handed to the network within the profile's blocking time (counted).
   bool write(const T& sample);
   [[nodiscard]] int matched_readers() const;
-  /// As SampleInfo names it to readers.
-  [[nodiscard]] const WriterGuid& guid() const;
+  /// As SampleInfo names it to readers; a successor has another.
+  [[nodiscard]] WriterGuid guid() const;
 
  private:
   struct Impl;

@@ -20,7 +20,7 @@ class WriterCore {
   ~WriterCore();
   bool write(const void* sample);
   [[nodiscard]] int matched_readers() const;
-  [[nodiscard]] const WriterGuid& guid() const;
+  [[nodiscard]] WriterGuid guid() const;
 
   struct Impl;
 

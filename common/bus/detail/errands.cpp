@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "bus/detail/scheduling.hpp"
+
 namespace fathom::bus::detail {
 
 Errands::~Errands() {
@@ -32,6 +34,7 @@ void Errands::forget(const void* whose) {
 }
 
 void Errands::work() {
+  const ScopedChores as_chores;
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });

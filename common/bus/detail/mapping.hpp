@@ -282,7 +282,7 @@ int Writer<T>::matched_readers() const {
   return impl_->core.matched_readers();
 }
 template <class T>
-const WriterGuid& Writer<T>::guid() const {
+WriterGuid Writer<T>::guid() const {
   return impl_->core.guid();
 }
 

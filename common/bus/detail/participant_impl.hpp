@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -50,6 +52,9 @@ struct Participant::Impl final : detail::DiscoveryListener {
   void onParticipantAuthentication(detail::dds::DomainParticipant*,
                                    detail::rtps::ParticipantAuthenticationInfo&& info) override;
 
+  /// An entity id below all that were asked for before, and above those that Fast DDS gives by itself.
+  [[nodiscard]] std::int16_t next_lower_id() { return static_cast<std::int16_t>(lower_id_--); }
+
   /// What Fast DDS could not do about a local writer or reader, with the remedy where it is known.
   [[nodiscard]] std::string why_not(const std::string& topic);
   /// Reports those who have taken too long to prove an identity.
@@ -81,6 +86,7 @@ struct Participant::Impl final : detail::DiscoveryListener {
   void close();
 
   const std::shared_ptr<detail::Onlookers> onlookers_ = std::make_shared<detail::Onlookers>();
+  std::atomic<int> lower_id_ = 32'000;
   int number_ = -1;  // among the participants of this process
 
   std::mutex mutex_;

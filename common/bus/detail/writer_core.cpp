@@ -1,9 +1,13 @@
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
+#include <shared_mutex>
+#include <thread>
 #include <utility>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -19,45 +23,105 @@
 namespace fathom::bus::detail {
 namespace {
 
+using std::chrono::milliseconds;
+
 // How long a writer's end may wait for its readers: two heartbeats of the profiles and the answer.
 constexpr std::uint32_t kLastWords_ns = 150'000'000;
+
+// How long the readers of a writer have to find its successor, and how long all the same after that: that
+// they are known here is no proof that they know it.
+constexpr milliseconds kToBeFound(5000);
+constexpr milliseconds kToBeSure(1000);
 
 }  // namespace
 
 struct WriterCore::Impl final : dds::DataWriterListener {
-  Impl(Participant::Impl& bus_in, const TopicOps& ops_in, const WriterOptions& options)
-      : bus(bus_in), ops(ops_in), type(ops_in) {
-    dds::Topic* topic = bus.topic(ops);
-    const dds::DataWriterQos qos = writer_qos(*bus.publisher, ops.topic, options);
-    offered =
-        summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(), qos.liveliness());
-    dds::StatusMask mask = dds::StatusMask::publication_matched();
-    mask << dds::StatusMask::offered_incompatible_qos();
-    if (!options.may_rest) mask << dds::StatusMask::offered_deadline_missed();
-    writer = bus.publisher->create_datawriter(topic, qos, this, mask);
+  Impl(Participant::Impl& bus_in, const TopicOps& ops_in, const WriterOptions& options_in)
+      : bus(bus_in),
+        ops(ops_in),
+        type(ops_in),
+        options(options_in),
+        qos(writer_qos(*bus.publisher, ops.topic, options)),
+        offered(summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(),
+                          qos.liveliness())),
+        successors(qos.reliability().kind == dds::RELIABLE_RELIABILITY_QOS &&
+                   qos.durability().kind == dds::VOLATILE_DURABILITY_QOS && options.successor_after > 0) {
+    writer = create();
     if (writer == nullptr) {
       throw BusError("writer of " + std::string(ops.topic) + ": Fast DDS could not create it" +
                      bus.why_not(ops.topic));
     }
-    guid = to_guid(writer->guid());
     bus.check_types(ops.topic);
   }
 
   ~Impl() override {
-    if (writer == nullptr) return;
+    closing = true;
+    bus.errands.forget(this);
+    retire(writer);
+  }
+
+  dds::DataWriter* create() {
+    dds::StatusMask mask = dds::StatusMask::publication_matched();
+    mask << dds::StatusMask::offered_incompatible_qos();
+    if (!options.may_rest) mask << dds::StatusMask::offered_deadline_missed();
+    dds::DataWriterQos one = qos;
+    // Of two that are as strong the one with the lower identity is heard: the successor, from its first
+    // sample.
+    if (successors && qos.ownership().kind == dds::EXCLUSIVE_OWNERSHIP_QOS) {
+      one.endpoint().entity_id = bus.next_lower_id();
+    }
+    return bus.publisher->create_datawriter(bus.topic(ops), one, this, mask);
+  }
+
+  void retire(dds::DataWriter* old) {
+    if (old == nullptr) return;
     // The news that a writer left travels apart from its samples and may overtake the last of them, which the
     // reader would then ignore. A reader that died is not waited for any longer.
-    if (offered.reliability > 0) writer->wait_for_acknowledgments({0, kLastWords_ns});
-    writer->set_listener(nullptr);
+    if (offered.reliability > 0) old->wait_for_acknowledgments({0, kLastWords_ns});
+    old->set_listener(nullptr);
     // What a dead reader never took would be released one by one while the heartbeat still walks over it,
     // which may then never end (Fast DDS 2.9.1).
     std::size_t removed = 0;
-    writer->clear_history(&removed);
-    bus.publisher->delete_datawriter(writer);
+    old->clear_history(&removed);
+    bus.publisher->delete_datawriter(old);
   }
 
-  void on_publication_matched(dds::DataWriter*, const dds::PublicationMatchedStatus& status) override {
-    matched = status.current_count;
+  static int readers_of(dds::DataWriter& of) {
+    dds::PublicationMatchedStatus status;
+    of.get_publication_matched_status(status);
+    return status.current_count;
+  }
+
+  /// False when this writer is about to go.
+  [[nodiscard]] bool wait(milliseconds most, const std::function<bool()>& enough) const {
+    const auto end = std::chrono::steady_clock::now() + most;
+    while (!closing && !enough() && std::chrono::steady_clock::now() < end) {
+      std::this_thread::sleep_for(milliseconds(20));
+    }
+    return !closing;
+  }
+
+  /// Another Fast DDS writer goes on in the place of this one (WriterOptions::successor_after).
+  void succeed() {
+    dds::DataWriter* next = create();
+    if (next == nullptr) return;  // the old one is as good, but for those who come anew
+    const auto found = [&] { return readers_of(*next) >= matched; };
+    if (!wait(kToBeFound, found) || !found() || !wait(kToBeSure, [] { return false; })) return retire(next);
+    dds::DataWriter* old = nullptr;
+    {
+      const std::unique_lock lock(writer_mutex);
+      old = writer.exchange(next);
+    }
+    old->set_listener(nullptr);
+    do {
+      matched = readers_of(*next);
+    } while (matched != readers_of(*next));
+    retire(old);
+  }
+
+  void on_publication_matched(dds::DataWriter* of, const dds::PublicationMatchedStatus& status) override {
+    const dds::DataWriter* const current = writer;
+    if (current == nullptr || of == current) matched = status.current_count;
   }
 
   void on_offered_incompatible_qos(dds::DataWriter*,
@@ -113,7 +177,14 @@ struct WriterCore::Impl final : dds::DataWriterListener {
 
   bool write(const void* sample) {
     SampleSlot slot{const_cast<void*>(sample), true};
-    const bool written = done(writer->write(&slot));
+    bool written = false;
+    {
+      const std::shared_lock lock(writer_mutex);
+      written = done(writer.load()->write(&slot));
+    }
+    if (successors && ++count % options.successor_after == 0) {
+      bus.errands.run(this, [this] { succeed(); });
+    }
     if (offered.deadline_ns != kForever) track_deadline(slot);  // nobody waits for this
     if (written) {
       if (failed.exchange(false)) bus.events.recovered(BusEventKind::write_failed, ops.topic, "");
@@ -129,13 +200,18 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   Participant::Impl& bus;
   const TopicOps& ops;
   SampleType type;  // for keys only; Fast DDS owns its own
-  QosSummary offered;
-  WriterGuid guid{};
+  const WriterOptions options;
+  const dds::DataWriterQos qos;
+  const QosSummary offered;
+  const bool successors;
+  std::atomic<bool> closing = false;
+  std::atomic<std::uint64_t> count = 0;
   std::atomic<int> matched = 0;
   std::atomic<bool> failed = false;
   std::mutex mutex;
   std::map<std::string, Instance> instances;
-  dds::DataWriter* writer = nullptr;
+  std::shared_mutex writer_mutex;  // the writer does not change while it is held
+  std::atomic<dds::DataWriter*> writer = nullptr;
 };
 
 WriterCore::WriterCore(Participant& participant, const TopicOps& ops, const WriterOptions& options)
@@ -147,8 +223,9 @@ bool WriterCore::write(const void* sample) {
 int WriterCore::matched_readers() const {
   return impl_->matched;
 }
-const WriterGuid& WriterCore::guid() const {
-  return impl_->guid;
+WriterGuid WriterCore::guid() const {
+  const std::shared_lock lock(impl_->writer_mutex);
+  return to_guid(impl_->writer.load()->guid());
 }
 
 }  // namespace fathom::bus::detail

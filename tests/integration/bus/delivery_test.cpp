@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <future>
+#include <set>
 
 #include <sched.h>
 
@@ -44,6 +45,70 @@ TEST(Delivery, EverySampleInOrderWithItsOrigin) {
   EXPECT_FALSE(peer->host.empty());
   EXPECT_EQ(peer->pid, static_cast<std::uint32_t>(getpid()));
   EXPECT_EQ(b.counters().sample_lost, 0U);
+}
+
+template <class T>
+class Successors : public testing::Test {};
+using OfBothOwnerships = testing::Types<ImuSample, NavState>;  // shared, exclusive
+TYPED_TEST_SUITE(Successors, OfBothOwnerships);
+
+TYPED_TEST(Successors, GoOnWithoutASampleLostOrTwice) {
+  bus::Participant a(options(102, "fusion"));
+  bus::Participant b(options(102, "guidance"));
+  bus::Participant c(options(102, "monitor"));
+  Events events(b);
+  Inbox<TypeParam> inbox;
+  Inbox<TypeParam> other;
+  bus::WriterOptions with;
+  with.successor_after = 500;
+  bus::Writer<TypeParam> writer(a, with);
+  bus::Reader<TypeParam> reader(b, inbox.handler());
+  const bus::Reader<TypeParam> another(c, other.handler());
+  ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 2 && reader.matched_writers() == 1; }));
+
+  TypeParam sample;
+  sample.header.vehicle = "auv";
+  const bus::WriterGuid first = writer.guid();
+  std::set<bus::WriterGuid> writers;
+  EXPECT_TRUE(eventually(
+      [&] {
+        ++sample.header.sequence;
+        EXPECT_TRUE(writer.write(sample));
+        writers.insert(writer.guid());
+        return writers.size() == 3;
+      },
+      std::chrono::seconds(60)));
+  EXPECT_EQ(writer.matched_readers(), 2);
+  for (const Inbox<TypeParam>* one : {&inbox, &other}) {
+    ASSERT_TRUE(eventually([&] { return one->size() >= sample.header.sequence; }));
+    std::uint64_t expected = 0;
+    for (const auto& [got, info] : one->all()) ASSERT_EQ(got.header.sequence, ++expected);
+    EXPECT_EQ(expected, sample.header.sequence);
+    EXPECT_EQ(one->all().front().second.writer_guid, first);
+    EXPECT_NE(one->all().back().second.writer_guid, first);
+  }
+  EXPECT_TRUE(eventually([&] { return reader.matched_writers() == 1; }));
+  EXPECT_TRUE(events.of(bus::BusEventKind::writer_lost).empty());
+  EXPECT_TRUE(events.of(bus::BusEventKind::sample_lost).empty());
+}
+
+TEST(Successor, IsNotOfAWriterThatKeepsSamplesForLateReaders) {
+  bus::Participant a(options(102, "fusion"));
+  bus::WriterOptions with;
+  with.successor_after = 1;
+  bus::Writer<ServiceStatus> writer(a, with);
+  const bus::WriterGuid first = writer.guid();
+  for (int i = 0; i < 20; ++i) EXPECT_TRUE(writer.write(ServiceStatus{}));
+  let_pass(milliseconds(1500));
+  EXPECT_EQ(writer.guid(), first);
+}
+
+TEST(Successor, OnItsWayIsNotWaitedForByTheEnd) {
+  bus::Participant a(options(102, "imu_bridge"));
+  bus::WriterOptions with;
+  with.successor_after = 1;
+  bus::Writer<ImuSample> writer(a, with);
+  EXPECT_TRUE(writer.write(ImuSample{}));
 }
 
 /// How the thread is scheduled that hands over samples of a participant made with `made_with`.
