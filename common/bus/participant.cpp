@@ -288,8 +288,9 @@ void Participant::Impl::participant_dropped(const detail::GuidPrefix& prefix) {
 
 void Participant::Impl::refuse_datagram(const std::string& address) {
   // The address is hearsay, and there may be many of them: reported once.
-  events.report(BusEventKind::malformed_datagram, "", "",
-                "one from " + address + " would have ended or blocked this service; left out, and those that follow");
+  events.report(
+      BusEventKind::malformed_datagram, "", "",
+      "one from " + address + " would have ended or blocked this service; left out, and those that follow");
 }
 
 void Participant::Impl::participant_seen(const detail::GuidPrefix& who,

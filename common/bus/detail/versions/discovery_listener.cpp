@@ -122,8 +122,8 @@ void DiscoveryListener::on_participant_discovery(dds::DomainParticipant* us,
                                                  const rtps::ParticipantBuiltinTopicData& data,
                                                  bool& ignore) {
   using Status = rtps::ParticipantDiscoveryStatus;
-  // A discovery server of 3.0 and later answers clients of every domain; before, it is called by a GUID prefix
-  // that has ours in it.
+  // A discovery server of 3.0 and later answers clients of every domain; before, it is called by a GUID
+  // prefix that has ours in it.
   ignore = data.domain_id != us->get_domain_id() && data.domain_id != dds::DOMAIN_ID_UNKNOWN;
   if (ignore) return;
   const GuidPrefix who = to_prefix(data.guid);
