@@ -33,6 +33,10 @@ constexpr std::uint32_t kLastWords_ns = 150'000'000;
 constexpr milliseconds kToBeFound(5000);
 constexpr milliseconds kToBeSure(1000);
 
+// Where one writer is heard at a time, how long the successor's first sample may wait for the last of the old
+// one to have arrived: what comes after it is not heard. Less than the deadline of a navigation state.
+constexpr std::uint32_t kToArrive_ns = 25'000'000;
+
 }  // namespace
 
 struct WriterCore::Impl final : dds::DataWriterListener {
@@ -60,6 +64,8 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     retire(writer);
   }
 
+  [[nodiscard]] bool exclusive() const { return qos.ownership().kind == dds::EXCLUSIVE_OWNERSHIP_QOS; }
+
   dds::DataWriter* create() {
     dds::StatusMask mask = dds::StatusMask::publication_matched();
     mask << dds::StatusMask::offered_incompatible_qos();
@@ -67,7 +73,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     dds::DataWriterQos one = qos;
     // Of two that are as strong the one with the lower identity is heard: the successor, from its first
     // sample.
-    if (successors && qos.ownership().kind == dds::EXCLUSIVE_OWNERSHIP_QOS) {
+    if (successors && exclusive()) {
       one.endpoint().entity_id = bus.next_lower_id();
     }
     return bus.publisher->create_datawriter(bus.topic(ops), one, this, mask);
@@ -110,6 +116,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     dds::DataWriter* old = nullptr;
     {
       const std::unique_lock lock(writer_mutex);
+      if (exclusive()) writer.load()->wait_for_acknowledgments({0, kToArrive_ns});
       old = writer.exchange(next);
     }
     old->set_listener(nullptr);
