@@ -35,7 +35,7 @@ constexpr milliseconds kToBeSure(1000);
 
 // Where one writer is heard at a time, how long the successor's first sample may wait for the last of the old
 // one to have arrived: what comes after it is not heard. Less than the deadline of a navigation state.
-constexpr std::uint32_t kToArrive_ns = 25'000'000;
+constexpr std::uint32_t kToArrive_ns = 15'000'000;
 
 }  // namespace
 
