@@ -32,13 +32,13 @@ History::History(const Setup& setup)
     : setup_(&setup),
       core_(setup),
       steps_(step_capacity(setup.config)),
-      snapshots_(snapshot_capacity(setup.config), Snapshot{0, Core(setup)}),
-      snapshot_order_(snapshots_.size()),
+      snapshots_(snapshot_capacity(setup.config), Core(setup)),
+      marks_(snapshots_.size()),
       pool_(setup.config.measurement_capacity),
       order_(setup.config.measurement_capacity),
       catching_(setup) {
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint16_t>(i);
-  for (std::size_t i = 0; i < snapshot_order_.size(); ++i) snapshot_order_[i] = static_cast<std::uint16_t>(i);
+  for (std::size_t i = 0; i < marks_.size(); ++i) marks_[i].place = static_cast<std::uint16_t>(i);
 }
 
 std::size_t History::first_after(TimeNs stamp_ns) const {
@@ -56,13 +56,13 @@ History::Placing History::insert(const Measurement& measurement) {
   const TimeNs stamp = measurement.stamp_ns;
   if (stamp > newest + from_seconds(setup_->config.future_tolerance_s)) return Placing::from_the_future;
   const TimeNs horizon = newest - from_seconds(setup_->config.horizon_s);
-  if (stamp < horizon || stamp <= snapshot(0).core.now_ns()) return Placing::late;
+  if (stamp < horizon || stamp <= marks_[0].now_ns) return Placing::late;
   if (event_count_ == order_.size()) {
     // Full: the oldest goes, and with it the snapshots before it, which could no longer be repeated truly.
     std::size_t kept = 0;
-    while (kept < snapshot_count_ && snapshot(kept).core.now_ns() < event(0).stamp_ns) ++kept;
+    while (kept < snapshot_count_ && marks_[kept].now_ns < event(0).stamp_ns) ++kept;
     if (kept == snapshot_count_) return Placing::late;
-    const TimeNs floor = snapshot(kept).core.now_ns();
+    const TimeNs floor = marks_[kept].now_ns;
     const bool needed =
         (dirty_ns_ != 0 && dirty_ns_ <= floor) || (catching_up_ && catching_.now_ns() < floor);
     if (stamp <= floor || needed) return Placing::late;
@@ -98,12 +98,12 @@ void History::advance(const ImuStep& step, VerdictSink& sink) {
 
 std::size_t History::snapshot_before(TimeNs stamp_ns) const {
   std::size_t at = snapshot_count_ - 1;
-  while (at > 0 && snapshot(at).core.now_ns() >= stamp_ns) --at;
+  while (at > 0 && marks_[at].now_ns >= stamp_ns) --at;
   return at;
 }
 
 TimeNs History::oldest_ns() const {
-  const TimeNs oldest = snapshot(0).core.now_ns();
+  const TimeNs oldest = marks_[0].now_ns;
   return catching_up_ ? std::min(oldest, catching_.now_ns()) : oldest;
 }
 
@@ -113,23 +113,23 @@ void History::go_back() {
   const TimeNs late_ns = dirty_ns_;
   dirty_ns_ = 0;
   const std::size_t at = snapshot_before(late_ns);
-  const std::uint64_t repeated = steps_done_ - snapshot(at).after_step;
+  const std::uint64_t repeated = steps_done_ - marks_[at].after_step;
   const bool dear = repeated > setup_->config.replay_steps_per_sample;
   fine_until_step_ = steps_done_ + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
   if (catching_up_ && late_ns > catching_.now_ns()) {
     // The second will meet it on its way; the first takes it in meanwhile where that is cheap.
-    if (dear || snapshot(at).after_step <= caught_up_step_) return;
+    if (dear || marks_[at].after_step <= caught_up_step_) return;
   } else if (catching_up_ || dear) {
     if (!catching_up_) catching_for_ = 0;
     catching_up_ = true;
-    catching_ = snapshot(at).core;
-    caught_up_step_ = snapshot(at).after_step;
+    catching_ = snapshot(at);
+    caught_up_step_ = marks_[at].after_step;
     return;
   }
   repeated_steps_ += repeated;
   snapshot_count_ = at + 1;
-  core_ = snapshot(at).core;
-  steps_done_ = snapshot(at).after_step;
+  core_ = snapshot(at);
+  steps_done_ = marks_[at].after_step;
 }
 
 void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
@@ -137,13 +137,12 @@ void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
     run(catching_, steps_[caught_up_step_ % steps_.size()], sink);
     ++caught_up_step_;
     ++repeated_steps_;
-    const auto begin = snapshot_order_.begin();
+    const auto begin = marks_.begin();
     const auto end = begin + static_cast<std::ptrdiff_t>(snapshot_count_);
-    const auto passed = std::lower_bound(
-        begin, end, caught_up_step_,
-        [this](std::uint16_t one, std::uint64_t step) { return snapshots_[one].after_step < step; });
-    if (passed != end && snapshots_[*passed].after_step == caught_up_step_)
-      snapshots_[*passed].core = catching_;
+    const auto passed =
+        std::lower_bound(begin, end, caught_up_step_,
+                         [](const Mark& one, std::uint64_t step) { return one.after_step < step; });
+    if (passed != end && passed->after_step == caught_up_step_) snapshots_[passed->place] = catching_;
   }
   if (caught_up_step_ < steps_done_) return;
   core_ = catching_;
@@ -178,7 +177,7 @@ void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
     ++steps_done_;
     if (save_due(newest_ns)) save();
     // A snapshot from which some step since is no longer held is of no use.
-    while (snapshot_count_ > 1 && steps_done_ - snapshot(0).after_step >= steps_.size()) {
+    while (snapshot_count_ > 1 && steps_done_ - marks_[0].after_step >= steps_.size()) {
       drop_snapshot(0);
       drop_before(oldest_ns());
     }
@@ -200,10 +199,10 @@ void History::run(Core& core, const ImuStep& step, VerdictSink& sink) {
 }
 
 bool History::save_due(TimeNs newest_ns) const {
-  const Snapshot& last = snapshot(snapshot_count_ - 1);
+  const Mark& last = marks_[snapshot_count_ - 1];
   const std::uint64_t steps = steps_done_ - last.after_step;
   if (steps >= steps_.size() / 4) return true;
-  const DurationNs since = core_.now_ns() - last.core.now_ns();
+  const DurationNs since = core_.now_ns() - last.now_ns;
   if (since >= from_seconds(setup_->config.snapshot_interval_s)) return true;
   return steps_done_ < fine_until_step_ && steps >= kFineSteps &&
          since >= (newest_ns - core_.now_ns()) / kSaveShare;
@@ -211,27 +210,28 @@ bool History::save_due(TimeNs newest_ns) const {
 
 void History::save() {
   if (snapshot_count_ == snapshots_.size()) drop_snapshot(0);
-  Snapshot& slot = snapshot(snapshot_count_);
-  slot.after_step = steps_done_;
-  slot.core = core_;
+  Mark& mark = marks_[snapshot_count_];
+  mark.after_step = steps_done_;
+  mark.now_ns = core_.now_ns();
+  snapshots_[mark.place] = core_;
   ++snapshot_count_;
   drop_before(oldest_ns());
 }
 
 void History::thin_snapshots(TimeNs newest_ns) {
   const TimeNs horizon = newest_ns - from_seconds(setup_->config.horizon_s);
-  while (snapshot_count_ > 1 && snapshot(1).core.now_ns() < horizon) drop_snapshot(0);
+  while (snapshot_count_ > 1 && marks_[1].now_ns < horizon) drop_snapshot(0);
   const DurationNs widest = from_seconds(setup_->config.snapshot_interval_s);
   for (std::size_t i = snapshot_count_; i-- > 2;) {
-    const TimeNs before = snapshot(i - 2).core.now_ns();
-    const DurationNs gap = snapshot(i).core.now_ns() - before;
+    const TimeNs before = marks_[i - 2].now_ns;
+    const DurationNs gap = marks_[i].now_ns - before;
     if (gap <= std::min(widest, (newest_ns - before) / kThinShare)) drop_snapshot(i - 1);
   }
 }
 
 void History::drop_snapshot(std::size_t age_order) {
-  const auto place = snapshot_order_.begin() + static_cast<std::ptrdiff_t>(age_order);
-  std::rotate(place, place + 1, snapshot_order_.begin() + static_cast<std::ptrdiff_t>(snapshot_count_));
+  const auto mark = marks_.begin() + static_cast<std::ptrdiff_t>(age_order);
+  std::rotate(mark, mark + 1, marks_.begin() + static_cast<std::ptrdiff_t>(snapshot_count_));
   --snapshot_count_;
 }
 

@@ -67,9 +67,12 @@ class History {
   [[nodiscard]] bool catching_up() const { return catching_up_; }
 
  private:
-  struct Snapshot {
+  /// Of which instant a snapshot is. Apart from the navigators, tens of kB each: the search goes over these
+  /// with every inertial sample.
+  struct Mark {
     std::uint64_t after_step = 0;  ///< number of steps applied
-    Core core;
+    TimeNs now_ns = 0;
+    std::uint16_t place = 0;  ///< in snapshots_
   };
 
   /// Events that have not acted yet get this verdict.
@@ -91,9 +94,8 @@ class History {
   void thin_snapshots(TimeNs newest_ns);
   void drop_snapshot(std::size_t age_order);
   void drop_before(TimeNs stamp_ns);
-  [[nodiscard]] Snapshot& snapshot(std::size_t age_order) { return snapshots_[snapshot_order_[age_order]]; }
-  [[nodiscard]] const Snapshot& snapshot(std::size_t age_order) const {
-    return snapshots_[snapshot_order_[age_order]];
+  [[nodiscard]] const Core& snapshot(std::size_t age_order) const {
+    return snapshots_[marks_[age_order].place];
   }
   [[nodiscard]] Measurement& event(std::size_t rank) { return pool_[order_[rank]]; }
   [[nodiscard]] std::size_t first_after(TimeNs stamp_ns) const;
@@ -104,9 +106,8 @@ class History {
   std::uint64_t steps_done_ = 0;
   TimeNs dirty_ns_ = 0;         ///< earliest event that has not acted although its instant is past; 0: none
   std::vector<ImuStep> steps_;  ///< ring, by step number
-  std::vector<Snapshot> snapshots_;
-  std::vector<std::uint16_t>
-      snapshot_order_;  ///< places by age, oldest first; the first snapshot_count_ are in use
+  std::vector<Core> snapshots_;
+  std::vector<Mark> marks_;  ///< by age, oldest first; the first snapshot_count_ are in use
   std::size_t snapshot_count_ = 0;
   std::vector<Measurement> pool_;
   std::vector<std::uint16_t> order_;  ///< ranks to places in the pool; the first event_count_ are in use

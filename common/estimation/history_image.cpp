@@ -34,13 +34,13 @@ bool sound(const Measurement& event, std::size_t sensors) {
 
 void History::write(ImageWriter& image) const {
   // Snapshots behind the second navigator are the first one's, and lack what the second is making up for.
-  const bool second = catching_up_ && catching_.now_ns() < snapshot(0).core.now_ns();
+  const bool second = catching_up_ && catching_.now_ns() < marks_[0].now_ns;
   Head head;
-  head.base_step = second ? caught_up_step_ : snapshot(0).after_step;
+  head.base_step = second ? caught_up_step_ : marks_[0].after_step;
   head.steps_done = steps_done_;
   head.events = event_count_;
   image.put(head);
-  image.put(second ? catching_ : snapshot(0).core);
+  image.put(second ? catching_ : snapshot(0));
   for (std::uint64_t step = head.base_step; step < head.steps_done; ++step) {
     image.put(steps_[step % steps_.size()]);
   }
