@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace fathom::bus::detail {
 
 /// How the kernel schedules a thread.
@@ -28,8 +30,16 @@ class ScopedChores {
   bool changed_ = false;
 };
 
-/// The calling thread carries samples: from its first call on it is scheduled as told. To be called with each
-/// sample.
+/// As long as a thread that carries samples may go on while another waits, under SCHED_OTHER.
+inline constexpr std::uint64_t kTurn_ns = 500'000;
+
+/// The calling thread, if it is SCHED_OTHER, asks for turns of kTurn_ns: from Linux 6.12 on a thread that
+/// wakes takes the processor from one with longer turns. Before, and where the kernel refuses, nothing
+/// changes. To be called with each sample; the first call counts.
+void ask_for_short_turns();
+
+/// The calling thread carries samples: from its first call on it is scheduled as told, with short turns. To
+/// be called with each sample.
 void carry_samples(const Scheduling& as);
 
 }  // namespace fathom::bus::detail

@@ -19,6 +19,7 @@
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos.hpp"
 #include "bus/detail/sample_type.hpp"
+#include "bus/detail/scheduling.hpp"
 
 namespace fathom::bus::detail {
 namespace {
@@ -183,6 +184,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   }
 
   bool write(const void* sample) {
+    if (bus.samples_as) ask_for_short_turns();
     SampleSlot slot{const_cast<void*>(sample), true};
     bool written = false;
     {

@@ -1,9 +1,14 @@
 #include "bus/detail/scheduling.hpp"
 
+#include <array>
+#include <cstdint>
+#include <cstring>
 #include <thread>
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 namespace fathom::test {
 namespace {
@@ -21,6 +26,15 @@ bool schedule(int policy, int priority) {
   sched_param parameters{};
   parameters.sched_priority = priority;
   return sched_setscheduler(0, policy, &parameters) == 0;
+}
+
+/// How long the calling thread's turns are; 0 where the kernel does not say.
+std::uint64_t turn_ns() {
+  std::array<unsigned char, 48> attributes{};  // struct sched_attr
+  if (syscall(SYS_sched_getattr, 0, attributes.data(), attributes.size(), 0) != 0) return 0;
+  std::uint64_t runtime_ns = 0;
+  std::memcpy(&runtime_ns, attributes.data() + 24, sizeof runtime_ns);
+  return runtime_ns;
 }
 
 /// Runs `body` on a thread that is scheduled so; false where the kernel does not let it.
@@ -79,6 +93,23 @@ TEST(Scheduling, InRealTimeChoresAreOnePriorityBelow) {
     EXPECT_EQ(priority(), 20);
   });
   if (!may) GTEST_SKIP() << "needs CAP_SYS_NICE or RLIMIT_RTPRIO";
+}
+
+TEST(Scheduling, WhatCarriesSamplesAsksForShortTurns) {
+  ASSERT_TRUE(on_thread(SCHED_OTHER, 0, [] {
+    const bool told = turn_ns() != 0;
+    ASSERT_EQ(nice(3), 3);
+    bus::detail::ask_for_short_turns();
+    EXPECT_EQ(turn_ns(), told ? bus::detail::kTurn_ns : 0);
+    EXPECT_EQ(policy(), SCHED_OTHER);
+    EXPECT_EQ(nice(0), 3);
+  }));
+  ASSERT_TRUE(on_thread(SCHED_BATCH, 0, [] {
+    const std::uint64_t before_ns = turn_ns();
+    bus::detail::ask_for_short_turns();
+    EXPECT_EQ(turn_ns(), before_ns);
+    EXPECT_EQ(policy(), SCHED_BATCH);
+  }));
 }
 
 TEST(Scheduling, TheLowestRealTimePriorityHasNoneBelow) {
