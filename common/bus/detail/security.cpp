@@ -68,7 +68,9 @@ void Participant::Impl::report(const Stranger& stranger) {
 
 void Participant::Impl::meet(const detail::GuidPrefix& prefix, const Peer& peer,
                              const detail::Announcement& announcement) {
-  strangers.announced(prefix, peer, address_of(announcement), announcement.offers_identity);
+  const auto proven =
+      strangers.announced(prefix, peer, address_of(announcement), announcement.offers_identity);
+  if (proven) peers.participant_seen(prefix, *proven);
 }
 
 void Participant::Impl::part(const detail::GuidPrefix& prefix) {

@@ -41,21 +41,26 @@ StrangerBook::StrangerBook(std::function<TimeNs()> now_ns) : now_ns_(std::move(n
   if (!now_ns_) now_ns_ = [] { return SystemClock().monotonic_ns(); };
 }
 
-void StrangerBook::announced(const GuidPrefix& prefix, const Peer& peer, const std::string& address,
-                             bool offers_identity) {
+std::optional<Peer> StrangerBook::announced(const GuidPrefix& prefix, const Peer& peer,
+                                            const std::string& address, bool offers_identity) {
   const std::lock_guard lock(mutex_);
-  if (admitted_.contains(prefix) || entries_.contains(prefix)) return;
+  if (const auto found = admitted_.find(prefix); found != admitted_.end()) {
+    if (std::exchange(found->second, true)) return std::nullopt;
+    return peer;
+  }
+  if (entries_.contains(prefix)) return std::nullopt;
   if (entries_.size() >= kMost) {
     // One that may yet prove itself needs the room more than one that did not.
     const auto refused = std::find_if(entries_.begin(), entries_.end(), [](const auto& known) {
       return known.second.refused || !known.second.stranger.why.empty();
     });
-    if (refused == entries_.end()) return;
+    if (refused == entries_.end()) return std::nullopt;
     entries_.erase(refused);
   }
   Entry& entry = entries_[prefix];
   entry = {peer, to_stranger(prefix, peer, address), now_ns_(), false};
   if (!offers_identity) entry.stranger.why = "offers no identity";
+  return std::nullopt;
 }
 
 std::vector<Stranger> StrangerBook::overdue() {
@@ -72,9 +77,10 @@ std::vector<Stranger> StrangerBook::overdue() {
 
 std::optional<Peer> StrangerBook::admitted(const GuidPrefix& prefix) {
   const std::lock_guard lock(mutex_);
-  admitted_.insert(prefix);
+  bool& known = admitted_.try_emplace(prefix, false).first->second;
   const auto found = entries_.find(prefix);
   if (found == entries_.end()) return std::nullopt;
+  known = true;
   const Peer peer = found->second.peer;
   entries_.erase(found);
   return peer;

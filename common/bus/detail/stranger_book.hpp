@@ -5,7 +5,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -27,9 +26,10 @@ class StrangerBook {
   /// `now_ns` is a monotonic clock.
   explicit StrangerBook(std::function<TimeNs()> now_ns = {});
 
-  /// `prefix` announced itself.
-  void announced(const GuidPrefix& prefix, const Peer& peer, const std::string& address,
-                 bool offers_identity);
+  /// `prefix` announced itself. Returns what it called itself when that is the first news of one that has
+  /// proved its identity already.
+  [[nodiscard]] std::optional<Peer> announced(const GuidPrefix& prefix, const Peer& peer,
+                                              const std::string& address, bool offers_identity);
   /// Those whom nobody has waited for long enough until now and who are refused from now on.
   std::vector<Stranger> overdue();
   /// It proved its identity. Returns what it called itself before, when that is known.
@@ -51,7 +51,7 @@ class StrangerBook {
 
   mutable std::mutex mutex_;
   std::map<GuidPrefix, Entry> entries_;  ///< not admitted
-  std::set<GuidPrefix> admitted_;
+  std::map<GuidPrefix, bool> admitted_;  ///< and whether what it called itself is known
   std::function<TimeNs()> now_ns_;
 };
 

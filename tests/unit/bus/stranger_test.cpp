@@ -19,11 +19,11 @@ GuidPrefix prefix(std::uint8_t last) {
 
 TEST(StrangerBook, OneThatIsRefusedStaysUntilItLeaves) {
   StrangerBook book([] { return TimeNs{0}; });
-  book.announced(prefix(1), {"evil", "host", 7}, "10.0.0.9", false);
+  (void)book.announced(prefix(1), {"evil", "host", 7}, "10.0.0.9", false);
   EXPECT_TRUE(book.present().empty());
   EXPECT_EQ(to_string(book.refused(prefix(1), "failed")),
             "'evil' (GUID 010000000000000000000001, says it is at 10.0.0.9) offers no identity");
-  book.announced(prefix(1), {"other", "host", 7}, "10.0.0.9", true);
+  (void)book.announced(prefix(1), {"other", "host", 7}, "10.0.0.9", true);
   ASSERT_EQ(book.present().size(), 1U);
   EXPECT_EQ(book.present()[0].name, "evil");
   EXPECT_TRUE(book.gone(prefix(1)));
@@ -33,11 +33,11 @@ TEST(StrangerBook, OneThatIsRefusedStaysUntilItLeaves) {
 TEST(StrangerBook, OneThatProvesItsIdentityIsAPeer) {
   TimeNs now = 0;
   StrangerBook book([&now] { return now; });
-  book.announced(prefix(1), {"fusion", "host", 7}, "10.0.0.9", true);
+  (void)book.announced(prefix(1), {"fusion", "host", 7}, "10.0.0.9", true);
   const auto peer = book.admitted(prefix(1));
   ASSERT_TRUE(peer);
   EXPECT_EQ(peer->name, "fusion");
-  book.announced(prefix(1), {"another name", "host", 7}, "10.0.0.9", true);
+  EXPECT_FALSE(book.announced(prefix(1), {"another name", "host", 7}, "10.0.0.9", true));
   EXPECT_THAT(book.refused(prefix(1), "failed").why, testing::HasSubstr("somebody failed to prove the same"));
   now = 2 * StrangerBook::kPatience;
   EXPECT_TRUE(book.overdue().empty());
@@ -45,10 +45,21 @@ TEST(StrangerBook, OneThatProvesItsIdentityIsAPeer) {
   EXPECT_FALSE(book.gone(prefix(1)));
 }
 
+TEST(StrangerBook, OneThatIsAnnouncedAfterItsProofIsAPeer) {
+  StrangerBook book([] { return TimeNs{0}; });
+  EXPECT_FALSE(book.admitted(prefix(1)));
+  const auto peer = book.announced(prefix(1), {"fusion", "host", 7}, "10.0.0.9", true);
+  ASSERT_TRUE(peer);
+  EXPECT_EQ(peer->name, "fusion");
+  EXPECT_FALSE(book.announced(prefix(1), {"another name", "host", 7}, "10.0.0.9", true));
+  EXPECT_FALSE(book.admitted(prefix(1)));
+  EXPECT_FALSE(book.announced(prefix(1), {"another name", "host", 7}, "10.0.0.9", true));
+}
+
 TEST(StrangerBook, OneThatNeverProvesItIsRefusedInTheEnd) {
   TimeNs now = 0;
   StrangerBook book([&now] { return now; });
-  book.announced(prefix(1), {"slow", "", 0}, "", true);
+  (void)book.announced(prefix(1), {"slow", "", 0}, "", true);
   now = StrangerBook::kPatience - 1;
   EXPECT_TRUE(book.overdue().empty());
   now = StrangerBook::kPatience;
@@ -64,12 +75,12 @@ TEST(StrangerBook, OneThatNeverProvesItIsRefusedInTheEnd) {
 TEST(StrangerBook, RemembersOnlySoMany) {
   StrangerBook book([] { return TimeNs{0}; });
   for (int i = 0; i < 250; ++i) {
-    book.announced(prefix(static_cast<std::uint8_t>(i)), {"evil", "", 0}, "", false);
+    (void)book.announced(prefix(static_cast<std::uint8_t>(i)), {"evil", "", 0}, "", false);
     (void)book.refused(prefix(static_cast<std::uint8_t>(i)), "failed");
   }
   EXPECT_EQ(book.present().size(), StrangerBook::kMost);
   // Who has an identity still finds room, and its name.
-  book.announced(prefix(250), {"fusion", "auv1", 7}, "", true);
+  (void)book.announced(prefix(250), {"fusion", "auv1", 7}, "", true);
   const auto fusion = book.admitted(prefix(250));
   ASSERT_TRUE(fusion);
   EXPECT_EQ(fusion->name, "fusion");
