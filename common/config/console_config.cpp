@@ -25,6 +25,9 @@ void describe(Schema<ConsoleHttpConfig>& s) {
           "at the same time from one address")
       .range(2, 1000);
   s.field("most_streams", &ConsoleHttpConfig::most_streams, "open pages at the same time").range(1, 500);
+  s.field("most_streams_per_viewer", &ConsoleHttpConfig::most_streams_per_viewer,
+          "open pages at the same time of one token, or of one address that shows none")
+      .range(1, 500);
   s.check([](const ConsoleHttpConfig& http) -> Fault {
     in_addr parsed{};
     if (inet_pton(AF_INET, http.address.c_str(), &parsed) != 1) {

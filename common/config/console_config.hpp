@@ -17,6 +17,7 @@ struct ConsoleHttpConfig {
   int most_connections = 128;
   int most_connections_per_peer = 96;
   int most_streams = 48;
+  int most_streams_per_viewer = 12;  ///< of one token; without one: of one address
 };
 
 /// Section "tls": both files, or none for http in clear.

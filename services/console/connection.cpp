@@ -107,7 +107,7 @@ Connection::Step Connection::try_send(std::string_view bytes) {
   return sent < 0 && (errno == EINTR || errno == EAGAIN) ? Step{0, POLLOUT} : Step{};
 }
 
-Connection::Outcome Connection::receive(SteadyTime deadline) {
+Connection::Outcome Connection::receive(std::string& to, SteadyTime deadline) {
   std::array<char, 4096> chunk{};
   short events = POLLIN;
   while (true) {
@@ -117,38 +117,12 @@ Connection::Outcome Connection::receive(SteadyTime deadline) {
     if (!decrypted && !wait_for(socket_, events, deadline)) return Outcome::timed_out;
     const Step step = try_receive(chunk.data(), chunk.size());
     if (step.bytes > 0) {
-      buffer_.append(chunk.data(), step.bytes);
+      to.append(chunk.data(), step.bytes);
       return Outcome::complete;
     }
     if (step.events == 0) return Outcome::closed;
     events = step.events;
   }
-}
-
-bool Connection::wait_for_request(SteadyTime deadline) {
-  return has_started() || receive(deadline) == Outcome::complete;
-}
-
-Connection::Outcome Connection::read_head(std::string& head, std::size_t most, SteadyTime deadline) {
-  while (true) {
-    const std::size_t end = buffer_.find("\r\n\r\n");
-    if (end != std::string::npos && end + 4 <= most) {
-      head = buffer_.substr(0, end + 4);
-      buffer_.erase(0, end + 4);
-      return Outcome::complete;
-    }
-    if (end != std::string::npos || buffer_.size() > most) return Outcome::oversized;
-    if (const Outcome outcome = receive(deadline); outcome != Outcome::complete) return outcome;
-  }
-}
-
-Connection::Outcome Connection::read_body(std::string& body, std::size_t length, SteadyTime deadline) {
-  while (buffer_.size() < length) {
-    if (const Outcome outcome = receive(deadline); outcome != Outcome::complete) return outcome;
-  }
-  body = buffer_.substr(0, length);
-  buffer_.erase(0, length);
-  return Outcome::complete;
 }
 
 bool Connection::write(std::string_view bytes, std::chrono::milliseconds patience) {

@@ -19,7 +19,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 /// costs its thread for a known time and no memory.
 class Connection {
  public:
-  enum class Outcome { complete, closed, timed_out, oversized };
+  enum class Outcome { complete, closed, timed_out };
 
   /// Takes over a non-blocking socket.
   explicit Connection(int socket) : socket_(socket) {}
@@ -32,13 +32,8 @@ class Connection {
   /// The handshake of TLS; everything after it is encrypted. `closed`: the peer left or broke the protocol.
   [[nodiscard]] Outcome secure(const TlsIdentity& identity, SteadyTime deadline);
 
-  /// Waits for the first byte of a request. False when none came by then, or the peer is gone.
-  [[nodiscard]] bool wait_for_request(SteadyTime deadline);
-  /// Reads up to and including the empty line.
-  [[nodiscard]] Outcome read_head(std::string& head, std::size_t most, SteadyTime deadline);
-  [[nodiscard]] Outcome read_body(std::string& body, std::size_t length, SteadyTime deadline);
-  /// Bytes of the next request are there already, or some of this one came before it was given up.
-  [[nodiscard]] bool has_started() const { return !buffer_.empty(); }
+  /// Appends one read of what is there to `to`: at most 4 KiB.
+  [[nodiscard]] Outcome receive(std::string& to, SteadyTime deadline);
 
   /// False when the peer is gone or takes nothing for `patience`.
   [[nodiscard]] bool write(std::string_view bytes, std::chrono::milliseconds patience);
@@ -59,13 +54,10 @@ class Connection {
   [[nodiscard]] Step try_send(std::string_view bytes);
   /// By the return value of a call of the TLS library.
   [[nodiscard]] Step tls_step(int result);
-  /// One read of what is there into the buffer.
-  [[nodiscard]] Outcome receive(SteadyTime deadline);
 
   int socket_;
   std::unique_ptr<ssl_st, FreeTls> tls_;
   bool tls_broken_ = false;  ///< nothing may be said by it any more, not even goodbye
-  std::string buffer_;
 };
 
 }  // namespace fathom::console

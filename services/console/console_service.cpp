@@ -38,7 +38,6 @@ Site::Options site_options(const config::ConsoleConfig& config) {
   out.title = config.common.vehicle;
   out.orders_enabled = config.access.orders;
   out.view_needs_token = config.access.view_needs_token;
-  out.secure = !config.tls.certificate_file.empty();
   out.tiles_dir = config.map.tiles_dir;
   nlohmann::json waypoints = nlohmann::json::array();
   for (const config::ConsoleWaypoint& point : config.map.waypoints) {
@@ -48,6 +47,11 @@ Site::Options site_options(const config::ConsoleConfig& config) {
   out.waypoints_json = waypoints.dump();
   out.tokens = tokens_of(config, "configuration");
   return out;
+}
+
+FanOut::Limits stream_limits(const config::ConsoleConfig& config) {
+  return {kQueueDepth, static_cast<std::size_t>(config.http.most_streams),
+          static_cast<std::size_t>(config.http.most_streams_per_viewer)};
 }
 
 HttpServer::Options server_options(const config::ConsoleConfig& config) {
@@ -69,7 +73,7 @@ struct ConsoleService::Impl {
         config(config_in),
         http(server_options(config)),
         picture({config.common.vehicle, config.common.bus.domain, config.fresh_s}),
-        events(kQueueDepth, static_cast<std::size_t>(config.http.most_streams)),
+        events(stream_limits(config)),
         commands(host.participant()),
         site(site_options(config),
              {[this] { return snapshot(); },
@@ -80,8 +84,7 @@ struct ConsoleService::Impl {
              events),
         server(
             http,
-            [this](const RequestHead& head, const std::string& body, const std::string& peer,
-                   Connection& connection) { return site.serve(head, body, peer, connection); },
+            [this](const Request& request, const std::string& peer) { return site.answer(request, peer); },
             [this](const Refusal& refusal, const std::string& peer) { say_refused(refusal, peer); }) {
     listen_to<NavState>();
     listen_to<NavDetail>();
@@ -105,10 +108,7 @@ struct ConsoleService::Impl {
     const double period_s = host.clock().rate() / config.updates_hz;
     host.on_tick(from_seconds(period_s), [this] { tick(); });
   }
-  ~Impl() {
-    events.close();
-    site.close();
-  }
+  ~Impl() { events.close(); }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 

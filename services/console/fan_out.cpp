@@ -38,13 +38,19 @@ void FanOut::Client::close() {
   changed_.notify_all();
 }
 
-std::shared_ptr<FanOut::Client> FanOut::join() {
+FanOut::Join FanOut::join(const std::string& viewer) {
   const std::lock_guard lock(mutex_);
   std::erase_if(clients_, [](const auto& client) { return client.expired(); });
-  if (closed_ || clients_.size() >= most_clients_) return nullptr;
-  std::shared_ptr<Client> client(new Client(depth_));
+  if (closed_ || clients_.size() >= limits_.most_clients) return {nullptr, Refused::all_taken};
+  const auto of_viewer = std::count_if(clients_.begin(), clients_.end(), [&](const auto& weak) {
+    const auto client = weak.lock();
+    return client && client->viewer_ == viewer;
+  });
+  if (static_cast<std::size_t>(of_viewer) >= limits_.most_per_viewer)
+    return {nullptr, Refused::viewer_has_enough};
+  std::shared_ptr<Client> client(new Client(limits_.depth, viewer));
   clients_.push_back(client);
-  return client;
+  return {client, Refused::no};
 }
 
 void FanOut::publish(const Event& event) {

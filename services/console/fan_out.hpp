@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fathom::console {
@@ -27,23 +28,34 @@ class FanOut {
 
    private:
     friend class FanOut;
-    explicit Client(std::size_t depth) : depth_(depth) {}
+    Client(std::size_t depth, std::string viewer) : depth_(depth), viewer_(std::move(viewer)) {}
     /// True when the oldest event had to go.
     bool put(const Event& event);
     void close();
 
     std::size_t depth_;
+    std::string viewer_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     std::deque<Event> queue_;
     bool closed_ = false;
   };
 
-  /// `depth`: events that wait for one client at most.
-  FanOut(std::size_t depth, std::size_t most_clients) : depth_(depth), most_clients_(most_clients) {}
+  struct Limits {
+    std::size_t depth = 100;  ///< events that wait for one client at most
+    std::size_t most_clients = 48;
+    std::size_t most_per_viewer = 12;  ///< so that one cannot take what is there for all
+  };
+  enum class Refused : std::uint8_t { no, all_taken, viewer_has_enough };
+  struct Join {
+    std::shared_ptr<Client> client;  ///< leaves by being destroyed; null when refused
+    Refused refused = Refused::no;
+  };
 
-  /// Null when there are too many already, or after close(). A client leaves by being destroyed.
-  [[nodiscard]] std::shared_ptr<Client> join();
+  explicit FanOut(Limits limits) : limits_(limits) {}
+
+  /// `viewer`: who is behind it, by which clients are counted. After close() all are taken.
+  [[nodiscard]] Join join(const std::string& viewer);
   void publish(const Event& event);
   /// Wakes everyone for good.
   void close();
@@ -52,8 +64,7 @@ class FanOut {
   [[nodiscard]] std::uint64_t dropped() const;
 
  private:
-  std::size_t depth_;
-  std::size_t most_clients_;
+  Limits limits_;
   mutable std::mutex mutex_;
   std::vector<std::weak_ptr<Client>> clients_;
   std::uint64_t dropped_ = 0;

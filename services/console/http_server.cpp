@@ -16,13 +16,18 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "console/connection.hpp"
+
 namespace fathom::console {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 constexpr auto kWritePatience = 10s;
-constexpr const char* kPlainHttp = "plain_http";
+// Who takes nothing for this long is given up; a browser asks again when it is back.
+constexpr auto kReadPatience = 15s;
+constexpr auto kEventPatience = 1s;
+constexpr auto kComplete = Connection::Outcome::complete;
 constexpr unsigned char kTlsHandshake = 22;  // what every TLS connection begins with, and no HTTP request
 
 /// A peer that left must not end the process: the TLS library writes without MSG_NOSIGNAL. On this thread.
@@ -33,56 +38,13 @@ void ignore_broken_pipes() {
   pthread_sigmask(SIG_BLOCK, &pipe, nullptr);
 }
 
-const char* status_words(int status) {
-  switch (status) {
-    case 400:
-      return "Bad Request";
-    case 401:
-      return "Unauthorized";
-    case 403:
-      return "Forbidden";
-    case 404:
-      return "Not Found";
-    case 405:
-      return "Method Not Allowed";
-    case 408:
-      return "Request Timeout";
-    case 411:
-      return "Length Required";
-    case 413:
-      return "Content Too Large";
-    case 414:
-      return "URI Too Long";
-    case 415:
-      return "Unsupported Media Type";
-    case 417:
-      return "Expectation Failed";
-    case 421:
-      return "Misdirected Request";
-    case 431:
-      return "Request Header Fields Too Large";
-    case 505:
-      return "HTTP Version Not Supported";
-    default:
-      return "Service Unavailable";
-  }
+/// The whole of an answer that ends its connection.
+std::string refusal_text(const Refusal& refusal, bool secure) {
+  const Answer answer = answer_to(refusal);
+  return head_of(answer, false, secure) + answer.body;
 }
 
 }  // namespace
-
-std::string refusal_text(const Refusal& refusal, bool secure) {
-  std::string body = std::string(status_words(refusal.status)) + ": " + refusal.reason + "\n";
-  if (refusal.reason == kPlainHttp) body += "This console speaks https only.\n";
-  std::string out =
-      "HTTP/1.1 " + std::to_string(refusal.status) + " " + status_words(refusal.status) + "\r\n";
-  for (const auto& [name, value] : kSecurityHeaders)
-    out.append(name).append(": ").append(value).append("\r\n");
-  if (secure) out.append(kStrictTransport.first).append(": ").append(kStrictTransport.second).append("\r\n");
-  if (refusal.status == 405) out += "Allow: GET, HEAD, POST\r\n";
-  out += "Cache-Control: no-store\r\nContent-Type: text/plain\r\nConnection: close\r\nContent-Length: " +
-         std::to_string(body.size()) + "\r\n\r\n" + body;
-  return out;
-}
 
 struct HttpServer::Impl {
   Impl(Options options_in, Serve serve_in, Refused refused_in)
@@ -181,28 +143,47 @@ struct HttpServer::Impl {
 
   void converse(Connection& connection, const std::string& peer) {
     if (options.tls && !secure(connection, peer)) return;
+    std::string bytes;  // of the next request, and what came behind it
     while (!stopping) {
-      if (!connection.wait_for_request(Clock::now() + options.idle_deadline)) return;
-      const auto began = Clock::now();
-      std::string bytes;
-      const auto outcome = connection.read_head(bytes, kMostHeadBytes, began + options.head_deadline);
-      if (outcome != Connection::Outcome::complete) return give_up(connection, outcome, peer);
-      auto parsed = parse_head(bytes);
-      if (const auto* refusal = std::get_if<Refusal>(&parsed)) return answer(connection, *refusal, peer);
-      const auto& head = std::get<RequestHead>(parsed);
-      if (const auto refusal = judge_request(head, hosts, options.tls.has_value()))
-        return answer(connection, *refusal, peer);
-      std::string body;
-      const auto rest = connection.read_body(body, head.content_length, began + options.request_deadline);
-      if (rest != Connection::Outcome::complete) return give_up(connection, rest, peer);
+      if (bytes.empty() && connection.receive(bytes, Clock::now() + options.idle_deadline) != kComplete)
+        return;
+      RequestReader reader(hosts, options.tls.has_value());
+      const auto outcome = read(connection, reader, bytes);
+      if (outcome == Connection::Outcome::timed_out) return answer(connection, {408, "too_slow"}, peer);
+      if (outcome == Connection::Outcome::closed) return;
+      if (outcome == std::nullopt) return answer(connection, reader.refusal(), peer);
       ++requests;
-      if (!serve(head, body, peer, connection) || !head.keep_alive) return connection.linger();
+      if (!deliver(reader.request(), peer, connection)) return connection.linger();
     }
   }
 
-  void give_up(Connection& connection, Connection::Outcome outcome, const std::string& peer) {
-    if (outcome == Connection::Outcome::timed_out) answer(connection, {408, "too_slow"}, peer);
-    if (outcome == Connection::Outcome::oversized) answer(connection, {431, "oversized_head"}, peer);
+  /// Until the request is whole. Nothing when it was refused.
+  std::optional<Connection::Outcome> read(Connection& connection, RequestReader& reader,
+                                          std::string& bytes) const {
+    const auto began = Clock::now();
+    while (true) {
+      const auto state = reader.take(bytes);
+      if (state == RequestReader::State::refused) return std::nullopt;
+      if (state == RequestReader::State::complete) return kComplete;
+      const auto deadline =
+          began + (reader.head_is_whole() ? options.request_deadline : options.head_deadline);
+      const auto outcome = connection.receive(bytes, deadline);
+      if (outcome != kComplete) return outcome;
+    }
+  }
+
+  /// False: the connection ends with it.
+  bool deliver(const Request& request, const std::string& peer, Connection& connection) const {
+    const Answer answer = serve(request, peer);
+    std::string text = head_of(answer, request.keep_alive, options.tls.has_value());
+    if (request.method != "HEAD") text += answer.content();
+    if (!connection.write(text, kReadPatience)) return false;
+    if (!answer.stream) return request.keep_alive;
+    while (!answer.stream->closed()) {
+      const Event event = answer.stream->wait(kEventPatience);
+      if (event && !connection.write(*event, kReadPatience)) return false;
+    }
+    return false;
   }
 
   void answer(Connection& connection, const Refusal& refusal, const std::string& peer) {

@@ -1,16 +1,15 @@
 #pragma once
 
-#include <array>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "console/connection.hpp"
+#include "console/answer.hpp"
 #include "console/request.hpp"
 #include "console/tls.hpp"
 
@@ -36,14 +35,13 @@ class HttpServer {
     std::uint64_t requests = 0;
     std::uint64_t refused = 0;
   };
-  /// Answers one judged request through the connection. False: the connection ends with it.
-  using Serve = std::function<bool(const RequestHead& head, const std::string& body, const std::string& peer,
-                                   Connection& connection)>;
+  /// Answers one judged request. Events of a stream are sent until it is closed. Any thread.
+  using Serve = std::function<Answer(const Request& request, const std::string& peer)>;
   /// A request was refused: for the log. Any thread.
   using Refused = std::function<void(const Refusal& refusal, const std::string& peer)>;
 
   HttpServer(Options options, Serve serve, Refused refused);
-  /// Ends every connection. What `serve` waits for must have been woken before.
+  /// Ends every connection. Streams that it sends must have been closed before.
   ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
@@ -60,25 +58,5 @@ class HttpServer {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// A whole answer to a request that is not served, with the headers that every answer has. `secure`: it goes
-/// through TLS.
-[[nodiscard]] std::string refusal_text(const Refusal& refusal, bool secure);
-
-/// What every answer carries: nothing but the console's own files may run in or around the page.
-inline constexpr std::array<std::pair<const char*, const char*>, 5> kSecurityHeaders{{
-    {"Content-Security-Policy",
-     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src "
-     "'self'; "
-     "manifest-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-    {"X-Content-Type-Options", "nosniff"},
-    {"X-Frame-Options", "DENY"},
-    {"Referrer-Policy", "no-referrer"},
-    {"Cross-Origin-Resource-Policy", "same-origin"},
-}};
-
-/// Besides, where there is TLS: browsers that have been here ask this host by https only, for thirty days.
-inline constexpr std::pair<const char*, const char*> kStrictTransport{"Strict-Transport-Security",
-                                                                      "max-age=2592000"};
 
 }  // namespace fathom::console

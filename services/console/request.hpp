@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <variant>
 #include <vector>
 
 namespace fathom::console {
@@ -19,23 +18,18 @@ struct Refusal {
   std::string reason;  ///< a word for counting and the log, e.g. "foreign_origin"
 };
 
-/// The head of an HTTP/1.x request, its syntax checked.
-struct RequestHead {
-  std::string method;
-  std::string path;  ///< plain: letters, digits, '.', '_', '-', '/'; no segment begins with a dot
-  bool keep_alive = true;
-  std::size_t content_length = 0;
-  std::vector<std::pair<std::string, std::string>> headers;  ///< names in lower case
+/// What the console uses of a request: nothing else of it goes any further.
+struct Request {
+  std::string method;  ///< GET, HEAD or POST
+  std::string path;    ///< plain: letters, digits, '.', '_', '-', '/'; no segment begins with a dot
+  bool keep_alive = false;
+  std::string authorization;  ///< header of that name; empty: none
+  std::string if_none_match;  ///< header of that name; empty: none
+  std::string body;           ///< of a POST
 
-  /// Empty when there is none.
-  [[nodiscard]] std::string_view header(std::string_view lower_case_name) const;
   /// What stands after "Authorization: Bearer "; empty when nothing does.
   [[nodiscard]] std::string_view bearer() const;
 };
-
-/// Parses everything up to and including the empty line. Whatever two programs could read in two ways (folded
-/// or repeated headers, both lengths, control characters) is refused rather than understood.
-[[nodiscard]] std::variant<RequestHead, Refusal> parse_head(std::string_view bytes);
 
 /// Under which names this console may be called, e.g. "127.0.0.1:8420": a page of another site that has its
 /// name resolved to this host does not know them.
@@ -43,9 +37,34 @@ using HostNames = std::vector<std::string>;
 [[nodiscard]] HostNames host_names(const std::string& address, int port,
                                    const std::vector<std::string>& names);
 
-/// Method, host and origin. An order (POST) must come from the console's own page: by https where the console
-/// itself has TLS (`secure`), by either where a proxy may have it.
-[[nodiscard]] std::optional<Refusal> judge_request(const RequestHead& head, const HostNames& hosts,
-                                                   bool secure);
+/// Reads one HTTP/1.x request from bytes as they come, by Boost.Beast's parser, and judges its head before
+/// any of its body is taken. Whatever two programs could read in two ways (folded or repeated headers, a
+/// Transfer-Encoding beside a Content-Length, control characters) is refused rather than understood. An order
+/// (POST) must come from the console's own page: by https where the console itself has TLS (`secure`), by
+/// either where a proxy may have it. Pure: no sockets, no time.
+class RequestReader {
+ public:
+  enum class State { needs_more, complete, refused };
+
+  /// `hosts` must outlive it.
+  RequestReader(const HostNames& hosts, bool secure);
+  ~RequestReader();
+  RequestReader(const RequestReader&) = delete;
+  RequestReader& operator=(const RequestReader&) = delete;
+
+  /// Takes what belongs to this request off the front of `bytes`. What is left after `complete` begins the
+  /// next one. The bytes of a head stay until it is whole: at most kMostHeadBytes and what came with them.
+  State take(std::string& bytes);
+  /// From now on the body is awaited.
+  [[nodiscard]] bool head_is_whole() const;
+  /// After `refused`.
+  [[nodiscard]] const Refusal& refusal() const;
+  /// After `complete`, once.
+  [[nodiscard]] Request request();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace fathom::console

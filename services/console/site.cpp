@@ -1,10 +1,13 @@
 #include "console/site.hpp"
 
-#include <charconv>
+#include <algorithm>
+#include <array>
+#include <exception>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <utility>
 
-#include <httplib.h>
 #include <nlohmann/json.hpp>
 
 #include "console/assets.hpp"
@@ -12,228 +15,145 @@
 namespace fathom::console {
 namespace {
 
-using namespace std::chrono_literals;
-// A stream that takes nothing for this long is given up; its browser asks again when it is back.
-constexpr auto kWritePatience = 15s;
-constexpr auto kStreamPatience = 1s;
-
-/// A request that was read already, and the way back to its sender.
-class JudgedStream : public httplib::Stream {
- public:
-  JudgedStream(std::string request, std::string peer, Connection& connection)
-      : request_(std::move(request)), peer_(std::move(peer)), connection_(connection) {}
-  [[nodiscard]] bool is_readable() const override { return at_ < request_.size(); }
-  [[nodiscard]] bool is_writable() const override { return !broken_; }
-  ssize_t read(char* to, std::size_t size) override {
-    const std::size_t count = std::min(size, request_.size() - at_);
-    request_.copy(to, count, at_);
-    at_ += count;
-    return static_cast<ssize_t>(count);
-  }
-  ssize_t write(const char* from, std::size_t size) override {
-    broken_ = broken_ || !connection_.write({from, size}, kWritePatience);
-    return broken_ ? -1 : static_cast<ssize_t>(size);
-  }
-  void get_remote_ip_and_port(std::string& ip, int& port) const override {
-    ip = peer_;
-    port = 0;
-  }
-  void get_local_ip_and_port(std::string&, int&) const override {}
-  [[nodiscard]] socket_t socket() const override { return INVALID_SOCKET; }
-
- private:
-  std::string request_;
-  std::string peer_;
-  Connection& connection_;
-  std::size_t at_ = 0;
-  bool broken_ = false;
-};
-
-/// The library's routing and answers without its sockets: connections are accepted, limited and read
-/// elsewhere.
-class Router : public httplib::Server {
- public:
-  Router() { svr_sock_ = 0; }  // any number but INVALID_SOCKET: streams go on until close()
-  void close() { svr_sock_ = INVALID_SOCKET; }
-  bool process(httplib::Stream& stream, bool keep_alive) {
-    bool closed = false;
-    return process_request(stream, !keep_alive, closed, nullptr) && !closed && keep_alive;
-  }
-};
-
-/// What the library is given of a request: nothing that it could act upon without our knowing.
-std::string rebuilt(const RequestHead& head, const std::string& body) {
-  std::string out = head.method + " " + head.path + " HTTP/1.1\r\n";
-  for (const char* name : {"host", "authorization", "if-none-match"}) {
-    if (const auto value = head.header(name); !value.empty())
-      out.append(name).append(": ").append(value).append("\r\n");
-  }
-  if (head.method == "POST") {
-    out += "content-type: application/json\r\ncontent-length: " + std::to_string(body.size()) + "\r\n";
-  }
-  return out + "\r\n" + body;
+Answer json_answer(int status, const nlohmann::json& json) {
+  Answer out;
+  out.status = status;
+  out.body = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return out;
 }
 
-std::string_view bearer_of(const httplib::Request& request, std::string& keep) {
-  static constexpr std::string_view kScheme = "Bearer ";
-  keep = request.get_header_value("authorization");
-  if (keep.size() <= kScheme.size()) return {};
-  return std::string_view(keep).substr(kScheme.size());
+Answer nothing_here() {
+  return json_answer(404, {{"text", "There is nothing here."}});
 }
 
-void put_json(httplib::Response& response, int status, const nlohmann::json& json) {
-  response.status = status;
-  response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
-                       "application/json");
+bool fits(const Site::Route& route, const Request& request) {
+  const std::string_view method = request.method == "HEAD" ? "GET" : std::string_view(request.method);
+  if (route.method != method) return false;
+  return route.path.ends_with('/') ? request.path.starts_with(route.path) : request.path == route.path;
+}
+
+/// The file of "/tiles/z/x/y.png" below the folder of tiles, e.g. "/12/3456/789.png". Digits only: nothing
+/// that could lead out of it.
+std::optional<std::string> tile_file(std::string_view path) {
+  static constexpr std::array<std::size_t, 3> kMostDigits{2, 7, 7};
+  static constexpr std::string_view kEnding = ".png";
+  path.remove_prefix(std::min(path.size(), std::string_view("/tiles").size()));
+  if (!path.ends_with(kEnding)) return std::nullopt;
+  std::string_view rest = path.substr(0, path.size() - kEnding.size());
+  for (const std::size_t most : kMostDigits) {
+    if (!rest.starts_with('/')) return std::nullopt;
+    rest.remove_prefix(1);
+    const std::size_t digits = std::min(rest.find_first_not_of("0123456789"), rest.size());
+    if (digits == 0 || digits > most) return std::nullopt;
+    rest.remove_prefix(digits);
+  }
+  if (!rest.empty()) return std::nullopt;
+  return std::string(path);
 }
 
 }  // namespace
 
-struct Site::Impl {
-  Impl(Options options_in, Hooks hooks_in, FanOut& events_in)
-      : options(std::move(options_in)), hooks(std::move(hooks_in)), events(events_in) {
-    httplib::Headers headers;
-    for (const auto& [name, value] : kSecurityHeaders) headers.emplace(name, value);
-    if (options.secure) headers.emplace(kStrictTransport.first, kStrictTransport.second);
-    router.set_default_headers(std::move(headers));
-    router.set_payload_max_length(kMostBodyBytes);
-    router.set_exception_handler(
-        [](const httplib::Request&, httplib::Response& response, const std::exception_ptr&) {
-          put_json(response, 500, {{"text", "The console failed to answer."}});
-        });
-    router.Get("/api/session", [this](const auto& request, auto& response) { session(request, response); });
-    router.Get("/api/live", [this](const auto& request, auto& response) { live(request, response); });
-    router.Post("/api/order", [this](const auto& request, auto& response) { order(request, response); });
-    router.Get(R"(/tiles/(\d{1,2})/(\d{1,7})/(\d{1,7})\.png)",
-               [this](const auto& request, auto& response) { tile(request, response); });
-    router.Get("/.*", [](const auto& request, auto& response) { file(request, response); });
-    // Whatever no route takes, a POST elsewhere above all.
-    router.set_error_handler([](const httplib::Request&, httplib::Response& response) {
-      if (response.body.empty()) put_json(response, response.status, {{"text", "There is nothing here."}});
-      response.set_header("Cache-Control", "no-store");
-    });
-  }
-
-  void refuse(int status, const char* reason, const char* text, const httplib::Request& request,
-              httplib::Response& response) {
-    hooks.refused({status, reason}, request.remote_addr);
-    put_json(response, status, {{"text", text}});
-  }
-
-  /// False when it was refused: a token that is wrong is refused everywhere, none only where one is needed.
-  bool admit(const httplib::Request& request, httplib::Response& response, Identity& who) {
-    response.set_header("Cache-Control", "no-store");
-    std::string keep;
-    const std::string_view token = bearer_of(request, keep);
-    who = options.tokens.whois(token);
-    if (!keep.empty() && who.role == Role::nobody) {
-      refuse(401, "wrong_token", "The token is not known here.", request, response);
-      return false;
-    }
-    return true;
-  }
-  bool admit_viewer(const httplib::Request& request, httplib::Response& response, Identity& who) {
-    if (!admit(request, response, who)) return false;
-    if (!options.view_needs_token || who.role != Role::nobody) return true;
-    refuse(401, "no_token", "This console shows itself only to those with a token.", request, response);
-    return false;
-  }
-
-  void session(const httplib::Request& request, httplib::Response& response) {
-    Identity who;
-    if (!admit_viewer(request, response, who)) return;
-    put_json(response, 200,
-             {{"vehicle", options.title},
-              {"name", who.name},
-              {"role", to_string(who.role)},
-              {"orders", options.orders_enabled},
-              {"tiles", !options.tiles_dir.empty()},
-              {"waypoints", nlohmann::json::parse(options.waypoints_json, nullptr, false)}});
-  }
-
-  void live(const httplib::Request& request, httplib::Response& response) {
-    Identity who;
-    if (!admit_viewer(request, response, who)) return;
-    const auto client = events.join();
-    if (!client)
-      return refuse(503, "too_many_clients", "Too many pages are open already.", request, response);
-    response.set_header("X-Accel-Buffering", "no");
-    // The queue exists before the snapshot is taken: between the two nothing is missed.
-    response.set_chunked_content_provider(
-        "text/event-stream", [this, client, begun = false](std::size_t, httplib::DataSink& sink) mutable {
-          if (!begun) {
-            begun = true;
-            const std::string first = "event: snapshot\ndata: " + hooks.snapshot() + "\n\n";
-            return sink.write(first.data(), first.size());
-          }
-          const Event event = client->wait(kStreamPatience);
-          if (event) return sink.write(event->data(), event->size());
-          if (client->closed()) sink.done();
-          return true;
-        });
-  }
-
-  void order(const httplib::Request& request, httplib::Response& response) {
-    Identity who;
-    if (!admit(request, response, who)) return;
-    const OrderJudgement judgement = hooks.order(request.body, who, request.remote_addr);
-    put_json(response, judgement.status, {{"text", judgement.text}});
-  }
-
-  void tile(const httplib::Request& request, httplib::Response& response) {
-    response.set_header("Cache-Control", "max-age=3600");
-    const auto& part = request.matches;
-    std::ostringstream bytes;
-    if (!options.tiles_dir.empty()) {
-      // Digits only: nothing that could lead out of the folder.
-      bytes << std::ifstream(options.tiles_dir + "/" + part[1].str() + "/" + part[2].str() + "/" +
-                                 part[3].str() + ".png",
-                             std::ios::binary)
-                   .rdbuf();
-    }
-    if (bytes.str().empty()) {
-      response.status = 404;
-      return;
-    }
-    response.set_content(bytes.str(), "image/png");
-  }
-
-  static void file(const httplib::Request& request, httplib::Response& response) {
-    const Asset* asset = find_asset(request.path);
-    if (asset == nullptr) {
-      response.status = 404;
-      return;
-    }
-    const std::string etag(asset->etag);
-    response.set_header("ETag", etag);
-    response.set_header("Cache-Control",
-                        "no-cache");  // asked for again, answered with 304 when it is the same
-    if (request.get_header_value("if-none-match") == etag) {
-      response.status = 304;
-      return;
-    }
-    response.set_content(asset->bytes.data(), asset->bytes.size(), std::string(asset->type));
-  }
-
-  Options options;
-  Hooks hooks;
-  FanOut& events;
-  Router router;
-};
-
-Site::Site(Options options, Hooks hooks, FanOut& events)
-    : impl_(std::make_unique<Impl>(std::move(options), std::move(hooks), events)) {}
-
-Site::~Site() = default;
-
-bool Site::serve(const RequestHead& head, const std::string& body, const std::string& peer,
-                 Connection& connection) {
-  JudgedStream stream(rebuilt(head, body), peer, connection);
-  return impl_->router.process(stream, head.keep_alive);
+std::span<const Site::Route> Site::routes() {
+  static constexpr std::array<Route, 5> kRoutes{{
+      {"GET", "/api/session", "/api/session", Need::view, &Site::session},
+      {"GET", "/api/live", "/api/live", Need::view, &Site::live},
+      {"POST", "/api/order", "/api/order", Need::order, &Site::order},
+      {"GET", "/tiles/", "/tiles/12/3456/789.png", Need::view, &Site::tile},
+      {"GET", "/", "/js/main.js", Need::nothing, &Site::file},
+  }};
+  return kRoutes;
 }
 
-void Site::close() {
-  impl_->router.close();
+Site::Site(Options options, Hooks hooks, FanOut& events)
+    : options_(std::move(options)), hooks_(std::move(hooks)), events_(events) {}
+
+Answer Site::answer(const Request& request, const std::string& peer) const {
+  try {
+    return dispatched(request, peer);
+  } catch (const std::exception&) {
+    return refuse(500, "failed", "The console failed to answer.", peer);
+  }
+}
+
+Answer Site::dispatched(const Request& request, const std::string& peer) const {
+  const auto all = routes();
+  const auto route =
+      std::find_if(all.begin(), all.end(), [&](const Route& one) { return fits(one, request); });
+  if (route == all.end()) return nothing_here();
+  // A token that is wrong is refused wherever one counts, none only where one is needed.
+  Identity who;
+  if (route->need != Need::nothing) {
+    who = options_.tokens.whois(request.bearer());
+    if (!request.authorization.empty() && who.role == Role::nobody)
+      return refuse(401, "wrong_token", "The token is not known here.", peer);
+  }
+  if (route->need == Need::view && options_.view_needs_token && who.role == Role::nobody)
+    return refuse(401, "no_token", "This console shows itself only to those with a token.", peer);
+  return (this->*route->answer)({request, who, peer});
+}
+
+Answer Site::refuse(int status, const char* reason, const char* text, const std::string& peer) const {
+  hooks_.refused({status, reason}, peer);
+  return json_answer(status, {{"text", text}});
+}
+
+Answer Site::session(const Asked& asked) const {
+  return json_answer(200, {{"vehicle", options_.title},
+                           {"name", asked.who.name},
+                           {"role", to_string(asked.who.role)},
+                           {"orders", options_.orders_enabled},
+                           {"tiles", !options_.tiles_dir.empty()},
+                           {"waypoints", nlohmann::json::parse(options_.waypoints_json, nullptr, false)}});
+}
+
+Answer Site::live(const Asked& asked) const {
+  Answer out;
+  out.type = "text/event-stream";
+  if (asked.request.method == "HEAD") return out;
+  // Whoever shows a token is counted by it, wherever from; all others by their address.
+  const std::string viewer = asked.who.name.empty() ? "from " + asked.peer : "token " + asked.who.name;
+  auto [client, refused] = events_.join(viewer);
+  if (refused == FanOut::Refused::all_taken)
+    return refuse(503, "too_many_clients", "Too many pages are open already.", asked.peer);
+  if (refused == FanOut::Refused::viewer_has_enough)
+    return refuse(429, "too_many_streams_of_one", "You have too many pages open already; close one.",
+                  asked.peer);
+  out.stream = std::move(client);
+  // The queue exists before the snapshot is taken: between the two nothing is missed.
+  out.body = "event: snapshot\ndata: " + hooks_.snapshot() + "\n\n";
+  return out;
+}
+
+Answer Site::order(const Asked& asked) const {
+  const OrderJudgement judgement = hooks_.order(asked.request.body, asked.who, asked.peer);
+  return json_answer(judgement.status, {{"text", judgement.text}});
+}
+
+Answer Site::tile(const Asked& asked) const {
+  const auto file = tile_file(asked.request.path);
+  if (!file || options_.tiles_dir.empty()) return nothing_here();
+  std::ostringstream bytes;
+  bytes << std::ifstream(options_.tiles_dir + *file, std::ios::binary).rdbuf();
+  Answer out;
+  out.type = "image/png";
+  out.cache = options_.view_needs_token ? "private, max-age=3600" : "max-age=3600";
+  out.body = std::move(bytes).str();
+  return out.body.empty() ? nothing_here() : out;
+}
+
+Answer Site::file(const Asked& asked) const {
+  const Asset* asset = find_asset(asked.request.path);
+  if (asset == nullptr) return nothing_here();
+  Answer out;
+  out.type = asset->type;
+  out.etag = asset->etag;
+  out.cache = "no-cache";  // asked for again, answered with 304 when it is the same
+  if (asked.request.if_none_match.find(asset->etag) != std::string::npos) {
+    out.status = 304;
+  } else {
+    out.asset = asset->bytes;
+  }
+  return out;
 }
 
 }  // namespace fathom::console

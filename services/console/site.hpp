@@ -1,26 +1,27 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
-#include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 
-#include "console/connection.hpp"
+#include "console/answer.hpp"
 #include "console/fan_out.hpp"
-#include "console/http_server.hpp"
 #include "console/orders.hpp"
 #include "console/request.hpp"
 #include "console/roles.hpp"
 
 namespace fathom::console {
 
-/// What the console answers: the page's files, map tiles, live events, orders.
+/// What the console answers: the page's files, map tiles, live events, orders. Who may have what stands in
+/// the table of routes and is decided before a route is asked. No sockets. Any thread.
 class Site {
  public:
   struct Options {
     std::string title;  ///< vehicle, for the page
     bool orders_enabled = false;
     bool view_needs_token = false;
-    bool secure = false;         ///< answers go through TLS
     std::string tiles_dir;       ///< empty: none
     std::string waypoints_json;  ///< an array for the map
     TokenBook tokens;
@@ -31,20 +32,46 @@ class Site {
         order;
     std::function<void(const Refusal& refusal, const std::string& peer)> refused;
   };
-  Site(Options options, Hooks hooks, FanOut& events);
-  ~Site();
-  Site(const Site&) = delete;
-  Site& operator=(const Site&) = delete;
+  /// What somebody has to show for a route.
+  enum class Need : std::uint8_t {
+    nothing,  ///< it says nothing about the vehicle
+    view,     ///< a token where `view_needs_token` is on
+    order,    ///< the token of an operator
+  };
+  /// A request with who sent it.
+  struct Asked {
+    const Request& request;
+    const Identity& who;
+    const std::string& peer;
+  };
+  struct Route {
+    std::string_view method;   ///< GET stands for HEAD as well
+    std::string_view path;     ///< what ends in '/' takes everything below
+    std::string_view example;  ///< a path that this route takes
+    Need need;
+    Answer (Site::*answer)(const Asked& asked) const;
+  };
+  /// The first that fits counts.
+  [[nodiscard]] static std::span<const Route> routes();
 
-  /// One request whose head and host were judged. False: the connection ends with it. Any thread.
-  [[nodiscard]] bool serve(const RequestHead& head, const std::string& body, const std::string& peer,
-                           Connection& connection);
-  /// Live streams end; nothing is served from then on.
-  void close();
+  Site(Options options, Hooks hooks, FanOut& events);
+
+  /// `peer`: the address it came from.
+  [[nodiscard]] Answer answer(const Request& request, const std::string& peer) const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  [[nodiscard]] Answer dispatched(const Request& request, const std::string& peer) const;
+  [[nodiscard]] Answer refuse(int status, const char* reason, const char* text,
+                              const std::string& peer) const;
+  [[nodiscard]] Answer session(const Asked& asked) const;
+  [[nodiscard]] Answer live(const Asked& asked) const;
+  [[nodiscard]] Answer order(const Asked& asked) const;
+  [[nodiscard]] Answer tile(const Asked& asked) const;
+  [[nodiscard]] Answer file(const Asked& asked) const;
+
+  Options options_;
+  Hooks hooks_;
+  FanOut& events_;
 };
 
 }  // namespace fathom::console

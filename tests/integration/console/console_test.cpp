@@ -138,7 +138,18 @@ TEST_F(ConsoleTest, OrdersAreOffUnlessSwitchedOn) {
 }
 
 TEST_F(ConsoleTest, SeeingMayNeedATokenAsWell) {
-  start_and_wait(214, {"access.view_needs_token=true"});
+  const auto tiles = std::filesystem::temp_directory_path() / ("fathom-tiles-" + std::to_string(getpid()));
+  std::filesystem::create_directories(tiles / "3/2");
+  std::ofstream(tiles / "3/2/1.png") << "PNG";
+  start_and_wait(214, {"access.view_needs_token=true", "map.tiles_dir=" + tiles.string()});
+  const std::string viewer = std::string("Authorization: Bearer ") + kViewerToken + "\r\n";
+  EXPECT_EQ(get("/tiles/3/2/1.png").status, 401) << "where the vehicle is, tiles say as well";
+  const HttpAnswer tile = get("/tiles/3/2/1.png", viewer);
+  EXPECT_EQ(tile.status, 200);
+  EXPECT_EQ(tile.body, "PNG");
+  EXPECT_NE(tile.head.find("private"), std::string::npos) << "not for caches on the way";
+  EXPECT_EQ(get("/tiles/3/2/2.png", viewer).status, 404);
+  std::filesystem::remove_all(tiles);
   EXPECT_EQ(get("/").status, 200) << "the page itself says nothing";
   EXPECT_EQ(get("/api/session").status, 401);
   EXPECT_EQ(get("/api/live").status, 401);

@@ -44,6 +44,8 @@ TEST_F(HostileTest, EachKindIsRefusedWithItsStatusLoggedAndCounted) {
   };
   const std::string to_us = "Host: " + host() + "\r\n";
   const std::string post = "POST /api/order HTTP/1.1\r\n" + to_us + "Content-Type: application/json\r\n";
+  const std::string order =
+      post + "Origin: http://" + host() + "\r\nAuthorization: Bearer " + kOperatorToken + "\r\n";
   const std::vector<Attack> attacks{
       {400, "path", "GET /../../etc/passwd HTTP/1.1\r\n" + to_us + "\r\n"},
       {400, "path", "GET /%2e%2e/%2e%2e/etc/passwd HTTP/1.1\r\n" + to_us + "\r\n"},
@@ -54,6 +56,10 @@ TEST_F(HostileTest, EachKindIsRefusedWithItsStatusLoggedAndCounted) {
       {413, "oversized",
        post + "Origin: http://" + host() + "\r\nContent-Length: 10000000\r\n\r\n" + std::string(300000, '{')},
       {411, "no_length", post + "Transfer-Encoding: chunked\r\n\r\nffffffff\r\n"},
+      {400, "malformed", order + "Transfer-Encoding: \r\nContent-Length: 18\r\n\r\n{\"kind\":\"realign\"}"},
+      {400, "malformed",
+       order + "Transfer-Encoding: chunked\r\nContent-Length: 18\r\n\r\n{\"kind\":\"realign\"}"},
+      {400, "malformed", order + "Content-Length: 18\r\nContent-Length: 2\r\n\r\n{\"kind\":\"realign\"}"},
       {400, "malformed", "\x16\x03\x01\x02\r\n\r\n"},
       {400, "malformed", "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n"},
       {421, "foreign_host", "GET / HTTP/1.1\r\nHost: rebound.example\r\n\r\n"},
@@ -112,6 +118,45 @@ TEST_F(HostileTest, TooManyConnectionsLeaveRoomLater) {
                          kPatienceS));
   crowd.clear();
   EXPECT_TRUE(wait_until([&] { return get("/").status == 200; }, kPatienceS)) << console->err();
+}
+
+TEST_F(HostileTest, OneViewerLeavesStreamsToOthers) {
+  start_and_wait(231, {"access.orders=true"});
+  keep_navigating(true);
+  const std::string live = "GET /api/live HTTP/1.1\r\nConnection: close\r\nHost: " + host() + "\r\n";
+  std::vector<std::unique_ptr<HttpPeer>> crowd;
+  for (int i = 0; i < 60; ++i) {
+    crowd.push_back(std::make_unique<HttpPeer>(port));
+    crowd.back()->say(live + "\r\n");
+  }
+  EXPECT_TRUE(wait_until(
+      [&] { return console->err().find("too_many_streams_of_one (429)") != std::string::npos; }, 10.0))
+      << console->err();
+  HttpPeer elsewhere(port, 0, 2);
+  elsewhere.say(live + "\r\n");
+  EXPECT_TRUE(elsewhere.event("tick").has_value()) << "another address";
+  // Whoever shows a token is counted by it: at the same address as the crowd, and from others as the same
+  // one.
+  std::vector<std::unique_ptr<HttpPeer>> signed_in;
+  std::size_t served = 0;
+  for (std::uint32_t i = 0; i < 20; ++i) {
+    signed_in.push_back(std::make_unique<HttpPeer>(port, 0, 1 + i));
+    signed_in.back()->say(live + "Authorization: Bearer " + kViewerToken + "\r\n\r\n");
+    served += signed_in.back()->event("snapshot").has_value() ? 1 : 0;
+  }
+  EXPECT_EQ(served, 12U);
+  HttpPeer operator_(port);
+  operator_.say(live + "Authorization: Bearer " + kOperatorToken + "\r\n\r\n");
+  EXPECT_TRUE(operator_.event("tick").has_value()) << "another token";
+  // Who closes pages may open others.
+  crowd.clear();
+  EXPECT_TRUE(wait_until(
+      [&] {
+        HttpPeer again(port);
+        again.say(live + "\r\n");
+        return again.event("snapshot").has_value();
+      },
+      kPatienceS));
 }
 
 TEST_F(HostileTest, OneThatNeverReadsHarmsNobody) {

@@ -31,8 +31,13 @@ class HttpPeer {
     int newest = TLS1_3_VERSION;
   };
 
-  explicit HttpPeer(int port, int receive_buffer = 0)
+  /// `from`: of the last byte of 127.0.0.x, the address that it calls from.
+  explicit HttpPeer(int port, int receive_buffer = 0, std::uint32_t from = 1)
       : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in own{};
+    own.sin_family = AF_INET;
+    own.sin_addr.s_addr = htonl(INADDR_LOOPBACK - 1 + from);
+    bound_ = bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own) == 0;
     if (receive_buffer > 0)
       setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
     const timeval patience{120, 0};
@@ -42,7 +47,7 @@ class HttpPeer {
     address.sin_family = AF_INET;
     address.sin_port = htons(static_cast<std::uint16_t>(port));
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    connected_ = connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    connected_ = bound_ && connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   }
   HttpPeer(int port, const Tls& options) : HttpPeer(port) {
     context_.reset(SSL_CTX_new(TLS_client_method()));
@@ -119,6 +124,7 @@ class HttpPeer {
   }
 
   int socket_;
+  bool bound_ = false;
   bool connected_ = false;
   std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context_{nullptr, SSL_CTX_free};
   std::unique_ptr<SSL, decltype(&SSL_free)> tls_{nullptr, SSL_free};

@@ -196,10 +196,10 @@ TEST(Picture, ARelativeFixIsPlacedFromItsStation) {
 }
 
 TEST(FanOut, ASlowClientLosesItsOldestAndNobodyElseDoes) {
-  FanOut events(3, 2);
-  const auto slow = events.join();
-  const auto quick = events.join();
-  EXPECT_EQ(events.join(), nullptr) << "no more than two";
+  FanOut events({3, 2, 2});
+  const auto slow = events.join("a").client;
+  const auto quick = events.join("a").client;
+  EXPECT_EQ(events.join("b").refused, FanOut::Refused::all_taken) << "no more than two";
   for (int i = 0; i < 5; ++i) {
     events.publish(std::make_shared<const std::string>(std::to_string(i)));
     EXPECT_EQ(*quick->wait(std::chrono::milliseconds(0)), std::to_string(i));
@@ -209,16 +209,28 @@ TEST(FanOut, ASlowClientLosesItsOldestAndNobodyElseDoes) {
   EXPECT_EQ(slow->wait(std::chrono::milliseconds(0)).use_count(), 1) << "the bytes are shared and let go";
 }
 
-TEST(FanOut, WhoLeavesMakesRoomAndClosingWakesEveryone) {
-  FanOut events(3, 1);
-  auto first = events.join();
+TEST(FanOut, OneViewerLeavesRoomForOthers) {
+  FanOut events({3, 5, 2});
+  auto first = events.join("a").client;
+  const auto second = events.join("a").client;
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(events.join("a").refused, FanOut::Refused::viewer_has_enough);
+  EXPECT_EQ(events.join("a").client, nullptr);
+  EXPECT_NE(events.join("b").client, nullptr);
   first.reset();
-  const auto second = events.join();
+  EXPECT_NE(events.join("a").client, nullptr) << "who closes one may open another";
+}
+
+TEST(FanOut, WhoLeavesMakesRoomAndClosingWakesEveryone) {
+  FanOut events({3, 1, 1});
+  auto first = events.join("a").client;
+  first.reset();
+  const auto second = events.join("a").client;
   ASSERT_NE(second, nullptr);
   events.close();
   EXPECT_EQ(second->wait(std::chrono::hours(1)), nullptr);
   EXPECT_TRUE(second->closed());
-  EXPECT_EQ(events.join(), nullptr);
+  EXPECT_EQ(events.join("b").refused, FanOut::Refused::all_taken);
 }
 
 }  // namespace
