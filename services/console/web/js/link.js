@@ -35,6 +35,12 @@ export function openLink(token, handlers) {
     }
   }
 
+  /** In the console's words, where it found any. */
+  async function reason(response) {
+    const answer = await response.json().catch(() => ({}));
+    return answer.text ?? `the console answered ${response.status}`;
+  }
+
   async function once() {
     abort = new AbortController();
     last = performance.now();
@@ -42,7 +48,7 @@ export function openLink(token, handlers) {
     const headers = shown ? {Authorization: "Bearer " + shown} : {};
     const response = await fetch("/api/live", {headers, signal: abort.signal, cache: "no-store"});
     if (response.status === 401) return handlers.state("refused", "this console wants a token");
-    if (!response.ok) return handlers.state("refused", `the console answered ${response.status}`);
+    if (!response.ok) return handlers.state("refused", await reason(response));
     handlers.state("live", "");
     await read(response);
     handlers.state("lost", "the console ended the stream");

@@ -5,6 +5,7 @@ import {onPrefs} from "./prefs.js";
 import {isOld, routeText} from "./routes.js";
 import {store} from "./store.js";
 import {onSession} from "./orders.js";
+import {tileLayer} from "./tiles.js";
 import * as units from "./units.js";
 
 export function makeMap() {
@@ -144,7 +145,7 @@ export function makeMap() {
   }
   function useTiles() {
     if (!map || tiles || !store.session.tiles) return;
-    tiles = L.tileLayer("/tiles/{z}/{x}/{y}.png", {maxZoom: 22, maxNativeZoom: 18}).addTo(map);
+    tiles = tileLayer("/tiles/{z}/{x}/{y}.png", {maxZoom: 22, maxNativeZoom: 18}).addTo(map);
     chart.draw();
   }
   function begin() {

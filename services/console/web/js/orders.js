@@ -6,6 +6,8 @@ import {store} from "./store.js";
 const kKey = "fathom.token";
 const listeners = [];
 export const token = () => sessionStorage.getItem(kKey) ?? "";
+/** Headers that say who asks; none without a token. */
+export const authorization = () => (token() ? {Authorization: "Bearer " + token()} : {});
 export const onSession = (listener) => listeners.push(listener);
 export const mayOrder = () => store.session.role === "operator" && store.session.orders;
 
@@ -17,9 +19,8 @@ export function takeTokenFromAddress() {
 }
 
 export async function loadSession() {
-  const headers = token() ? {Authorization: "Bearer " + token()} : {};
   try {
-    const response = await fetch("/api/session", {headers, cache: "no-store"});
+    const response = await fetch("/api/session", {headers: authorization(), cache: "no-store"});
     const answer = await response.json();
     if (response.ok) Object.assign(store.session, answer);
     else {
@@ -45,7 +46,7 @@ export async function order(content) {
   try {
     const response = await fetch("/api/order", {
       method: "POST",
-      headers: {"Content-Type": "application/json", Authorization: "Bearer " + token()},
+      headers: {"Content-Type": "application/json", ...authorization()},
       body: JSON.stringify(content),
     });
     const answer = await response.json();
