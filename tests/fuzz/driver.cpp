@@ -1,5 +1,5 @@
 // Runs a fuzz target without libFuzzer: over the files named on the command line, else over mutations of the
-// protocol's seed stream for `--seconds N` (default 2) from `--seed N` (default 1). The same seed gives the
+// target's seed for `--seconds N` (default 2) from `--seed N` (default 1). The same seed gives the
 // same inputs; on a failure the input is left in the working directory.
 
 #include "driver.hpp"
@@ -59,7 +59,7 @@ ByteVector read(const char* path) {
 
 std::uint64_t run_mutations(std::uint64_t first_seed, double seconds) {
   using Clock = std::chrono::steady_clock;
-  const ByteVector stream = fathom::test::seed_stream(fathom::fuzz::target_protocol());
+  const ByteVector stream = fathom::fuzz::target_seed();
   const auto end =
       Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   run({});
@@ -92,11 +92,11 @@ int main(int argc, char** argv) {
       files.push_back(argv[i]);
     }
   }
-  const std::string protocol(fathom::fuzz::target_protocol());
-  (void)std::snprintf(crash_file.data(), crash_file.size(), "crash-%s", protocol.c_str());
+  const std::string name(fathom::fuzz::target_name());
+  (void)std::snprintf(crash_file.data(), crash_file.size(), "crash-%s", name.c_str());
   for (const int signal : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGALRM}) std::signal(signal, save_and_die);
   for (const char* file : files) run(read(file));
   const std::uint64_t inputs = files.empty() ? run_mutations(seed, seconds) : files.size();
-  std::printf("%s: %llu inputs\n", protocol.c_str(), static_cast<unsigned long long>(inputs));
+  std::printf("%s: %llu inputs\n", name.c_str(), static_cast<unsigned long long>(inputs));
   return inputs == 0 ? 1 : 0;
 }

@@ -1,19 +1,18 @@
 // For libFuzzer only: without a corpus it would spend its life in front of the checksums. Now and then a
-// mutation starts from a piece of the protocol's seed stream instead of the input, and goes on from there.
+// mutation starts from a piece of the target's seed instead of the input, and goes on from there.
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "driver.hpp"
-#include "support/codec/seed_streams.hpp"
 
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
                                                unsigned int seed) {
   constexpr unsigned int kFromTheStreamEvery = 32;
-  static const auto stream = fathom::test::seed_stream(fathom::fuzz::target_protocol());
+  static const auto stream = fathom::fuzz::target_seed();
   if (seed % kFromTheStreamEvery == 0 && !stream.empty()) {
     const std::size_t first = (seed / kFromTheStreamEvery) % stream.size();
     size = std::min(max_size, stream.size() - first);
