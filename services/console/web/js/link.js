@@ -47,7 +47,7 @@ export function openLink(token, handlers) {
     const shown = token();
     const headers = shown ? {Authorization: "Bearer " + shown} : {};
     const response = await fetch("/api/live", {headers, signal: abort.signal, cache: "no-store"});
-    if (response.status === 401) return handlers.state("refused", "this console wants a token");
+    if (response.status === 401) return handlers.state("refused", "This console shows itself only to those with a token; sign in.");
     if (!response.ok) return handlers.state("refused", await reason(response));
     handlers.state("live", "");
     await read(response);

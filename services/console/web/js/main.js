@@ -54,12 +54,17 @@ function trust(level, sentence, advice, word) {
   put(get("advice"), advice);
 }
 
+let refused = ""; // why the console lets this page see nothing; empty: it does not refuse
+
 /** By this page's clock: a console that is gone, or that stands still, must not leave an old answer standing. */
 function judge() {
   const silentMs = store.tick ? performance.now() - store.tickAt : Infinity;
   const root = document.documentElement;
   let lost = false;
-  if (!store.tick) {
+  if (refused && silentMs > kSilentMs) {
+    trust("bad", "No navigation: the console refuses this page", refused, "NO DATA");
+    lost = true;
+  } else if (!store.tick) {
     trust(
       "bad",
       "No navigation: the console has not answered yet",
@@ -156,6 +161,7 @@ const link = openLink(token, {
     box.classList.toggle("live", word === "live");
     put(box, word);
     box.title = reason;
+    refused = word === "refused" ? reason : "";
     if (word === "live" && store.session.vehicle === "") loadSession();
   },
 });
