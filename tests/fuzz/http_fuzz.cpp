@@ -1,12 +1,11 @@
 // What browsers and others send, up to the answer: the reader of requests with its limits, the routes,
 // orders.
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "console/orders.hpp"
@@ -29,7 +28,8 @@ void expect(bool holds, const char* what) {
 /// What became of one connection: each request that was served, and why it ended.
 struct Conversation {
   std::vector<Request> requests;
-  int refused = 0;  ///< status; 0: it was not
+  std::vector<std::string> raw;  ///< the bytes of each, when they came at once
+  int refused = 0;               ///< status; 0: it was not
   std::string rest;
 };
 
@@ -41,6 +41,7 @@ Conversation converse(const std::string& bytes, std::size_t piece, bool secure) 
   while (out.requests.size() < kMostRequests) {
     RequestReader reader(kHosts, secure);
     auto state = RequestReader::State::needs_more;
+    const std::string before = out.rest.empty() ? bytes : out.rest;
     if (!out.rest.empty()) state = reader.take(out.rest);
     while (state == RequestReader::State::needs_more && at < bytes.size()) {
       out.rest.append(bytes, at, piece);
@@ -57,6 +58,7 @@ Conversation converse(const std::string& bytes, std::size_t piece, bool secure) 
       return out;
     }
     out.requests.push_back(reader.request());
+    out.raw.push_back(before.substr(0, before.size() - std::min(before.size(), out.rest.size())));
   }
   return out;
 }
@@ -70,6 +72,18 @@ void expect_sound(const Request& request) {
          "a path that may lead elsewhere");
   expect(request.body.size() <= kMostBodyBytes, "a body beyond its limit");
   expect(method == "POST" || request.body.empty(), "a body where none belongs");
+}
+
+/// Nobody on the way can have read it in another way. `raw`: its bytes.
+void expect_one_length(const std::string& raw) {
+  std::string head = raw.substr(0, raw.find("\r\n\r\n"));
+  for (char& c : head) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  expect(head.find("\r\ntransfer-encoding:") == std::string::npos, "a transfer encoding");
+  const std::size_t length = head.find("\r\ncontent-length:");
+  expect(length == std::string::npos || head.find("\r\ncontent-length:", length + 1) == std::string::npos,
+         "two lengths");
+  expect(head.find("\r\n ") == std::string::npos && head.find("\r\n\t") == std::string::npos,
+         "a folded line");
 }
 
 void expect_judged(const Request& request) {
@@ -129,6 +143,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     expect_sound(request);
     expect_judged(request);
   }
+  for (const std::string& raw : whole.raw) expect_one_length(raw);
   // However the bytes are cut on the way, the same requests come of them.
   const Conversation cut = converse(bytes, 1 + size % 40, secure);
   expect(cut.requests.size() == whole.requests.size(), "in pieces it is another number of requests");
