@@ -6,8 +6,14 @@
 #include <limits>
 #include <sstream>
 
+#include <sys/stat.h>
+
+#include "config/strict_json.hpp"
+
 namespace fathom::config {
 namespace {
+
+constexpr std::size_t kMostBytes = 4UL << 20;
 
 std::string shorten(std::string text) {
   constexpr std::size_t kMost = 60;
@@ -24,10 +30,43 @@ std::string number_text(double value, bool integer) {
   return {text.data(), result.ptr};
 }
 
+/// The whole of a configuration file. A device would be read without end and a pipe waits for a writer, so
+/// that only a regular file is opened.
+std::string read_text(const std::string& file) {
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0)
+    throw ConfigError(file, "cannot be read, expected a JSON configuration file");
+  if (!S_ISREG(status.st_mode)) {
+    const char* kind = S_ISDIR(status.st_mode)                              ? "a folder"
+                       : S_ISFIFO(status.st_mode)                           ? "a pipe"
+                       : S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode) ? "a device"
+                                                                            : "a socket";
+    throw ConfigError(file, std::string("is ") + kind + ", expected a regular file");
+  }
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw ConfigError(file, "cannot be read, expected a JSON configuration file");
+  std::string text(kMostBytes + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) throw ConfigError(file, "cannot be read, expected a JSON configuration file");
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kMostBytes) throw ConfigError(file, "is larger, expected at most 4 MiB");
+  return text;
+}
+
+// Text in an override needs no quotes: what is not JSON is text, and so is a number that no double holds.
+bool reads_as_text(const JsonFault& fault) {
+  return fault.kind == JsonFault::Kind::syntax ||
+         (fault.kind == JsonFault::Kind::number && fault.key.empty());
+}
+
 // Follows `path` ("a.b.0.c") and returns the node there, creating objects on the way.
 nlohmann::json& node_at(nlohmann::json& root, const std::string& path, const LoadRequest& request,
                         const std::string& value) {
   nlohmann::json* node = &root;
+  if (static_cast<std::size_t>(std::count(path.begin(), path.end(), '.')) >= kJsonLevels) {
+    throw ConfigError(request.file, shorten(path), "nested deeper",
+                      "at most " + std::to_string(kJsonLevels) + " levels");
+  }
   std::istringstream parts(path);
   std::string part;
   while (std::getline(parts, part, '.')) {
@@ -35,14 +74,14 @@ nlohmann::json& node_at(nlohmann::json& root, const std::string& path, const Loa
       std::size_t index = 0;
       const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
       if (error != std::errc() || end != part.data() + part.size() || index >= node->size()) {
-        throw ConfigError(request.file, path, value,
+        throw ConfigError(request.file, path, shorten(value),
                           "an index below " + std::to_string(node->size()) + " where the key says " + part);
       }
       node = &(*node)[index];
     } else if (node->is_object() || node->is_null()) {
       node = &(*node)[part];
     } else {
-      throw ConfigError(request.file, path, value,
+      throw ConfigError(request.file, path, shorten(value),
                         "a key that exists; the part before " + part + " is a single value");
     }
   }
@@ -53,10 +92,10 @@ nlohmann::json& node_at(nlohmann::json& root, const std::string& path, const Loa
 
 ConfigError::ConfigError(const std::string& file, const std::string& key, const std::string& value,
                          const std::string& expectation)
-    : std::runtime_error(file + ": " + key + ": is " + value + ", expected " + expectation) {}
+    : std::runtime_error(one_line(file + ": " + key + ": is " + value + ", expected " + expectation)) {}
 
 ConfigError::ConfigError(const std::string& file, const std::string& problem)
-    : std::runtime_error(file + ": " + problem) {}
+    : std::runtime_error(one_line(file + ": " + problem)) {}
 
 void Place::fail(const nlohmann::json& value, const std::string& expectation) const {
   const std::string text = shorten(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
@@ -68,34 +107,31 @@ void Place::fail_missing(const std::string& description) const {
 }
 
 nlohmann::json read_json(const LoadRequest& request) {
-  std::ifstream in(request.file, std::ios::binary);
-  if (!in) throw ConfigError(request.file, "cannot be read, expected a JSON configuration file");
-  std::ostringstream buffer;
-  buffer << in.rdbuf();
-  const std::string text = buffer.str();
-  nlohmann::json json;
-  try {
-    json = nlohmann::json::parse(text);
-  } catch (const nlohmann::json::parse_error& error) {
-    const std::size_t byte = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), '\n');
-    std::string what = error.what();
-    if (const auto colon = what.find("syntax error"); colon != std::string::npos) what = what.substr(colon);
-    throw ConfigError(request.file + ":" + std::to_string(line), "is not JSON: " + what);
+  StrictJson json = parse_strict(read_text(request.file));
+  if (json.fault) {
+    const JsonFault& fault = *json.fault;
+    if (fault.kind == JsonFault::Kind::syntax)
+      throw ConfigError(request.file + ":" + std::to_string(fault.line), "is not JSON: " + fault.is);
+    throw ConfigError(request.file, describe(fault));
   }
   for (const std::string& set : request.sets) {
     const auto equals = set.find('=');
     if (equals == std::string::npos || equals == 0) {
-      throw ConfigError(request.file, "--set " + set + ": expected key.sub=value");
+      throw ConfigError(request.file, "--set " + shorten(set) + ": expected key.sub=value");
     }
     const std::string path = set.substr(0, equals);
     const std::string value = set.substr(equals + 1);
     // What reads as JSON is taken as JSON; the rest is text, so that --set source.path=/dev/ttyS0 needs no
     // quotes.
-    nlohmann::json parsed = nlohmann::json::parse(value, nullptr, false);
-    node_at(json, path, request, value) = parsed.is_discarded() ? nlohmann::json(value) : parsed;
+    StrictJson parsed = parse_strict(value);
+    if (parsed.fault && !reads_as_text(*parsed.fault)) {
+      parsed.fault->key = path + "." + parsed.fault->key;
+      throw ConfigError(request.file, describe(*parsed.fault));
+    }
+    node_at(json.value, path, request, value) =
+        parsed.fault ? nlohmann::json(value) : std::move(parsed.value);
   }
-  return json;
+  return std::move(json.value);
 }
 
 std::string list_words(const std::vector<std::string>& words) {
