@@ -42,7 +42,9 @@ void require_checksum(Schema<Sensor>& s) {
 }  // namespace
 
 void describe(Schema<SensorConfig>& s) {
-  s.field("name", &SensorConfig::name, "name of the instrument, the second key of its topic").required();
+  s.field("name", &SensorConfig::name, "name of the instrument, the second key of its topic")
+      .name()
+      .required();
   s.field("source", &SensorConfig::source, "where its bytes come from").required();
   s.field("protocol", &SensorConfig::protocol, "what its bytes mean: " + protocol_list()).required();
   s.field("time", &SensorConfig::time, "when its samples were valid").required();
@@ -60,7 +62,6 @@ void describe(Schema<SensorConfig>& s) {
       .unit("s")
       .range(0, 86'400);
   s.check([](const SensorConfig& c) -> Violation {
-    if (c.name.empty()) return {"name", "at least one character"};
     if (codec::find_protocol(c.protocol) == nullptr) return {"protocol", "one of " + protocol_list()};
     return {};
   });

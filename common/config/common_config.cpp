@@ -10,7 +10,8 @@ void describe(Schema<BusSecurityConfig>& s) {
   s.field("folder", &BusSecurityConfig::folder,
           "folder of the credentials that fathom keygen makes; empty: the network is not protected");
   s.field("identity", &BusSecurityConfig::identity,
-          "whose credentials in the folder; empty: those of the service's name");
+          "whose credentials in the folder; empty: those of the service's name")
+      .optional_name();
   s.check([](const BusSecurityConfig& security) -> std::pair<std::string, std::string> {
     if (security.folder.empty() && !security.identity.empty())
       return {"folder", "one, because an identity is named"};
@@ -92,18 +93,12 @@ void describe(Schema<RealtimeConfig>& s) {
 }
 
 void describe(Schema<CommonConfig>& s) {
-  s.field("vehicle", &CommonConfig::vehicle, "name of the vehicle, the first key of every topic");
+  s.field("vehicle", &CommonConfig::vehicle, "name of the vehicle, the first key of every topic").name();
   s.field("bus", &CommonConfig::bus, "the vehicle network");
   s.field("log", &CommonConfig::log, "the service's log on standard error");
   s.field("clock", &CommonConfig::clock, "what the service calls now");
   s.field("realtime", &CommonConfig::realtime,
           "scheduling and memory; what is refused is said, and goes on without");
-  s.check([](const CommonConfig& common) -> std::pair<std::string, std::string> {
-    if (common.vehicle.empty() || common.vehicle.size() > Name::kCapacity) {
-      return {"vehicle", "1 to " + std::to_string(Name::kCapacity) + " characters"};
-    }
-    return {};
-  });
 }
 
 }  // namespace fathom::config

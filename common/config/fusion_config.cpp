@@ -97,9 +97,11 @@ void describe(Schema<StandbyConfig>& s) {
 void describe(Schema<FusionConfig>& s) {
   s.include(&FusionConfig::common);
   s.field("instance", &FusionConfig::instance,
-          "name of this service; of several fusion services on one vehicle each has its own");
+          "name of this service; of several fusion services on one vehicle each has its own")
+      .name();
   s.field("imu_sensor", &FusionConfig::imu_sensor,
-          "name of the inertial unit that is listened to; empty: the first one heard");
+          "name of the inertial unit that is listened to; empty: the first one heard")
+      .optional_name();
   s.field("ownership_strength", &FusionConfig::ownership_strength,
           "of the navigation state: the strongest living fusion is heard")
       .range(0, 1'000'000);
@@ -108,12 +110,6 @@ void describe(Schema<FusionConfig>& s) {
   s.field("standby", &FusionConfig::standby, "several fusion services of one vehicle");
   s.field("engine", &FusionConfig::engine, "the estimator and its instruments").required();
   s.check([](const FusionConfig& config) -> std::pair<std::string, std::string> {
-    if (config.imu_sensor.size() > Name::kCapacity) {
-      return {"imu_sensor", "at most " + std::to_string(Name::kCapacity) + " characters"};
-    }
-    if (config.instance.empty() || config.instance.size() > Name::kCapacity) {
-      return {"instance", "1 to " + std::to_string(Name::kCapacity) + " characters"};
-    }
     if (starts_from_state(config.start.mode) && !config.start.state) {
       return {"start.state", "the state to start from, because start.mode is \"given\" or \"air_drop\""};
     }

@@ -217,6 +217,7 @@ void describe(Schema<ConstraintsConfig>& s) {
 void describe(Schema<ForecastLimitConfig>& s) {
   s.field("name", &ForecastLimitConfig::name,
           "one that begins with \"heading\" limits the heading, others the position")
+      .name()
       .required();
   s.field("limit", &ForecastLimitConfig::limit, "of the 95 % uncertainty: m, or rad for a heading")
       .range(1e-6, 1e7)

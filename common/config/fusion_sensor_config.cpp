@@ -41,7 +41,7 @@ std::string sigma_key(SourceKind kind) {
 
 void describe(Schema<SensorConfig>& s) {
   using C = SensorConfig;
-  s.field("sensor", &C::sensor, "name in the instrument's samples").required();
+  s.field("sensor", &C::sensor, "name in the instrument's samples").name().required();
   s.field("kind", &C::kind, "what it measures").words(aiding_kinds()).required();
   s.field("enabled", &C::enabled, "false: its samples are judged source_disabled");
   s.field("lever_B_m", &C::lever_B_m,

@@ -157,7 +157,7 @@ void describe(Schema<StampWatchConfig>& s) {
 }
 
 void describe(Schema<ExpectedSensor>& s) {
-  s.field("name", &ExpectedSensor::name, "of the sensor, as its bridge calls it").required();
+  s.field("name", &ExpectedSensor::name, "of the sensor, as its bridge calls it").name().required();
   s.field("kind", &ExpectedSensor::kind, "what it measures").words(sensor_kinds()).required();
   s.field("rate_hz", &ExpectedSensor::rate_hz, "samples per second").unit("Hz").range(0.001, 4000).required();
   s.field("missing_s", &ExpectedSensor::missing_s,
@@ -166,7 +166,6 @@ void describe(Schema<ExpectedSensor>& s) {
       .range(0, 1e5);
   s.field("severity", &ExpectedSensor::severity, "of its absence").words(severities());
   s.check([](const ExpectedSensor& sensor) -> Fault {
-    if (sensor.name.empty()) return {"name", "a name"};
     if (sensor.missing_s > 0.0 && sensor.missing_s * sensor.rate_hz < 1.5) {
       return {"missing_s", "0 or more than one and a half periods of rate_hz"};
     }
@@ -175,7 +174,7 @@ void describe(Schema<ExpectedSensor>& s) {
 }
 
 void describe(Schema<ExpectedService>& s) {
-  s.field("name", &ExpectedService::name, "of the service, e.g. fusion").required();
+  s.field("name", &ExpectedService::name, "of the service, e.g. fusion").name().required();
   s.field("severity", &ExpectedService::severity, "of its absence").words(severities());
 }
 

@@ -121,7 +121,7 @@ void describe(Schema<sim::ScenarioLimits>& s) {
 
 void describe(Schema<sim::Scenario>& s) {
   using C = sim::Scenario;
-  s.field("name", &C::name, "of the scenario").required();
+  s.field("name", &C::name, "of the scenario").name().required();
   s.field("description", &C::description, "one sentence").required();
   s.field("duration_s", &C::duration_s, "of a run where nothing else is said").unit("s").range(1, 1e6);
   s.field("environment", &C::environment, "water, air and ground");

@@ -65,6 +65,16 @@ class FieldRef {
     rules_->nullable = true;
     return *this;
   }
+  /// A name (base/is_name.hpp).
+  FieldRef& name() {
+    rules_->text = TextForm::name;
+    return *this;
+  }
+  /// A name or nothing.
+  FieldRef& optional_name() {
+    rules_->text = TextForm::optional_name;
+    return *this;
+  }
   /// The words of an enum, or the only strings allowed.
   FieldRef& words(std::vector<std::pair<std::string, Leaf<M>>> list) {
     rules_->words = std::move(list);

@@ -8,6 +8,7 @@
 
 #include <sys/stat.h>
 
+#include "base/is_name.hpp"
 #include "config/strict_json.hpp"
 
 namespace fathom::config {
@@ -164,12 +165,16 @@ void check_integer(const nlohmann::json& json, double low, double high, const Pl
   }
 }
 
-std::string load_text(const nlohmann::json& json, const std::vector<std::string>& words, std::size_t most,
+std::string load_text(const nlohmann::json& json, const std::vector<std::string>& words, TextForm form,
                       const Place& place) {
   if (!words.empty()) return words[load_word(json, words, place)];
   if (!json.is_string()) place.fail(json, "a string");
   auto text = json.get<std::string>();
-  if (most > 0 && text.size() > most) place.fail(json, "at most " + std::to_string(most) + " characters");
+  if (form == TextForm::free) {
+    if (one_line(text) != text) place.fail(json, "a text without control characters");
+  } else if (!is_name(text) && (form == TextForm::name || !text.empty())) {
+    place.fail(json, std::string(form == TextForm::name ? "" : "nothing or ") + kNameForm);
+  }
   return text;
 }
 
@@ -200,9 +205,12 @@ nlohmann::json words_schema(const std::vector<std::string>& words) {
   return {{"enum", words}};
 }
 
-nlohmann::json text_schema(const std::vector<std::string>& words, std::size_t most) {
+nlohmann::json text_schema(const std::vector<std::string>& words, TextForm form) {
   nlohmann::json out = {{"type", "string"}};
-  if (most > 0) out["maxLength"] = most;
+  if (form != TextForm::free) {
+    const std::string name = "[A-Za-z0-9_-][A-Za-z0-9_.-]{0,30}";
+    out["pattern"] = form == TextForm::name ? "^" + name + "$" : "^(" + name + ")?$";
+  }
   if (!words.empty()) out["enum"] = words;
   return out;
 }

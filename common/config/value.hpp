@@ -40,12 +40,20 @@ struct FieldInfo {
   bool required = false;
 };
 
+/// What a text may be. A member of type Name is an optional name at least.
+enum class TextForm {
+  free,           ///< anything without control characters
+  optional_name,  ///< what is_name() accepts, or nothing
+  name            ///< what is_name() accepts
+};
+
 template <class L>
 struct Rules {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   double factor = 1.0;
   bool nullable = false;
+  TextForm text = TextForm::free;
   std::vector<std::pair<std::string, L>> words;
 };
 
@@ -82,7 +90,7 @@ inline constexpr bool is_described = std::is_class_v<M> && !is_text<M> && std::i
                                const Place& place);
 void check_integer(const nlohmann::json& json, double low, double high, const Place& place);
 [[nodiscard]] std::string load_text(const nlohmann::json& json, const std::vector<std::string>& words,
-                                    std::size_t most, const Place& place);
+                                    TextForm form, const Place& place);
 /// Position of the word in `words`.
 [[nodiscard]] std::size_t load_word(const nlohmann::json& json, const std::vector<std::string>& words,
                                     const Place& place);
@@ -90,7 +98,7 @@ void check_integer(const nlohmann::json& json, double low, double high, const Pl
 [[nodiscard]] nlohmann::json boolean_schema();
 [[nodiscard]] nlohmann::json number_schema(bool integer, bool nullable, double low, double high);
 [[nodiscard]] nlohmann::json words_schema(const std::vector<std::string>& words);
-[[nodiscard]] nlohmann::json text_schema(const std::vector<std::string>& words, std::size_t most);
+[[nodiscard]] nlohmann::json text_schema(const std::vector<std::string>& words, TextForm form);
 [[nodiscard]] nlohmann::json optional_schema(nlohmann::json element);
 [[nodiscard]] nlohmann::json map_schema(nlohmann::json element);
 [[nodiscard]] nlohmann::json array_schema(nlohmann::json element, std::size_t size);
@@ -100,6 +108,11 @@ template <class L>
   std::vector<std::string> out;
   for (const auto& [word, value] : rules.words) out.push_back(word);
   return out;
+}
+
+template <class M, class L>
+[[nodiscard]] TextForm text_form(const Rules<L>& rules) {
+  return std::is_same_v<M, Name> && rules.text == TextForm::free ? TextForm::optional_name : rules.text;
 }
 
 inline void load_value(const nlohmann::json& json, bool& out, const Rules<bool>&, const Place& place) {
@@ -122,7 +135,7 @@ void load_value(const nlohmann::json& json, M& out, const Rules<M>& rules, const
 template <class M>
 requires is_text<M>
 void load_value(const nlohmann::json& json, M& out, const Rules<M>& rules, const Place& place) {
-  out = M(load_text(json, word_list(rules), std::is_same_v<M, Name> ? Name::kCapacity : 0, place));
+  out = M(load_text(json, word_list(rules), text_form<M>(rules), place));
 }
 
 template <class M>
@@ -248,7 +261,7 @@ nlohmann::json value_schema(const Rules<Leaf<M>>& rules) {
   } else if constexpr (std::is_enum_v<M>) {
     return words_schema(word_list(rules));
   } else if constexpr (is_text<M>) {
-    return text_schema(word_list(rules), std::is_same_v<M, Name> ? Name::kCapacity : 0);
+    return text_schema(word_list(rules), text_form<M>(rules));
   } else {
     nlohmann::json element = value_schema<typename ElementOf<M>::type>(rules);
     if constexpr (requires(M m) { m.has_value(); }) {
