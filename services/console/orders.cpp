@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/strict_json.hpp"
 #include "health/text.hpp"
 
 namespace fathom::console {
@@ -86,7 +87,9 @@ OrderJudgement judge_order(std::string_view body, const Identity& who, bool orde
   if (who.role == Role::nobody) return {401, "An order needs the token of an operator.", {}};
   if (who.role != Role::operator_)
     return {403, "The role " + std::string(to_string(who.role)) + " may not give orders.", {}};
-  const json order = json::parse(body, nullptr, false);
+  config::StrictJson parsed = config::parse_strict(body);
+  if (parsed.fault) return {400, config::describe(*parsed.fault) + ".", {}};
+  const json& order = parsed.value;
   const Form* form = form_of(order);
   if (form == nullptr) {
     return {400,

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "config/strict_json.hpp"
+
 namespace fathom::console {
 namespace {
 
@@ -52,7 +54,13 @@ std::string_view to_string(Role role) {
 }
 
 TokenBook TokenBook::parse(std::string_view text) {
-  const json root = json::parse(text, nullptr, false);
+  const config::StrictJson parsed = config::parse_strict(text);
+  // Without the value in question: it may be a token.
+  if (parsed.fault) {
+    const std::string& key = parsed.fault->key;
+    throw TokenError((key.empty() ? "" : key + ": ") + "expected strict JSON with each key once");
+  }
+  const json& root = parsed.value;
   if (!root.is_object() || root.size() != 1 || !root.contains("tokens") || !root["tokens"].is_array()) {
     throw TokenError("expected an object with one key, tokens, an array");
   }

@@ -105,6 +105,23 @@ TEST(Orders, WhatIsNotExactlyAnOrderIsRefused) {
   }
 }
 
+TEST(Orders, AKeyThatStandsTwiceIsRefusedByName) {
+  const auto judgement = judge_order(
+      R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0, "sigma_m": 5, "lat_deg": 36})",
+      kOperator, true);
+  EXPECT_EQ(judgement.status, 400);
+  EXPECT_EQ(judgement.text, "lat_deg: is given twice, expected each key once.");
+  EXPECT_EQ(judge_order(R"({"kind": "realign", "kind": "realign"})", kOperator, true).status, 400);
+}
+
+TEST(Orders, TheTextItselfIsJudgedInWords) {
+  EXPECT_EQ(judge_order(std::string(100'000, '['), kOperator, true).text.find("0.0.0"), 0U);
+  EXPECT_EQ(judge_order(R"({"kind": "set_position", "lat_deg": 1e400})", kOperator, true).text,
+            "lat_deg: is 1e400, expected a number between -1.8e308 and 1.8e308.");
+  EXPECT_THROW((void)TokenBook::parse(R"({"tokens": [], "tokens": []})"), TokenError);
+  EXPECT_NE(judge_order("{\"kind\"", kOperator, true).text.find("syntax error"), std::string::npos);
+}
+
 TEST(RefusalLog, OneLineAPeriodAndKind) {
   RefusalLog log(10 * kNsPerSecond, "a request");
   EXPECT_EQ(*log.add({400, "path"}, "10.0.0.1", 0), "refused a request from 10.0.0.1: path (400)");
