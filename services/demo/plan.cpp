@@ -252,10 +252,10 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
 
   const auto monitor_config =
       config::load_service_config<config::MonitorConfig>({builder.file("monitor").string(), monitor});
-  plan.observer.gps_limit_s = monitor_config.value.health.gps.outage.limit_s;
-  plan.observer.degraded_hold_s = monitor_config.value.health.service.degraded_hold_s;
-  plan.observer.score_from_s = plan.demands.limits.score_from_s;
-  plan.demands.gps_limit_s = plan.observer.gps_limit_s;
+  plan.record.gps_limit_s = monitor_config.value.health.gps.outage.limit_s;
+  plan.record.degraded_hold_s = monitor_config.value.health.service.degraded_hold_s;
+  plan.record.score_from_s = plan.demands.limits.score_from_s;
+  plan.demands.gps_limit_s = plan.record.gps_limit_s;
   plan.demands.nav_rate_hz = scenario.sensors.imu.rate_hz;
   return plan;
 }

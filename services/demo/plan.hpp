@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/time.hpp"
-#include "demo/observer.hpp"
 #include "demo/options.hpp"
 #include "demo/report.hpp"
+#include "demo/run_record.hpp"
 #include "demo/supervisor.hpp"
 
 namespace fathom::demo {
@@ -20,7 +20,7 @@ struct Plan {
   std::vector<Program> programs;  ///< in the order of their start
   std::string console;      ///< address of the operator console, with the right to give orders; empty: none
   std::string credentials;  ///< folder of the run's own; empty: the network is not protected
-  Observer::Options observer;
+  RunRecord::Options record;
   Demands demands;
 };
 

@@ -1,35 +1,11 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
-#include "demo/observer.hpp"
-#include "sim/scenario.hpp"
+#include "demo/judgement.hpp"
 
 namespace fathom::demo {
-
-/// One demand on the run and what became of it.
-struct Finding {
-  bool met = false;
-  std::string text;  ///< e.g. "horizontal error 1.2 m rms, limit 5 m"
-};
-
-/// What a run is held against.
-struct Demands {
-  sim::ScenarioLimits limits;
-  bool whole_run = true;              ///< the run lasted as long as the scenario is meant to
-  double end_error_share = kUnknown;  ///< of the distance travelled; for recorded vehicles
-  bool gps_expected = true;
-  bool alignment_expected = true;
-  double gps_limit_s = 5.0;
-  double nav_rate_hz = 100.0;         ///< of the inertial sensor
-  std::vector<std::string> services;  ///< that must have been healthy
-  std::map<std::string, int> restarts;
-  std::vector<std::string> killed;  ///< did not stop when asked
-};
-
-[[nodiscard]] std::vector<Finding> judge(const Observation& seen, const Demands& demands);
 
 /// The JSON of the contract, with "findings" and "restarts" besides.
 [[nodiscard]] std::string report_json(const std::string& scenario, double duration_s, const Observation& seen,

@@ -14,6 +14,7 @@
 
 #include "base/clock.hpp"
 #include "bus/participant.hpp"
+#include "demo/observer.hpp"
 #include "demo/plan.hpp"
 
 namespace fathom::demo {
@@ -133,7 +134,7 @@ ExitCode run(const Options& options) {
   presence.peers = options.peers;
   presence.security = {plan.credentials, "cli"};
   bus::Participant participant(presence);
-  Observer observer(participant, *clock, plan.observer);
+  Observer observer(participant, *clock, plan.record);
   Supervisor supervisor(directory.path(), kRestartAfterNs);
   say("Starting " + plan.title + ": " + std::to_string(plan.programs.size()) + " services on DDS domain " +
       std::to_string(options.domain) + ", logs in " + directory.path().string());
