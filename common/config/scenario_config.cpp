@@ -117,6 +117,10 @@ void describe(Schema<sim::ScenarioLimits>& s) {
   s.field("gps_outages_at_least", &C::gps_outages_at_least,
           "flagged by the monitor in a run of the default duration")
       .range(0, 1000);
+  s.field(
+      "expected_alarms", &C::expected_alarms,
+      "names of the alarms that belong to the scenario; one that ends in * stands for all that begin so; any "
+      "other alarm fails the run");
 }
 
 void describe(Schema<sim::Scenario>& s) {

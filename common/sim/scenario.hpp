@@ -147,6 +147,8 @@ struct ScenarioLimits {
   double aligned_within_s = kUnknown;  ///< of the start
   double score_from_s = 0.0;           ///< earlier navigation is not scored
   int gps_outages_at_least = 0;        ///< in a run of the default duration
+  /// Names of the alarms that belong to the scenario; one that ends in '*' stands for all that begin so.
+  std::vector<std::string> expected_alarms;
 };
 
 struct Scenario {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <string_view>
 
 namespace fathom::demo {
 namespace {
@@ -14,6 +15,9 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kFlagToleranceS = 1.5;
 // From the first fix to the all-clear: the monitor wants some consecutive fixes.
 constexpr double kClearToleranceS = 10.0;
+// Of the states that the inertial sensor's rate asks for.
+constexpr double kLeastRateShare = 0.98;
+constexpr double kLeastValidShare = 0.99;
 
 template <class... Args>
 std::string text(const char* format, Args... args) {
@@ -49,10 +53,11 @@ void judge_outages(const Observation& seen, const Demands& demands, std::vector<
   int complete = 0;
   for (const GpsOutage& outage : seen.outages) {
     const bool over = known(outage.end_s);
-    const double length_s = outage.end_s - outage.start_s;
+    const double ended_s = to_seconds(seen.ended_ns - seen.began_ns);
+    const double length_s = (over ? outage.end_s : ended_s) - outage.start_s;
     // One that ended within the tolerance of the limit need not have been flagged.
     if (!known(outage.flagged_after_s)) {
-      if (over && length_s > demands.gps_limit_s + kFlagToleranceS) {
+      if (length_s > demands.gps_limit_s + kFlagToleranceS) {
         out.push_back(
             {false, text("GPS outage at %.1f s of %.1f s was not flagged", outage.start_s, length_s)});
       }
@@ -66,6 +71,13 @@ void judge_outages(const Observation& seen, const Demands& demands, std::vector<
       out.push_back({outage.cleared_after_s <= kClearToleranceS,
                      text("GPS outage at %.1f s cleared %.2f s after the first fix, limit %.0f s",
                           outage.start_s, outage.cleared_after_s, kClearToleranceS)});
+    } else if (outage.cleared_without_fix) {
+      out.push_back({false, text("GPS outage at %.1f s was cleared without a usable fix", outage.start_s)});
+    } else if (over && ended_s - outage.end_s > kClearToleranceS) {
+      out.push_back(
+          {false,
+           text("GPS outage at %.1f s was never cleared, although fixes came again %.1f s before the end",
+                outage.start_s, ended_s - outage.end_s)});
     }
   }
   if (demands.whole_run && demands.gps_expected && demands.limits.gps_outages_at_least > 0) {
@@ -89,6 +101,9 @@ void judge_services(const Observation& seen, const Demands& demands, std::vector
       out.push_back({false, text("service %s was started again %d times", name.c_str(), restarts->second)});
     } else if (!record.was_healthy || record.fell) {
       out.push_back({false, "service " + name + " did not stay healthy: " + record.text});
+    } else if (record.longest_silence_s > demands.silence_s + kFlagToleranceS) {
+      out.push_back({false, text("service %s gave no life sign for %.1f s, limit %.1f s", name.c_str(),
+                                 record.longest_silence_s, demands.silence_s + kFlagToleranceS)});
     }
   }
   if (out.size() == before)
@@ -97,18 +112,62 @@ void judge_services(const Observation& seen, const Demands& demands, std::vector
     out.push_back({false, "service " + name + " did not stop when asked"});
 }
 
+bool stands_for(const std::string& pattern, const std::string& name) {
+  if (pattern.empty() || pattern.back() != '*') return pattern == name;
+  return name.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1));
+}
+
+void judge_alarms(const Observation& seen, const Demands& demands, std::vector<Finding>& out) {
+  const std::size_t before = out.size();
+  for (const auto& [name, alarm] : seen.alarms) {
+    const auto& expected = demands.expected_alarms;
+    if (std::any_of(expected.begin(), expected.end(),
+                    [&name = name](const std::string& pattern) { return stands_for(pattern, name); }))
+      continue;
+    out.push_back({false, "alarm " + name + " (" + std::string(to_string(alarm.severity)) +
+                              ") was raised and is not expected here: " + alarm.text});
+  }
+  if (out.size() == before) out.push_back({true, "no alarm but the expected ones"});
+}
+
+void judge_states(const Observation& seen, const Demands& demands, std::vector<Finding>& out) {
+  const double rate = rate_hz(seen, demands);
+  out.push_back({rate >= kLeastRateShare * demands.nav_rate_hz,
+                 text("navigation state at %.1f Hz over the run, inertial sensor at %.0f Hz", rate,
+                      demands.nav_rate_hz)});
+  const double share = valid_share(seen, demands);
+  if (!known(share)) {
+    out.push_back({false, "no valid navigation state: the run ended before one was due"});
+    return;
+  }
+  out.push_back({share >= kLeastValidShare,
+                 text("%.2f %% of the navigation states due were there and valid, at least %.0f %% expected",
+                      share * 100.0, kLeastValidShare * 100.0)});
+}
+
 }  // namespace
 
-double rate_hz(const Observation& seen) {
-  if (seen.nav_states < 2 || seen.last_nav_ns <= seen.first_nav_ns) return 0.0;
-  return static_cast<double>(seen.nav_states - 1) / to_seconds(seen.last_nav_ns - seen.first_nav_ns);
+double rate_hz(const Observation& seen, const Demands& demands) {
+  TimeNs due_ns = seen.vehicle_began_ns() + from_seconds(demands.startup_s);
+  if (seen.first_nav_ns != 0) due_ns = std::min(due_ns, seen.first_nav_ns);
+  if (seen.nav_states < 2 || seen.ended_ns <= due_ns) return 0.0;
+  return static_cast<double>(seen.nav_states - 1) / to_seconds(seen.ended_ns - due_ns);
+}
+
+double valid_share(const Observation& seen, const Demands& demands) {
+  const double aligned_s = demands.limits.aligned_within_s;
+  TimeNs due_ns = seen.vehicle_began_ns() + from_seconds(known(aligned_s) ? aligned_s : demands.startup_s);
+  if (seen.first_valid_ns != 0) due_ns = std::min(due_ns, seen.first_valid_ns);
+  due_ns = std::max(due_ns, seen.began_ns + from_seconds(demands.limits.score_from_s));
+  if (seen.ended_ns <= due_ns) return kUnknown;
+  const double due = to_seconds(seen.ended_ns - due_ns) * demands.nav_rate_hz;
+  // A sensor that is faster than it should be does not make up for states that are not valid.
+  return static_cast<double>(seen.valid_states) / std::max(due, static_cast<double>(seen.states_since_valid));
 }
 
 std::vector<Finding> judge(const Observation& seen, const Demands& demands) {
   std::vector<Finding> out;
-  const double rate = rate_hz(seen);
-  out.push_back({rate >= 0.98 * demands.nav_rate_hz,
-                 text("navigation state at %.1f Hz, inertial sensor at %.0f Hz", rate, demands.nav_rate_hz)});
+  judge_states(seen, demands, out);
   if (demands.alignment_expected) {
     const double limit = known(demands.limits.aligned_within_s) ? demands.limits.aligned_within_s : 1e9;
     const double after_s = seen.aligned_after_s();
@@ -118,6 +177,7 @@ std::vector<Finding> judge(const Observation& seen, const Demands& demands) {
   judge_accuracy(seen, demands, out);
   judge_outages(seen, demands, out);
   judge_services(seen, demands, out);
+  judge_alarms(seen, demands, out);
   return out;
 }
 

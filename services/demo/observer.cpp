@@ -53,7 +53,7 @@ Observer::~Observer() = default;
 
 Observation Observer::look() const {
   const std::lock_guard lock(mutex_);
-  return record_.look();
+  return record_.look(clock_.utc_ns(), clock_.monotonic_ns());
 }
 
 }  // namespace fathom::demo

@@ -25,6 +25,10 @@ Parsed parse(int argc, char** argv) {
                  "vehicle seconds; default: as the scenario or the data set says")
       ->check(CLI::Range(1.0, 1e6));
   app.add_option("--speed", options.speed, "vehicle seconds per second")->check(CLI::Range(0.1, 100.0));
+  app.add_option(
+      "--expect-alarm", options.expected_alarms,
+      "name of an alarm that does not fail the run; with * at its end for all that begin so; may be "
+      "repeated");
   app.add_option("--report", options.report, "write the report to this file");
   app.add_option("--commands", options.commands,
                  "start nothing: write the services' command lines to commands.txt in this folder")

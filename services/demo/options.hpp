@@ -15,7 +15,8 @@ struct Options {
   double duration_s = 0.0;  ///< vehicle time; 0: as the scenario or the data set says
   double speed = 1.0;
   std::string commands;  ///< folder to write the services' command lines into, starting nothing; empty: run
-  std::string report;    ///< file for the report; empty: none
+  std::vector<std::string> expected_alarms;  ///< besides those of the scenario
+  std::string report;                        ///< file for the report; empty: none
   int domain = 0;
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses of this host that DDS binds
   std::vector<std::string> peers{"127.0.0.1"};       ///< asked for discovery besides multicast

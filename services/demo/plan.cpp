@@ -217,6 +217,10 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
     plan.title = std::filesystem::path(options.dataset).lexically_normal().string();
     plan.duration_s = options.duration_s > 0.0 ? options.duration_s : recording.duration_s;
     plan.demands.limits = {};
+    // What the recorded instruments did is not known beforehand; what the services do is judged.
+    plan.demands.expected_alarms = {"gps_*",         "sensor_*",       "refused:*",     "duplicate_stamps:*",
+                                    "clock_*",       "device_clock:*", "nav_uncertain", "not_aligned",
+                                    "alignment_lost"};
     plan.demands.limits.horizontal_rms_m = kUnknown;
     plan.demands.end_error_share = recording.end_error_limit;
     plan.demands.gps_expected = recording.has("gps");
@@ -227,6 +231,7 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
     const TimeNs now_ns = plan.epoch_ns != 0 ? plan.epoch_ns : SystemClock().utc_ns();
     const TimeNs start_ns = now_ns + from_seconds(kStartUpS * options.speed);
     plan.duration_s += kStartUpS * options.speed;
+    plan.record.ends_ns = start_ns + from_seconds(recording.last_imu_s);
     simulator.push_back("dataset=" + std::filesystem::absolute(options.dataset).string());
     simulator.push_back("epoch_ns=" + std::to_string(start_ns));
     fusion = start_sets(recording, start_ns);
@@ -256,7 +261,13 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   plan.record.degraded_hold_s = monitor_config.value.health.service.degraded_hold_s;
   plan.record.score_from_s = plan.demands.limits.score_from_s;
   plan.demands.gps_limit_s = plan.record.gps_limit_s;
+  plan.demands.silence_s = monitor_config.value.health.service.missing_s;
+  plan.demands.startup_s = monitor_config.value.health.startup_s;
   plan.demands.nav_rate_hz = scenario.sensors.imu.rate_hz;
+  auto& expected = plan.demands.expected_alarms;
+  const std::vector<std::string>& own = plan.demands.limits.expected_alarms;
+  expected.insert(expected.end(), own.begin(), own.end());
+  expected.insert(expected.end(), options.expected_alarms.begin(), options.expected_alarms.end());
   return plan;
 }
 

@@ -67,7 +67,8 @@ Recording describe_recording(const std::filesystem::path& directory, const std::
   }
   out.start = *start;
   out.start_s = to_seconds(start->header.stamp_ns);
-  out.duration_s = to_seconds(data.imu.back().header.stamp_ns) + 1.0;
+  out.last_imu_s = to_seconds(data.imu.back().header.stamp_ns);
+  out.duration_s = out.last_imu_s + 1.0;
   return out;
 }
 

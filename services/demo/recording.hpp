@@ -16,6 +16,7 @@ struct Recording {
   std::map<std::string, double> rates;  ///< mean rates of these
   double imu_rate_hz = 100.0;
   double duration_s = 0.0;  ///< until shortly after the last sample
+  double last_imu_s = 0.0;  ///< t_s of the last inertial sample
   double start_s = 0.0;     ///< t_s of `start`
   Truth start;              ///< reference at or after the first inertial sample
   std::filesystem::path fusion_file;

@@ -71,7 +71,8 @@ std::string report_json(const std::string& scenario, double duration_s, const Ob
   const json out = {
       {"scenario", scenario},
       {"duration_s", duration_s},
-      {"nav_state_rate_hz", rate_hz(seen)},
+      {"nav_state_rate_hz", rate_hz(seen, demands)},
+      {"nav_state_valid_share", number(valid_share(seen, demands))},
       {"horizontal_error_m", figures(seen.score.horizontal_m)},
       {"distance_m", seen.distance_m},
       {"attitude_error_deg",

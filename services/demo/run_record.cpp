@@ -12,13 +12,31 @@ bool usable(const GpsSample& sample) {
   return sample.fix >= GpsFix::fix_3d && known(sample.latitude_rad) && known(sample.longitude_rad);
 }
 
+template <std::size_t N>
+bool all_known(const std::array<double, N>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return known(value); });
+}
+
+bool has_position(const NavState& state) {
+  return state.mode != NavMode::none && state.mode != NavMode::aligning;
+}
+
+/// A state that guidance can steer by.
+bool is_valid(const NavState& state) {
+  return has_position(state) && state.alignment != AlignmentPhase::lost && known(state.latitude_rad) &&
+         known(state.longitude_rad) && all_known(state.velocity_N_m_s) && all_known(state.q_NB);
+}
+
 }  // namespace
 
 double Observation::aligned_after_s() const {
-  if (aligned_ns == 0) return kUnknown;
-  TimeNs began = truth_began_ns != 0 ? truth_began_ns : began_ns;
-  if (first_nav_ns != 0) began = std::min(began, first_nav_ns);  // a recording's reference may begin later
-  return to_seconds(aligned_ns - began);
+  return aligned_ns == 0 ? kUnknown : to_seconds(aligned_ns - vehicle_began_ns());
+}
+
+TimeNs Observation::vehicle_began_ns() const {
+  const TimeNs began = truth_began_ns != 0 ? truth_began_ns : began_ns;
+  return first_nav_ns != 0 ? std::min(began, first_nav_ns)
+                           : began;  // a recording's reference may begin later
 }
 
 double Observation::latency_us(double share) const {
@@ -39,6 +57,7 @@ double RunRecord::since_began_s(TimeNs stamp_ns) const {
 }
 
 void RunRecord::add(const NavState& state, double latency_us) {
+  if (state.header.stamp_ns <= seen_.last_nav_ns) return;
   if (seen_.nav_states++ == 0) seen_.first_nav_ns = state.header.stamp_ns;
   seen_.last_nav_ns = state.header.stamp_ns;
   seen_.nav = state;
@@ -48,8 +67,11 @@ void RunRecord::add(const NavState& state, double latency_us) {
   } else {
     seen_.latencies_us[next_latency_++ % kLatencies] = latency;
   }
-  const bool has_position = state.mode != NavMode::none && state.mode != NavMode::aligning;
-  if (!has_position || since_began_s(state.header.stamp_ns) < options_.score_from_s) return;
+  if (since_began_s(state.header.stamp_ns) < options_.score_from_s) return;
+  const bool valid = is_valid(state);
+  if (valid && seen_.valid_states++ == 0) seen_.first_valid_ns = state.header.stamp_ns;
+  if (seen_.valid_states > 0) ++seen_.states_since_valid;
+  if (!has_position(state)) return;
   if (state.header.stamp_ns - last_scored_ns_ < kScorePeriodNs) return;
   last_scored_ns_ = state.header.stamp_ns;
   to_score_.push_back(state);
@@ -70,24 +92,31 @@ void RunRecord::add(const Truth& row) {
 void RunRecord::add(const GpsSample& sample) {
   if (!usable(sample)) return;
   const TimeNs stamp = sample.header.stamp_ns;
-  if (last_usable_fix_ns_ != 0 && to_seconds(stamp - last_usable_fix_ns_) > options_.gps_limit_s) {
-    // The monitor may have flagged it already; then the entry exists and only its end was missing.
-    if (seen_.outages.empty() || known(seen_.outages.back().end_s)) {
-      seen_.outages.push_back({since_began_s(last_usable_fix_ns_), kUnknown, kUnknown, kUnknown});
-    }
-    seen_.outages.back().end_s = since_began_s(stamp);
+  auto& outages = seen_.outages;
+  const bool after_silence = silent_longer_than_limit(stamp);
+  // The monitor may have flagged it already; then the entry exists and only its end was missing. A fix or two
+  // between two silences do not end an outage that the monitor still shows.
+  if (after_silence && (outages.empty() || (!flagged_ && known(outages.back().end_s)))) {
+    outages.push_back({.start_s = since_began_s(last_usable_fix_ns_)});
   }
+  const bool awaited = flagged_ && !outages.empty() && !known(outages.back().end_s);
+  if (after_silence || awaited) outages.back().end_s = since_began_s(stamp);
   last_usable_fix_ns_ = std::max(last_usable_fix_ns_, stamp);
+}
+
+bool RunRecord::silent_longer_than_limit(TimeNs until_ns) const {
+  return last_usable_fix_ns_ != 0 && to_seconds(until_ns - last_usable_fix_ns_) > options_.gps_limit_s;
 }
 
 void RunRecord::add(const MonitorStatus& status) {
   const double now_s = since_began_s(status.header.stamp_ns);
   if (status.gps_outage_active && !flagged_ && last_usable_fix_ns_ != 0) {
-    seen_.outages.push_back({since_began_s(last_usable_fix_ns_), kUnknown, kUnknown, kUnknown});
+    seen_.outages.push_back({.start_s = since_began_s(last_usable_fix_ns_)});
     seen_.outages.back().flagged_after_s = now_s - seen_.outages.back().start_s;
   } else if (!status.gps_outage_active && flagged_ && !seen_.outages.empty()) {
     GpsOutage& outage = seen_.outages.back();
     if (known(outage.end_s)) outage.cleared_after_s = now_s - outage.end_s;
+    outage.cleared_without_fix = !known(outage.end_s);
   }
   flagged_ = status.gps_outage_active;
   seen_.monitor = status;
@@ -95,6 +124,10 @@ void RunRecord::add(const MonitorStatus& status) {
 
 void RunRecord::add(const ServiceStatus& status, TimeNs monotonic_ns) {
   ServiceRecord& record = seen_.services[status.header.sensor.str()];
+  if (record.last_heard_ns != 0) {
+    record.longest_silence_s =
+        std::max(record.longest_silence_s, to_seconds(monotonic_ns - record.last_heard_ns));
+  }
   record.state = status.state;
   record.last_heard_ns = monotonic_ns;
   const bool healthy = status.state == ServiceState::healthy;
@@ -122,8 +155,19 @@ void RunRecord::add(const Alarm& alarm) {
   seen_.alarms[alarm.alarm.str()] = alarm;
 }
 
-Observation RunRecord::look() const {
+Observation RunRecord::look(TimeNs utc_ns, TimeNs monotonic_ns) const {
   Observation out = seen_;
+  out.ended_ns = options_.ends_ns != 0 ? std::min(utc_ns, options_.ends_ns) : utc_ns;
+  for (auto& [name, service] : out.services) {
+    service.longest_silence_s =
+        std::max(service.longest_silence_s, to_seconds(monotonic_ns - service.last_heard_ns));
+  }
+  if (silent_longer_than_limit(out.ended_ns)) {
+    // It lasts: unflagged so far, or flagged and not ended by the fix or two in between.
+    if (!flagged_ || out.outages.empty())
+      out.outages.push_back({.start_s = since_began_s(last_usable_fix_ns_)});
+    out.outages.back().end_s = kUnknown;
+  }
   if (!scorer_.errors().empty()) {
     out.score = scorer_.score();
     out.error = scorer_.errors().back();

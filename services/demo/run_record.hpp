@@ -16,6 +16,7 @@ class RunRecord {
     double gps_limit_s = 5.0;      ///< of the monitor
     double degraded_hold_s = 5.0;  ///< of the monitor
     double score_from_s = 0.0;     ///< earlier navigation states are not scored
+    TimeNs ends_ns = 0;            ///< a recording has nothing later than this; 0: no end of its own
   };
   RunRecord(const Options& options, TimeNs began_ns);
 
@@ -29,10 +30,13 @@ class RunRecord {
   void add(const Verdict& verdict);
   void add(const Alarm& alarm);
 
-  [[nodiscard]] Observation look() const;
+  /// `utc_ns`, `monotonic_ns`: now. What is missing until now is part of the answer.
+  [[nodiscard]] Observation look(TimeNs utc_ns, TimeNs monotonic_ns) const;
 
  private:
   [[nodiscard]] double since_began_s(TimeNs stamp_ns) const;
+  /// Whether `until_ns` is later after the last usable fix than the monitor's limit.
+  [[nodiscard]] bool silent_longer_than_limit(TimeNs until_ns) const;
 
   Options options_;
   Observation seen_;
