@@ -25,9 +25,16 @@ set(CPACK_DEBIAN_CLIENT_PACKAGE_DEPENDS "libfastrtps-dev, libfastcdr-dev, libssl
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "What guidance software needs to receive fathom's navigation state
  Library, headers, CMake package and QoS profiles.")
 
-# The configuration is the vehicle's: dpkg asks before it replaces what was changed.
+# The configuration is the vehicle's: dpkg asks before it replaces what was changed. It goes below the prefix as
+# everything does; with /usr, which is the package's, that is /etc (GNU coding standards). The prefix is known at
+# installation only.
 file(GLOB configurations ${PROJECT_SOURCE_DIR}/deploy/config/*.json)
-install(FILES ${configurations} DESTINATION /etc/fathom COMPONENT fathom)
+install(CODE "
+  set(etc \"\${CMAKE_INSTALL_PREFIX}/etc\")
+  if(CMAKE_INSTALL_PREFIX MATCHES \"^/usr/?\$\")
+    set(etc /etc)
+  endif()
+  file(INSTALL DESTINATION \"\${etc}/fathom\" TYPE FILE FILES ${configurations})" COMPONENT fathom)
 set(conffiles "")
 foreach(file ${configurations})
   get_filename_component(name ${file} NAME)
