@@ -39,8 +39,18 @@ void write_line(std::string line) {
 
 class JsonLines : public codec::Sink {
  public:
-  void on_sample(const codec::Decoded& decoded) override { write_line(to_json(decoded)); }
-  void on_rejected(const codec::Rejected& rejected) override { write_line(to_json(rejected)); }
+  void on_sample(const codec::Decoded& decoded) override {
+    runs_.end(decoded.offset);
+    write_line(to_json(decoded));
+  }
+  void on_rejected(const codec::Rejected& rejected) override { runs_.add(rejected); }
+  void finish(const codec::Totals& totals) {
+    runs_.end(totals.bytes);
+    write_line(to_json(totals));
+  }
+
+ private:
+  RejectionRuns runs_{[](const RejectionRun& run) { write_line(to_json(run)); }};
 };
 
 class Summary : public codec::Sink {
@@ -167,7 +177,7 @@ void run(const DecodeOptions& options) {
   }
   codec->finish(sink);
   if (options.json) {
-    write_line(to_json(codec->totals()));
+    lines.finish(codec->totals());
   } else {
     summary.print(codec->totals());
   }
@@ -187,8 +197,10 @@ void add_decode(CLI::App& app, ExitCode& /*exit_code*/) {
       "are\npart of the output. 2 for an unknown protocol, 3 when FILE cannot be read.");
   command->add_option("protocol", options->protocol, "Protocol of the device (see --list)");
   command->add_option("file", options->file, "Recorded bytes; - reads standard input as it arrives");
-  command->add_flag("--json", options->json,
-                    "One JSON object a line per sample and per refused frame, and one of totals at the end");
+  command->add_flag(
+      "--json", options->json,
+      "One JSON object a line per sample and per refused frame or run of such frames (with their "
+      "count), and one of totals at the end");
   command->add_flag("--list", options->list, "List the protocols and end");
   command->add_flag("--no-checksum", options->no_checksum, "NMEA 0183: accept sentences without checksum");
   command->add_option("--latitude", options->latitude_deg, "Pressure: latitude in degrees, for gravity")

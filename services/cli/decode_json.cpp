@@ -192,11 +192,12 @@ std::string to_json(const codec::Decoded& decoded) {
   return text(line);
 }
 
-std::string to_json(const codec::Rejected& rejected) {
+std::string to_json(const RejectionRun& run) {
   Json line;
-  line["rejected"] = codec::to_string(rejected.reason);
-  line["offset"] = rejected.offset;
-  line["length"] = rejected.length;
+  line["rejected"] = codec::to_string(run.first.reason);
+  line["offset"] = run.first.offset;
+  line["length"] = run.first.length;
+  if (run.count > 1) line["count"] = run.count;
   return text(line);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "cli/rejection_runs.hpp"
 #include "codec/codec.hpp"
 
 namespace fathom::cli {
@@ -18,7 +19,8 @@ namespace fathom::cli {
 /// One line each, without line end. Keys are the data set's column names, unknown is null, numbers read back
 /// to the same bits.
 [[nodiscard]] std::string to_json(const codec::Decoded& decoded);
-[[nodiscard]] std::string to_json(const codec::Rejected& rejected);
+/// "count" only of a run of several frames.
+[[nodiscard]] std::string to_json(const RejectionRun& run);
 [[nodiscard]] std::string to_json(const codec::Totals& totals);
 
 }  // namespace fathom::cli

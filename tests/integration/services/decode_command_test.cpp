@@ -100,6 +100,59 @@ TEST_F(DecodeCommand, OneLineASampleOneARefusalAndTotals) {
   }
 }
 
+TEST_F(DecodeCommand, GarbageIsARunAndNotALineAFrame) {
+  // Noise, short lines and what looks like the beginning of frames: 6 MB in all.
+  std::uint64_t state = 1;
+  std::vector<std::uint8_t> garbage;
+  for (int i = 0; i < 2'000'000; ++i) {
+    state = state * 6'364'136'223'846'793'005U + 1'442'695'040'888'963'407U;
+    garbage.push_back(static_cast<std::uint8_t>(state >> 56U));
+  }
+  for (int i = 0; i < 1'000'000; ++i) garbage.insert(garbage.end(), {'x', '\n'});
+  for (int i = 0; i < 200'000; ++i)
+    garbage.insert(garbage.end(), {'$', 'G', 'P', 'G', 'G', 'A', ',', '*', '0', '\n'});
+  write(garbage);
+  for (const char* protocol :
+       {"nmea0183", "ubx", "pd0", "waterlinked", "vectornav", "paroscientific", "ascii_depth", "psimssb"}) {
+    const Answer answer = run(std::string("decode --json ") + protocol + " " + path_.string());
+    EXPECT_EQ(answer.code, 0);
+    EXPECT_LT(answer.lines.size(), 2000U) << protocol;
+    std::uint64_t count = 0;
+    std::uint64_t length = 0;
+    std::uint64_t samples = 0;
+    for (const std::string& line : answer.lines) {
+      const Json json = Json::parse(line);
+      samples += json.contains("kind") ? 1U : 0U;
+      if (!json.contains("rejected")) continue;
+      count += json.value("count", std::uint64_t{1});
+      length += json.at("length").get<std::uint64_t>();
+    }
+    const Json totals = Json::parse(answer.lines.back()).at("totals");
+    EXPECT_EQ(totals.at("bytes"), garbage.size()) << protocol;
+    EXPECT_EQ(totals.at("rejected"), count) << protocol;
+    EXPECT_EQ(totals.at("samples"), samples) << protocol;
+    EXPECT_LE(length, garbage.size()) << protocol;
+  }
+}
+
+TEST_F(DecodeCommand, AFewRefusalsInARowKeepTheirPlaces) {
+  const auto good = sim::encode::pd0(DvlSample{}, 1'769'862'615'250'000'000);
+  auto damaged = good;
+  damaged[40] ^= 1U;
+  for (const auto& bytes : {damaged, damaged, damaged, good, damaged}) write(bytes);
+  const Answer answer = run("decode pd0 --json " + path_.string());
+  ASSERT_EQ(answer.lines.size(), 5U);
+  const Json first = Json::parse(answer.lines[0]);
+  EXPECT_EQ(first.at("offset"), 0);
+  EXPECT_FALSE(first.contains("count"));
+  const Json others = Json::parse(answer.lines[1]);
+  EXPECT_EQ(others.at("offset"), good.size());
+  EXPECT_EQ(others.at("length"), 2 * good.size());
+  EXPECT_EQ(others.at("count"), 2);
+  EXPECT_EQ(Json::parse(answer.lines[2]).at("kind"), "dvl");
+  EXPECT_EQ(Json::parse(answer.lines[3]).at("offset"), 4 * good.size());
+}
+
 TEST_F(DecodeCommand, CountSinceStartIsNoUtc) {
   ImuSample s;
   s.angular_rate_B_rad_s = {0.1, 0.2, 0.3};
@@ -128,6 +181,14 @@ TEST_F(DecodeCommand, ExitCodes) {
   const Answer list = run("decode --list");
   EXPECT_EQ(list.code, 0);
   EXPECT_GE(list.lines.size(), 8U);
+}
+
+TEST(Command, WhatThisBuildCannotDoIsSaidInWords) {
+  const Answer answer = run("record --out x.mcap 2>&1");
+  EXPECT_EQ(answer.code, 2);
+  ASSERT_EQ(answer.lines.size(), 1U);
+  EXPECT_EQ(answer.lines[0], "fathom: record: this build has no recorder yet; see --help for what it has");
+  EXPECT_EQ(run("record 2>/dev/null").code, 2);
 }
 
 }  // namespace
