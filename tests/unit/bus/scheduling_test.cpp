@@ -1,5 +1,6 @@
 #include "bus/detail/scheduling.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
@@ -98,11 +100,13 @@ TEST(Scheduling, InRealTimeChoresAreOnePriorityBelow) {
 TEST(Scheduling, WhatCarriesSamplesAsksForShortTurns) {
   ASSERT_TRUE(on_thread(SCHED_OTHER, 0, [] {
     const bool told = turn_ns() != 0;
-    ASSERT_EQ(nice(3), 3);
+    // Whoever runs the tests may have been nice already.
+    const int nicer = std::min(getpriority(PRIO_PROCESS, 0) + 3, 19);
+    ASSERT_EQ(nice(3), nicer);
     bus::detail::ask_for_short_turns();
     EXPECT_EQ(turn_ns(), told ? bus::detail::kTurn_ns : 0);
     EXPECT_EQ(policy(), SCHED_OTHER);
-    EXPECT_EQ(nice(0), 3);
+    EXPECT_EQ(getpriority(PRIO_PROCESS, 0), nicer);
   }));
   ASSERT_TRUE(on_thread(SCHED_BATCH, 0, [] {
     const std::uint64_t before_ns = turn_ns();
