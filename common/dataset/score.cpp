@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "geo/so3.hpp"
+
 namespace fathom::dataset {
 namespace {
 
@@ -44,6 +46,21 @@ double mahalanobis2(const std::array<double, 3>& e, const std::array<double, 9>&
     sum += whitened[i] * whitened[i];
   }
   return sum;
+}
+
+/// The attitude on the shortest turn between two. One of which an angle is unknown turns angle by angle.
+std::array<double, 3> turned(const std::array<double, 3>& from, const std::array<double, 3>& to,
+                             double share) {
+  const auto all_known = [](const std::array<double, 3>& rpy) {
+    return known(rpy[0]) && known(rpy[1]) && known(rpy[2]);
+  };
+  if (!all_known(from) || !all_known(to)) {
+    return {lerp_angle(from[0], to[0], share), lerp_angle(from[1], to[1], share),
+            lerp_angle(from[2], to[2], share)};
+  }
+  const geo::Quaternion a = geo::from_rpy({from[0], from[1], from[2]});
+  const geo::Quaternion b = geo::from_rpy({to[0], to[1], to[2]});
+  return geo::arr(geo::to_rpy(a * geo::exp(share * geo::log(geo::conjugate(a) * b))));
 }
 
 template <class Pick>
@@ -140,8 +157,8 @@ std::optional<Truth> TruthTrack::at(TimeNs stamp_ns) const {
   out.altitude_m = mix(a.altitude_m, b.altitude_m);
   for (std::size_t i = 0; i < 3; ++i) {
     out.velocity_N_m_s[i] = mix(a.velocity_N_m_s[i], b.velocity_N_m_s[i]);
-    out.rpy_rad[i] = lerp_angle(a.rpy_rad[i], b.rpy_rad[i], share);
   }
+  out.rpy_rad = turned(a.rpy_rad, b.rpy_rad, share);
   return out;
 }
 

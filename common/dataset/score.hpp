@@ -23,9 +23,9 @@ class TruthTrack {
 
   void add(const Truth& row);
 
-  /// Linear in position and velocity, the shorter way round in angles. Nothing before the first row, after
-  /// the last and inside a gap. header.stamp_ns of the answer is `stamp_ns`; gps_available that of the row
-  /// before.
+  /// Linear in position and velocity, the shortest turn (slerp) in attitude. Nothing before the first row,
+  /// after the last and inside a gap. header.stamp_ns of the answer is `stamp_ns`; gps_available that of the
+  /// row before.
   [[nodiscard]] std::optional<Truth> at(TimeNs stamp_ns) const;
 
   [[nodiscard]] const std::vector<Truth>& rows() const { return rows_; }

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "geo/so3.hpp"
+
 namespace fathom::dataset {
 namespace {
 
@@ -53,6 +55,36 @@ TEST(TruthTrack, InterpolatesBetweenRowsAndNowhereElse) {
   // From 3 to -3 rad by way of pi.
   EXPECT_NEAR(middle->rpy_rad[2], 3.0 + 0.25 * (2.0 * std::numbers::pi - 6.0), 1e-12);
   EXPECT_EQ(middle->header.stamp_ns, from_seconds(0.25));
+}
+
+TEST(TruthTrack, TurnsOnTheShortestWayBetweenTwoAttitudes) {
+  // A vehicle that dives and rolls at a steady rate: halfway its attitude is not the mean of the angles.
+  const geo::Quaternion start = geo::from_rpy({0.9, -1.2, 0.4});
+  const Eigen::Vector3d turn_rad(0.5, 0.6, -0.8);
+  std::vector<Truth> rows;
+  for (const double share : {0.0, 1.0}) {
+    Truth at = row(share, 0.0);
+    at.rpy_rad = geo::arr(geo::to_rpy(start * geo::exp(share * turn_rad)));
+    rows.push_back(at);
+  }
+  const TruthTrack track(rows);
+  for (const double share : {0.1, 0.5, 0.8}) {
+    const auto at = track.at(from_seconds(share));
+    ASSERT_TRUE(at);
+    const geo::Quaternion expected = start * geo::exp(share * turn_rad);
+    const geo::Quaternion own = geo::from_rpy({at->rpy_rad[0], at->rpy_rad[1], at->rpy_rad[2]});
+    EXPECT_LT(geo::log(geo::conjugate(expected) * own).norm(), 1e-9) << share;
+  }
+}
+
+TEST(TruthTrack, AHeadingAloneTurnsTheShorterWay) {
+  Truth a = row(0.0, 0.0, 3.0);
+  Truth b = row(1.0, 0.0, -3.0);
+  a.rpy_rad[0] = a.rpy_rad[1] = b.rpy_rad[0] = b.rpy_rad[1] = kUnknown;
+  const auto at = TruthTrack({a, b}).at(from_seconds(0.5));
+  ASSERT_TRUE(at);
+  EXPECT_NEAR(std::abs(at->rpy_rad[2]), 3.14159265358979, 1e-9);
+  EXPECT_FALSE(known(at->rpy_rad[0]));
 }
 
 TEST(TruthTrack, MeasuresThePath) {
