@@ -32,7 +32,7 @@ NavSolution mechanise(const NavSolution& start, const geo::LocalEarth& earth, co
 
   const Vector3d dv_start_N = C_NB * in.dv_m_s;
   const Vector3d dv_N = dv_start_N - 0.5 * dt * cross(rate_in, dv_start_N);
-  const Vector3d gravity_N(0.0, 0.0, earth.gravity_m_s2);
+  const Vector3d gravity_N = earth.gravity_N();
   const Vector3d turning = earth.earth_rate_N + rate_in;
   const Vector3d v_middle = start.v_N_m_s + 0.5 * (dv_N + dt * (gravity_N - cross(turning, start.v_N_m_s)));
 

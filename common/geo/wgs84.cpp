@@ -12,6 +12,10 @@ constexpr double kSemiMinorAxis_m = kSemiMajorAxis_m * (1.0 - kFlattening);
 // omega^2 a^2 b / GM
 constexpr double kRotation = kEarthRate_rad_s * kEarthRate_rad_s * kSemiMajorAxis_m * kSemiMajorAxis_m *
                              kSemiMinorAxis_m / kGravitationalConstant_m3_s2;
+// Growth of gravity from the equator to a pole, per radius: d gravity / d(sin^2 L) / a. Gravity has no curl,
+// so that its north component grows with altitude as gravity along down changes along the meridian.
+constexpr double kLean_1_s2 =
+    kGravityEquator_m_s2 * (kSomigliana + 0.5 * kEccentricitySquared) / kSemiMajorAxis_m;  // 8.1e-9
 // Nearer than this to a pole the longitude of a short step means nothing.
 constexpr double kLeastCosine = 1e-9;
 
@@ -28,6 +32,10 @@ double gravity_at(double sine, double w, double altitude_m) {
   return surface * (1.0 - linear * altitude_m + 3.0 * ratio * ratio);
 }
 
+double gravity_north_at(double sine, double cosine, double altitude_m) {
+  return -kLean_1_s2 * altitude_m * 2.0 * sine * cosine;
+}
+
 }  // namespace
 
 Radii radii(double latitude_rad) {
@@ -42,6 +50,11 @@ double gravity(double latitude_rad, double altitude_m) {
   return gravity_at(sine, 1.0 / std::sqrt(1.0 - kEccentricitySquared * sine * sine), altitude_m);
 }
 
+Eigen::Vector3d gravity_N(double latitude_rad, double altitude_m) {
+  return {gravity_north_at(std::sin(latitude_rad), std::cos(latitude_rad), altitude_m), 0.0,
+          gravity(latitude_rad, altitude_m)};
+}
+
 LocalEarth::LocalEarth(const Geodetic& at)
     : sine(std::sin(at.latitude_rad)), cosine(away_from_zero(std::cos(at.latitude_rad))) {
   // One root and its reciprocal serve the radii and gravity.
@@ -49,6 +62,7 @@ LocalEarth::LocalEarth(const Geodetic& at)
   normal_m = kSemiMajorAxis_m * w + at.altitude_m;
   meridian_m = kSemiMajorAxis_m * (1.0 - kEccentricitySquared) * w * w * w + at.altitude_m;
   gravity_m_s2 = gravity_at(sine, w, at.altitude_m);
+  gravity_north_m_s2 = gravity_north_at(sine, cosine, at.altitude_m);
   earth_rate_N = {kEarthRate_rad_s * cosine, 0.0, -kEarthRate_rad_s * sine};
 }
 

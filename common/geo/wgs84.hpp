@@ -31,8 +31,11 @@ struct Radii {
   return kSemiMajorAxis_m / std::sqrt(1.0 - kEccentricitySquared * sine * sine);
 }
 
-/// Plumb gravity along down, m/s^2: Somigliana on the ellipsoid, second order in altitude.
+/// Normal gravity along down, m/s^2: Somigliana on the ellipsoid, second order in altitude.
 [[nodiscard]] double gravity(double latitude_rad, double altitude_m);
+/// Normal gravity along N, m/s^2. Above the ellipsoid it leans towards the equator by 8.1e-9 h sin 2L: level
+/// surfaces at altitude are not parallel to the ellipsoid.
+[[nodiscard]] Eigen::Vector3d gravity_N(double latitude_rad, double altitude_m);
 
 /// Rate of the Earth relative to inertial space, in N.
 [[nodiscard]] Eigen::Vector3d earth_rate_N(double latitude_rad);
@@ -50,8 +53,10 @@ struct LocalEarth {
   double meridian_m;             ///< R_M + altitude
   double normal_m;               ///< R_N + altitude
   double gravity_m_s2;           ///< along down
+  double gravity_north_m_s2;     ///< along north: as gravity_N()
   Eigen::Vector3d earth_rate_N;  ///< rad/s
 
+  [[nodiscard]] Eigen::Vector3d gravity_N() const { return {gravity_north_m_s2, 0.0, gravity_m_s2}; }
   [[nodiscard]] Eigen::Vector3d transport_rate_N(const Eigen::Vector3d& v_N_m_s) const {
     const double east = v_N_m_s.y() / normal_m;
     return {east, -v_N_m_s.x() / meridian_m, -east * sine / cosine};

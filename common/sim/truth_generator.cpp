@@ -120,7 +120,7 @@ struct TruthGenerator::Impl {
     const geo::Radii radii = geo::radii(lat);
     const Vector3d omega_IE = geo::earth_rate_N(lat);
     const Vector3d omega_EN = geo::transport_rate_N({lat, s[kLon], alt}, v_N);
-    const Vector3d gravity_N{0.0, 0.0, geo::gravity(lat, alt)};
+    const Vector3d gravity_N = geo::gravity_N(lat, alt);
     const Vector3d inertial_N = medium.velocity_dot_N + (2.0 * omega_IE + omega_EN).cross(v_N) - gravity_N;
     const Vector3d f_B = rates.V_dot_B_m_s2 + state.omega_NB_B_rad_s.cross(state.V_B_m_s) +
                          state.q_NB.conjugate() * inertial_N;

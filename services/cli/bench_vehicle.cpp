@@ -33,8 +33,8 @@ BenchVehicle::BenchVehicle(const std::string& configuration, double imu_rate_hz)
   const Eigen::Matrix3d c = geo::to_matrix(geo::from_rpy({0.0, 0.0, kHeading_rad}));
   const Eigen::Vector3d transport = earth.transport_rate_N(velocity_N());
   rate_B_rad_s_ = geo::arr(c.transpose() * (earth.earth_rate_N + transport));
-  force_B_m_s2_ = geo::arr(c.transpose() * (geo::cross(2.0 * earth.earth_rate_N + transport, velocity_N()) -
-                                            Eigen::Vector3d(0.0, 0.0, earth.gravity_m_s2)));
+  force_B_m_s2_ = geo::arr(
+      c.transpose() * (geo::cross(2.0 * earth.earth_rate_N + transport, velocity_N()) - earth.gravity_N()));
 }
 
 estimation::InitialState BenchVehicle::start() const {

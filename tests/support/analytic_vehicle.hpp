@@ -111,7 +111,7 @@ class AnalyticVehicle {
     const Eigen::Vector3d v = velocity(t);
     const Eigen::Vector3d v_dot = derivative([this](double s) { return velocity(s); }, t);
     const Eigen::Vector3d turning = 2.0 * geo::earth_rate_N(at.latitude_rad) + geo::transport_rate_N(at, v);
-    const Eigen::Vector3d gravity(0.0, 0.0, geo::gravity(at.latitude_rad, at.altitude_m));
+    const Eigen::Vector3d gravity = geo::gravity_N(at.latitude_rad, at.altitude_m);
     return attitude(t).transpose() * (v_dot + geo::cross(turning, v) - gravity);
   }
 

@@ -41,7 +41,7 @@ struct AidingState {
     const NavSolution& nav = state.nav;
     const Eigen::Vector3d turning =
         2.0 * geo::earth_rate_N(nav.position.latitude_rad) + geo::transport_rate_N(nav.position, nav.v_N_m_s);
-    const Eigen::Vector3d gravity(0.0, 0.0, geo::gravity(nav.position.latitude_rad, nav.position.altitude_m));
+    const Eigen::Vector3d gravity = geo::gravity_N(nav.position.latitude_rad, nav.position.altitude_m);
     return C_NB * force_B_m_s2 + gravity - geo::cross(turning, nav.v_N_m_s);
   }
 };

@@ -5,6 +5,7 @@
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "support/normal_potential.hpp"
 
 namespace fathom::geo {
 namespace {
@@ -132,6 +133,20 @@ TEST(So3, SkewIsTheCrossProduct) {
   const Vector3d b = random.vector(2.0);
   EXPECT_LT((skew(a) * b - cross(a, b)).norm(), 1e-15);
   EXPECT_NEAR(cross(a, b).dot(a), 0.0, 1e-14);
+}
+
+TEST(Gravity, IsTheGradientOfTheNormalPotentialAtEveryAltitude) {
+  for (const double latitude : {-1.2, -0.6, 0.0, 0.3, 0.785, 1.1, 1.5}) {
+    for (const double altitude : {0.0, 100.0, 2000.0, 8000.0, 12000.0}) {
+      const Eigen::Vector3d expected = test::NormalPotential::gravity_N(latitude, altitude);
+      const Eigen::Vector3d own = gravity_N(latitude, altitude);
+      EXPECT_NEAR(own.x(), expected.x(), 0.01 * std::abs(expected.x()) + 2e-9) << latitude << " " << altitude;
+      EXPECT_EQ(own.y(), 0.0);
+      EXPECT_NEAR(own.z(), expected.z(), 1e-7) << latitude << " " << altitude;
+      const LocalEarth earth({latitude, 0.5, altitude});
+      EXPECT_LT((earth.gravity_N() - own).norm(), 1e-14);
+    }
+  }
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ class EcefIntegrator {
       alt = p / std::cos(lat) - n;
       lat = std::atan2(r.z(), p * (1.0 - e2 * n / (n + alt)));
     }
-    return axes(lat, std::atan2(r.y(), r.x())).col(2) * geo::gravity(lat, alt);
+    return axes(lat, std::atan2(r.y(), r.x())) * geo::gravity_N(lat, alt);
   }
 
   Eigen::Vector3d r_E_;
