@@ -12,7 +12,7 @@
 
 namespace fathom::test {
 
-/// Numerical vectors by name; an empty object when the file is not there.
+/// Numerical vectors by name; an empty object when tests/vectors lacks the file.
 inline nlohmann::json load_vectors() {
   std::ifstream in(std::string(FATHOM_VECTORS) + "/strapdown_and_aiding.json");
   nlohmann::json by_name = nlohmann::json::object();
@@ -43,12 +43,12 @@ inline double relative_error(double actual, double expected) {
   return std::abs(actual - expected) / std::max(std::abs(expected), 1e-300);
 }
 
-/// A test that needs the vectors; it is skipped where there are none.
+/// A test that needs the vectors.
 class VectorsTest : public ::testing::Test {
  protected:
   void SetUp() override {
     vectors_ = load_vectors();
-    if (vectors_.empty()) GTEST_SKIP() << "no numerical vectors in " << FATHOM_VECTORS;
+    ASSERT_FALSE(vectors_.empty()) << "no numerical vectors in " << FATHOM_VECTORS;
   }
   [[nodiscard]] const nlohmann::json& in(const char* name) const { return vectors_.at(name).at("inputs"); }
   [[nodiscard]] const nlohmann::json& out(const char* name) const { return vectors_.at(name).at("expected"); }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dataset/dataset.hpp"
+#include "support/data.hpp"
 #include "support/process.hpp"
 #include "support/sanitized.hpp"
 
@@ -53,7 +54,7 @@ class RecordedHeading : public ::testing::TestWithParam<Vehicle> {
  protected:
   void SetUp() override {
     if (!fs::exists(fs::path(FATHOM_DATASETS) / GetParam().name))
-      GTEST_SKIP() << "no data set " << GetParam().name << " in " << FATHOM_DATASETS;
+      FATHOM_DATA_IS_MISSING("no data set " << GetParam().name << " in " << FATHOM_DATASETS);
     std::string pattern = (fs::temp_directory_path() / "fathom-heading-XXXXXX").string();
     folder = mkdtemp(pattern.data());
   }

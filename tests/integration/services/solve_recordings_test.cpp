@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "solve_fixture.hpp"
+#include "support/data.hpp"
 #include "support/sanitized.hpp"
 
 namespace fathom::test {
@@ -32,7 +33,7 @@ class SolveRecordings : public SolveTest {
 
 TEST_F(SolveRecordings, RealVehicleStaysWithinOnePercentOfItsReference) {
   const fs::path akit = fs::path(FATHOM_DATASETS) / "akit";
-  if (!fs::exists(akit)) GTEST_SKIP() << "no data sets in " << FATHOM_DATASETS;
+  if (!fs::exists(akit)) FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
   double sum = 0.0;
   int count = 0;
   for (const auto& entry : fs::directory_iterator(akit)) {
@@ -57,7 +58,7 @@ TEST_F(SolveRecordings, RealVehicleStaysWithinOnePercentOfItsReference) {
 // is made of them: only withheld fixes, each at its own instant, tell which of the two is better.
 TEST_F(SolveRecordings, SmoothedRealVehiclesAreNearerToTheFixesTheyWereNotGiven) {
   if (!fs::exists(fs::path(FATHOM_DATASETS) / "rtkx_drive"))
-    GTEST_SKIP() << "no data sets in " << FATHOM_DATASETS;
+    FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
   struct Vehicle {
     const char* name;
     const char* windows;

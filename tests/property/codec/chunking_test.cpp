@@ -11,6 +11,7 @@
 
 #include "support/codec/decode_run.hpp"
 #include "support/codec/seed_streams.hpp"
+#include "support/data.hpp"
 
 namespace fathom::test {
 namespace {
@@ -109,7 +110,7 @@ std::string_view captures_of(std::string_view protocol) {
 TEST_P(EveryCodec, NorInRecordingsAndDamagedRecordings) {
   namespace fs = std::filesystem;
   const fs::path folder = fs::path(FATHOM_CAPTURES) / captures_of(protocol());
-  if (!fs::is_directory(folder)) GTEST_SKIP() << "no recordings in " << folder;
+  if (!fs::is_directory(folder)) FATHOM_DATA_IS_MISSING("no recordings in " << folder);
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string extension = entry.path().extension();

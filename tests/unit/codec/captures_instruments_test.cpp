@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture.hpp"
+#include "support/data.hpp"
 
 namespace fathom::codec::capture {
 namespace {
@@ -20,7 +21,7 @@ bool near_float(double expected, double got) {
 TEST(WaterLinkedCaptures, AgreeWithTheRecordedTable) {
   const auto file = root() / "waterlinked_json/20211217.ndjson";
   const auto table = root() / "waterlinked_json/20211217-152655dvl_data_time.csv";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   const Harvest run = decode("waterlinked", load(file));
   const auto dvl = of_kind<DvlSample>(run);
   auto rows = lines(table);
@@ -66,7 +67,7 @@ TEST(WaterLinkedCaptures, AgreeWithTheRecordedTable) {
 /// vehicle moves along them.
 TEST(WaterLinkedCaptures, BeamVelocityIsTheVehiclesAlongTheOutwardBeam) {
   const auto file = root() / "waterlinked_json/20211217.ndjson";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   const Harvest run = decode("waterlinked", load(file));
   std::size_t moving = 0;
   double signal = 0.0;
@@ -91,7 +92,7 @@ TEST(WaterLinkedCaptures, BeamVelocityIsTheVehiclesAlongTheOutwardBeam) {
 
 TEST(WaterLinkedCaptures, ObjectSpreadOverLines) {
   const auto file = root() / "waterlinked_json/dvl.json";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   const Harvest run = decode("waterlinked", load(file));
   const auto dvl = of_kind<DvlSample>(run);
   ASSERT_EQ(dvl.size(), 1U);
@@ -106,7 +107,7 @@ TEST(WaterLinkedCaptures, ObjectSpreadOverLines) {
 
 TEST(VectorNavCaptures, AgreeWithTheLoggersOwnParser) {
   const auto file = root() / "vectornav/F00294";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   const Harvest run = decode("vectornav", load(file));
   const auto imu = of_kind<ImuSample>(run);
   EXPECT_EQ(run.totals.rejected, 0U);
@@ -135,7 +136,7 @@ TEST(VectorNavCaptures, AgreeWithTheLoggersOwnParser) {
 
 TEST(VectorNavCaptures, AsciiLines) {
   const auto file = root() / "vectornav/vnymr_samples.txt";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   const Harvest run = decode("vectornav", load(file));
   const auto imu = of_kind<ImuSample>(run);
   std::size_t compared = 0;
@@ -159,7 +160,7 @@ TEST(VectorNavCaptures, AsciiLines) {
 
 TEST(PressureCaptures, AgreeWithTheValuesInTheLines) {
   const auto file = root() / "pressure/paroscientific/digiquartz_samples.txt";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   std::ifstream in(root() / "pressure/paroscientific/digiquartz_samples.expected.json");
   const Json expected = Json::parse(in);
   CodecOptions options;
@@ -179,7 +180,7 @@ TEST(PressureCaptures, AgreeWithTheValuesInTheLines) {
 
 TEST(UsblCaptures, AgreeWithTheExpectedFixes) {
   const auto file = root() / "usbl/psimssb/psimssb_samples.nmea";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   std::ifstream in(root() / "usbl/expected.json");
   const Json expected = Json::parse(in).at("psimssb");
   const Harvest run = decode("psimssb", load(file));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture.hpp"
+#include "support/data.hpp"
 
 namespace fathom::codec::capture {
 namespace {
@@ -94,7 +95,7 @@ class NmeaCaptures : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(NmeaCaptures, AgreeWithPynmeagps) {
   const auto folder = root() / GetParam();
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  if (!std::filesystem::exists(folder)) FATHOM_DATA_IS_MISSING(folder << " is not there");
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const auto reference = entry.path().string() + ".pynmeagps.expected.json";

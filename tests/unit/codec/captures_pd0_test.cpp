@@ -8,6 +8,7 @@
 
 #include "capture.hpp"
 #include "codec/pd0_geometry.hpp"
+#include "support/data.hpp"
 
 namespace fathom::codec::capture {
 namespace {
@@ -142,7 +143,7 @@ class Pd0Captures : public ::testing::TestWithParam<Pair> {};
 TEST_P(Pd0Captures, AgreeWithOtherDecoders) {
   const auto file = root() / "pd0" / GetParam().recording;
   const auto reference = root() / "pd0" / GetParam().expected;
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   const auto expected = reference.extension() == ".yml" ? read_yml(reference) : read_csv(reference);
   const Harvest run = decode("pd0", load(file));
   std::size_t compared = 0;
@@ -201,7 +202,7 @@ class Pd0Counts : public ::testing::TestWithParam<Count> {};
 /// The ensembles without bottom track as well: none is lost, none invented; the last is cut in some files.
 TEST_P(Pd0Counts, EveryEnsembleIsFound) {
   const auto file = root() / "pd0" / GetParam().recording;
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   const Harvest run = decode("pd0", load(file));
   report(file, run, 0, 0);
   EXPECT_EQ(run.totals.samples, GetParam().samples);
@@ -220,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(Pd0Captures, LostBottomIsAliveWithoutVelocity) {
   const auto file = root() / "pd0/mhkit/RDI_withBT.000";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   const Harvest run = decode("pd0", load(file));
   std::size_t lost = 0;
   std::size_t three_beams = 0;
@@ -236,7 +237,7 @@ TEST(Pd0Captures, LostBottomIsAliveWithoutVelocity) {
 /// A vehicle that swims ahead: forward is positive, to port and starboard it hardly moves.
 TEST(Pd0Captures, AheadIsPositive) {
   const auto file = root() / "pd0/ooi_remus/adcp_auv_51.pd0";
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
   double fastest = 0.0;
   const Harvest run = decode("pd0", load(file));
   for (const auto& [decoded, s] : of_kind<DvlSample>(run)) {

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "capture.hpp"
+#include "support/data.hpp"
 
 namespace fathom::codec::capture {
 namespace {
@@ -63,7 +64,7 @@ std::string disagreement(const Json& e, const Decoded& decoded, const GpsSample&
 
 TEST(UbxCaptures, AgreeWithPyubx2) {
   const auto folder = root() / "ubx";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  if (!std::filesystem::exists(folder)) FATHOM_DATA_IS_MISSING(folder << " is not there");
   std::size_t total = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const auto reference = entry.path().string() + ".nav_pvt.expected.json";

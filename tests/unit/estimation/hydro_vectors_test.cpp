@@ -29,7 +29,7 @@ class HydroVectors : public ::testing::Test {
  protected:
   void SetUp() override {
     std::ifstream in(std::string(FATHOM_VECTORS) + "/alignment_and_hydro.json");
-    if (!in) GTEST_SKIP() << "no numerical vectors in " << FATHOM_VECTORS;
+    ASSERT_TRUE(in) << "no numerical vectors in " << FATHOM_VECTORS;
     vectors_ = json::parse(in);
   }
   /// The vehicle of the vectors, from their own parameters.

@@ -63,9 +63,9 @@ TEST(Truth, AtRestTheImuSensesGravityAndEarthRate) {
   TruthGenerator truth(scenario, 1);
   const ImuTruth imu = truth.advance_to(0.01);
   const double lat = scenario.start.latitude_rad;
-  const double g = geo::gravity(lat, 19.0);
-  EXPECT_NEAR(imu.delta_velocity_B_m_s.z(), -g * 0.01, 1e-9);
-  EXPECT_NEAR(imu.delta_velocity_B_m_s.x(), 0.0, 1e-12);
+  const Eigen::Vector3d gravity_N = geo::gravity_N(lat, 19.0);
+  EXPECT_NEAR(imu.delta_velocity_B_m_s.z(), -gravity_N.z() * 0.01, 1e-9);
+  EXPECT_NEAR(imu.delta_velocity_B_m_s.x(), -gravity_N.x() * 0.01, 1e-12);
   EXPECT_NEAR(imu.delta_angle_B_rad.x(), geo::kEarthRate_rad_s * std::cos(lat) * 0.01, 1e-12);
   EXPECT_NEAR(imu.delta_angle_B_rad.z(), -geo::kEarthRate_rad_s * std::sin(lat) * 0.01, 1e-12);
 }
