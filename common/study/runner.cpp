@@ -1,6 +1,8 @@
 #include "study/runner.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <stdexcept>
@@ -34,6 +36,19 @@ bool collect(const std::vector<Scores>& runs, std::string_view method, std::stri
     for (const Score& score : run.all())
       if (score.method == method && score.metric == metric) values.push_back(score.value);
   return !values.empty();
+}
+
+/// Whether this run lacks a finite value of a metric that it should have.
+bool failed(const Scores& run, std::string_view method, const std::vector<std::string_view>& required) {
+  return std::any_of(required.begin(), required.end(), [&](std::string_view metric) {
+    bool any = false;
+    for (const Score& score : run.all()) {
+      if (score.method != method || score.metric != metric) continue;
+      if (!std::isfinite(score.value)) return true;
+      any = true;
+    }
+    return !any;
+  });
 }
 
 Statistics summary_of(const Metric& metric, const std::vector<double>& values) {
@@ -91,11 +106,23 @@ std::vector<Row> run_study(const Study& study, const RunOptions& options) {
 
   std::vector<Row> rows;
   std::vector<double> values;
-  for (std::size_t c = 0; c < cases.size(); ++c)
-    for (const std::string_view method : methods)
-      for (const Metric& metric : study.metrics())
-        if (collect(scores[c], method, metric.name, values))
-          rows.push_back({cases[c], method, metric.name, metric.unit, summary_of(metric, values)});
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    for (const std::string_view method : methods) {
+      std::vector<std::string_view> required;
+      const std::size_t before = rows.size();
+      for (const Metric& metric : study.metrics()) {
+        if (!collect(scores[c], method, metric.name, values)) continue;
+        if (metric.presence == Presence::always) required.push_back(metric.name);
+        const Statistics statistics = summary_of(metric, values);
+        rows.push_back(
+            {cases[c], method, metric.name, metric.unit, statistics, values.size() - statistics.n});
+      }
+      if (rows.size() == before) continue;
+      values.clear();
+      for (const Scores& run : scores[c]) values.push_back(failed(run, method, required) ? 1.0 : 0.0);
+      rows.push_back({cases[c], method, kFailedMetric, "fraction", statistics_of(values), 0});
+    }
+  }
   return rows;
 }
 

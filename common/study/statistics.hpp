@@ -19,9 +19,9 @@ struct Statistics {
   double max = kUnknown;  ///< largest magnitude: of a signed error, the worst on either side
 };
 
-/// Values that are not finite are left out and not counted. Percentiles are interpolated linearly between
-/// the ordered values. The result does not depend on the order of the values beyond rounding, and repeats to
-/// the last bit for the same order.
+/// Values that are not finite are left out and not counted; the caller says how many there were. Percentiles
+/// are interpolated linearly between the ordered values. The result does not depend on the order of the
+/// values beyond rounding, and repeats to the last bit for the same order.
 [[nodiscard]] Statistics statistics_of(const std::vector<double>& values);
 
 }  // namespace fathom::study

@@ -16,10 +16,17 @@ enum class Summary : std::uint8_t {
   root_mean_square = 1,  ///< one figure, the rms over the runs; it stands in every column, with no spread
 };
 
+/// Whether each run of a method that has this metric yields a value.
+enum class Presence : std::uint8_t {
+  always = 0,         ///< a run without it has failed
+  if_it_happens = 1,  ///< e.g. the time until something that may not happen
+};
+
 struct Metric {
   std::string_view name;
   std::string_view unit;  ///< "m", "deg", "s", "%", "1"
   Summary summary = Summary::distribution;
+  Presence presence = Presence::always;
 };
 
 /// One run of one case.
@@ -40,8 +47,8 @@ struct Score {
 };
 
 /// Values that one run yields. Names must be those that the study declares. A metric that has no value in
-/// this run (the time until something that did not happen) is added as NaN: its row then exists and its n
-/// is smaller.
+/// this run is added as NaN: the row exists, its n is smaller, and the run counts as missing there. A method
+/// that gives no solution in a run adds NaN as well, so that the run counts as failed.
 class Scores {
  public:
   void add(std::string_view method, std::string_view metric, double value) {

@@ -55,15 +55,15 @@ void print(const std::vector<study::Row>& rows) {
   const int w_method = width("method", [](const study::Row& row) { return row.method; });
   const int w_metric = width("metric", [](const study::Row& row) { return row.metric; });
   const int w_unit = width("unit", [](const study::Row& row) { return row.unit; });
-  std::printf("%-*s  %-*s  %-*s  %-*s  %5s", w_case, "case", w_method, "method", w_metric, "metric", w_unit,
-              "unit", "n");
+  std::printf("%-*s  %-*s  %-*s  %-*s  %5s  %7s", w_case, "case", w_method, "method", w_metric, "metric",
+              w_unit, "unit", "n", "missing");
   for (const char* title : {"mean", "std", "rms", "median", "p05", "p95", "max"}) std::printf("  %9s", title);
   std::printf("\n");
   for (const study::Row& row : rows) {
     const study::Statistics& s = row.statistics;
-    std::printf("%-*s  %-*s  %-*s  %-*s  %5zu", w_case, std::string(row.case_name).c_str(), w_method,
+    std::printf("%-*s  %-*s  %-*s  %-*s  %5zu  %7zu", w_case, std::string(row.case_name).c_str(), w_method,
                 std::string(row.method).c_str(), w_metric, std::string(row.metric).c_str(), w_unit,
-                std::string(row.unit).c_str(), s.n);
+                std::string(row.unit).c_str(), s.n, row.missing);
     for (const double value : {s.mean, s.std, s.rms, s.median, s.p05, s.p95, s.max}) {
       if (known(value)) {
         std::printf("  %9.4g", value);
@@ -90,6 +90,7 @@ nlohmann::ordered_json json_of(const StudyOptions& options, const std::vector<st
                            {"metric", row.metric},
                            {"unit", row.unit},
                            {"n", s.n},
+                           {"missing", row.missing},
                            {"mean", s.mean},
                            {"std", s.std},
                            {"rms", s.rms},

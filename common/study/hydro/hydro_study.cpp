@@ -27,10 +27,11 @@ constexpr std::array<Case, 10> kCases{{
 struct Method {
   std::string_view name;
   std::vector<ErrorPoint> (*run)(const Run& run);
+  bool states_uncertainty = true;
 };
 
 constexpr std::array<Method, 6> kMethods{{
-    {"ins", run_ins},
+    {"ins", run_ins, false},
     {"ins_dvl", [](const Run& run) { return run_engine(run, EngineMethod::conventional); }},
     {"printed", run_printed},
     {"linked", run_linked},
@@ -89,15 +90,18 @@ void HydroStudy::run(const RunRequest& request, Scores& scores) const {
   for (const Method& method : kMethods) {
     if (!request.wants(method.name)) continue;
     const std::vector<ErrorPoint> track = method.run(run);
-    if (const ErrorPoint* point = at(track, kPublished_s))
-      scores.add(method.name, "position_rms_199s", horizontal(*point));
+    const ErrorPoint* published = at(track, kPublished_s);
+    scores.add(method.name, "position_rms_199s", published != nullptr ? horizontal(*published) : kUnknown);
     scores.add(method.name, "time_mean_ratio_to_ins", mean_error(track) / inertial);
     const ErrorPoint* end = at(track, duration_s(*which));
-    if (end == nullptr) continue;
-    if (const ErrorPoint* lost = at(track, kLossFrom_s); which->dvl_loss && lost != nullptr)
+    const ErrorPoint* lost = at(track, kLossFrom_s);
+    if (which->dvl_loss)
       scores.add(method.name, "drift_since_loss",
-                 std::hypot(end->north_m - lost->north_m, end->east_m - lost->east_m));
-    if (known(end->nees)) scores.add(method.name, "nees_position", end->nees);
+                 end != nullptr && lost != nullptr
+                     ? std::hypot(end->north_m - lost->north_m, end->east_m - lost->east_m)
+                     : kUnknown);
+    if (method.states_uncertainty)
+      scores.add(method.name, "nees_position", end != nullptr ? end->nees : kUnknown);
   }
 }
 

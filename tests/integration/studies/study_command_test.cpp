@@ -66,12 +66,12 @@ TEST_F(StudyCommand, RotatingArmIsTheSameWithAnyNumberOfThreads) {
       "--method imu_only --method full";
   const Json one = rows(what + " --threads 1");
   EXPECT_EQ(one, rows(what + " --threads 2"));
-  EXPECT_EQ(one.size(), 5U);
+  EXPECT_EQ(one.size(), 5U);  // study, runs, seed, version, rows
   EXPECT_EQ(one.at("study"), "rotating_arm");
   EXPECT_EQ(one.at("runs"), 2);
   EXPECT_EQ(one.at("seed"), 7);
   EXPECT_FALSE(one.at("version").get<std::string>().empty());
-  const std::set<std::string> expected{"case", "method", "metric", "unit", "n",   "mean",
+  const std::set<std::string> expected{"case", "method", "metric", "unit", "n",   "missing", "mean",
                                        "std",  "rms",    "median", "p05",  "p95", "max"};
   for (const Json& row : one.at("rows")) {
     std::set<std::string> keys;

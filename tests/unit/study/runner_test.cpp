@@ -11,15 +11,20 @@
 namespace fathom::study {
 namespace {
 
-/// Numbers from the seed; `late` has none in about half of the runs.
+/// Numbers from the seed; `late` has none in about half of the runs, `lost` loses its value in as many.
 class Dice final : public Study {
  public:
   [[nodiscard]] std::string_view name() const override { return "dice"; }
   [[nodiscard]] std::string_view description() const override { return "numbers"; }
   [[nodiscard]] std::vector<std::string_view> cases() const override { return {"one", "two"}; }
-  [[nodiscard]] std::vector<std::string_view> methods() const override { return {"plain", "twice"}; }
+  [[nodiscard]] std::vector<std::string_view> methods() const override {
+    return {"plain", "twice", "lost", "silent"};
+  }
   [[nodiscard]] std::vector<Metric> metrics() const override {
-    return {{"value", "m"}, {"late", "s"}, {"figure", "1", Summary::root_mean_square}, {"unused", "1"}};
+    return {{"value", "m"},
+            {"late", "s", Summary::distribution, Presence::if_it_happens},
+            {"figure", "1", Summary::root_mean_square},
+            {"unused", "1"}};
   }
   [[nodiscard]] int default_runs() const override { return 3; }
   void run(const RunRequest& request, Scores& scores) const override {
@@ -27,6 +32,8 @@ class Dice final : public Study {
     sim::Random random(request.seed, "dice");
     const double value = random.normal();
     if (request.wants("plain")) scores.add("plain", "value", value);
+    if (request.wants("lost")) scores.add("lost", "value", value > 0.0 ? value : std::nan(""));
+    if (request.wants("silent") && value > 0.0) scores.add("silent", "value", value);
     if (!request.wants("twice")) return;
     scores.add("twice", "value", 2.0 * value);
     scores.add("twice", "late", value > 0.0 ? value : std::nan(""));
@@ -58,7 +65,9 @@ TEST(Runner, SameRowsWithAnyNumberOfThreads) {
     options.threads = threads;
     results.push_back(run_study(dice, options));
   }
-  ASSERT_EQ(results[0].size(), 8U);  // two cases of plain value, twice value, late and figure
+  // Two cases of the values of plain, lost and silent, of value, late and figure of twice, and of what
+  // failed.
+  ASSERT_EQ(results[0].size(), 20U);
   for (const auto& rows : results) {
     ASSERT_EQ(rows.size(), results[0].size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -68,7 +77,7 @@ TEST(Runner, SameRowsWithAnyNumberOfThreads) {
     }
   }
   // The cases of a run share their luck; other runs and other seeds do not.
-  EXPECT_EQ(results[0][0].statistics.mean, results[0][4].statistics.mean);
+  EXPECT_EQ(results[0][0].statistics.mean, results[0][10].statistics.mean);
   EXPECT_GT(results[0][0].statistics.std, 0.5);
   options.seed = 2;
   EXPECT_NE(run_study(dice, options)[0].statistics.mean, results[0][0].statistics.mean);
@@ -81,15 +90,35 @@ TEST(Runner, MissingValuesAndFiguresOfAllRuns) {
   options.methods = {"twice"};
   options.cases = {"two"};
   const auto rows = run_study(dice, options);
-  ASSERT_EQ(rows.size(), 3U);
+  ASSERT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[0].case_name, "two");
   EXPECT_EQ(rows[1].metric, "late");
   EXPECT_LT(rows[1].statistics.n, 40U);
   EXPECT_GT(rows[1].statistics.n, 5U);
+  EXPECT_EQ(rows[1].statistics.n + rows[1].missing, 40U);
   EXPECT_EQ(rows[2].metric, "figure");
   EXPECT_DOUBLE_EQ(rows[2].statistics.mean, 0.5 * rows[0].statistics.rms);
   EXPECT_EQ(rows[2].statistics.p95, rows[2].statistics.mean);
   EXPECT_EQ(rows[2].statistics.std, 0.0);
+  EXPECT_EQ(rows[3].metric, kFailedMetric);
+  EXPECT_EQ(rows[3].statistics.mean, 0.0);  // `late` need not happen
+}
+
+TEST(Runner, RunsWithoutAResultAreCounted) {
+  const Dice dice;
+  RunOptions options;
+  options.runs = 40;
+  options.cases = {"one"};
+  for (const char* method : {"lost", "silent"}) {
+    options.methods = {method};
+    const auto rows = run_study(dice, options);
+    ASSERT_EQ(rows.size(), 2U) << method;
+    EXPECT_EQ(rows[1].metric, kFailedMetric) << method;
+    EXPECT_EQ(rows[1].statistics.n, 40U) << method;
+    const double without = 40.0 - static_cast<double>(rows[0].statistics.n);
+    EXPECT_GT(without, 5.0) << method;
+    EXPECT_DOUBLE_EQ(rows[1].statistics.mean, without / 40.0) << method;
+  }
 }
 
 TEST(Runner, SaysWhatIsWrong) {
