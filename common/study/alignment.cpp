@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "estimation/alignment/drop_alignment.hpp"
@@ -135,14 +136,29 @@ class Instruments {
   double factor_error_ = 0.0;
 };
 
+constexpr std::string_view kPrinted = "printed";             // the published method
+constexpr std::string_view kPrintedGated = "printed_gated";  // its form behind our conditions
+constexpr std::string_view kRobust = "robust";
+constexpr std::string_view kFine = "fine";
+
+/// Takes away the conditions that the publication does not have, and the low-pass before them (ALN-11).
+void publish_conditions(estimation::StabilityConfig& stability) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  stability.rate_z_rad_s = stability.gravity_defect_m_s2 = stability.speed_slope_m_s2 = kNone;
+  stability.force_spread_m_s2 = stability.flow_spread_m_s2 = kNone;
+  stability.low_pass_s = 0.0;
+}
+
 /// What the alignment believes. Its model of the vehicle is not the vehicle: each coefficient is known to
 /// 10 % only.
 DropConfig config_of(std::string_view method, sim::Random& random) {
   DropConfig config;
   config.set_depth_m = kSetDepth_m;
   config.speed_per_rpm = kSpeedPerRpm;
-  config.form = method == "printed" ? DropConfig::Form::printed : DropConfig::Form::robust;
-  config.fine = config.early = method == "fine";
+  const bool printed = method == kPrinted || method == kPrintedGated;
+  config.form = printed ? DropConfig::Form::printed : DropConfig::Form::robust;
+  config.fine = config.early = method == kFine;
+  if (method == kPrinted) publish_conditions(config.stability);
   config.aligned_hold_s = 0.5;
   // As the data sheets say: 1 mg, and 1.5 arc minutes of gravity.
   config.accel_sigma_m_s2 = 0.0107;
@@ -201,7 +217,7 @@ void run_method(const Case& one, std::string_view method, std::uint64_t seed, Sc
   DropAlignment alignment(config_of(method, model));
   alignment.start(geo::from_rpy(
       {one.roll_error_deg * kDegree, kPitch_rad + one.pitch_error_deg * kDegree, kHeading_rad}));
-  const bool fine = method == "fine";
+  const bool fine = method == kFine;
   Snapshot claimed;  // when the method says that it is done
   Snapshot refined;
   double coarse_at_s = kUnknown;
@@ -255,7 +271,7 @@ std::vector<std::string_view> AlignmentStudy::cases() const {
 }
 
 std::vector<std::string_view> AlignmentStudy::methods() const {
-  return {"printed", "robust", "fine"};
+  return {kPrinted, kPrintedGated, kRobust, kFine};
 }
 
 std::vector<Metric> AlignmentStudy::metrics() const {

@@ -5,7 +5,8 @@
 namespace fathom::study {
 
 /// In-motion alignment of a vehicle dropped from an aircraft, with the autopilot regulating the navigated
-/// attitude: the coarse method in its printed and its robust form, and the fine one on top of it.
+/// attitude: the coarse method as published, its printed form behind the engine's own conditions, its robust
+/// form, and the fine one on top of it.
 class AlignmentStudy final : public Study {
  public:
   [[nodiscard]] std::string_view name() const override { return "alignment"; }
