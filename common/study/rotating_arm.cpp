@@ -18,6 +18,7 @@ using Eigen::Vector3d;
 constexpr std::string_view kImuOnly = "imu_only";
 constexpr std::string_view kDeadReckoning = "dead_reckoning";
 constexpr std::string_view kHybrid = "hybrid25";
+constexpr std::string_view kHybridEqual = "hybrid25_equal";
 constexpr std::string_view kFull = "full";
 
 constexpr std::string_view kEndError = "horizontal_end_error";
@@ -78,7 +79,7 @@ class RotatingArm final : public Study {
     return names;
   }
   [[nodiscard]] std::vector<std::string_view> methods() const override {
-    return {kImuOnly, kDeadReckoning, kHybrid, kFull};
+    return {kImuOnly, kDeadReckoning, kHybrid, kHybridEqual, kFull};
   }
   [[nodiscard]] std::vector<Metric> metrics() const override {
     return {{kEndError, "m"}, {kOverBound, "1", Summary::root_mean_square}, {kNees, "1"}, {kPerfectImu, "m"}};
@@ -97,7 +98,7 @@ class RotatingArm final : public Study {
     sim::Simulation simulation(arm_scenario(one, Instruments::real), options);
     const ArmStart start = draw_start(request.seed);
     std::vector<std::pair<std::string_view, EngineRun>> engines;
-    engines.reserve(3);
+    engines.reserve(4);
     const auto enter = [&](std::string_view method, ArmFilter filter) {
       if (!request.wants(method)) return;
       engines.emplace_back(method, EngineRun(arm_config(one, filter, start), one.imu_every));
@@ -105,6 +106,7 @@ class RotatingArm final : public Study {
     };
     enter(kImuOnly, ArmFilter::imu_only);
     enter(kHybrid, ArmFilter::hybrid25);
+    enter(kHybridEqual, ArmFilter::hybrid25_equal);
     enter(kFull, ArmFilter::full);
     std::vector<EngineRun*> running;
     for (auto& [method, engine] : engines) running.push_back(&engine);

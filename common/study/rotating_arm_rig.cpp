@@ -123,7 +123,8 @@ estimation::EngineConfig arm_config(const ArmCase& one, ArmFilter filter, const 
   using estimation::EngineConfig;
   const bool published = filter == ArmFilter::hybrid25;
   EngineConfig c;
-  c.configuration = filter == ArmFilter::imu_only ? "gps_ins15" : published ? "hybrid25" : "full";
+  const bool states25 = published || filter == ArmFilter::hybrid25_equal;
+  c.configuration = filter == ArmFilter::imu_only ? "gps_ins15" : states25 ? "hybrid25" : "full";
   (void)estimation::named_state_groups(c.configuration, c.groups);
   if (filter == ArmFilter::full || filter == ArmFilter::bound) {
     // A basin has neither current nor GPS; the Doppler log's own offset is in its data sheet.
@@ -179,7 +180,7 @@ estimation::EngineConfig arm_config(const ArmCase& one, ArmFilter filter, const 
   c.sensors = {dvl, depth, compass};
   for (auto& sensor : c.sensors) {
     sensor.frozen_change = 0.0;  // on a circle at constant speed readings may well repeat
-    if (filter != ArmFilter::full) believe_everything(sensor);
+    if (published || filter == ArmFilter::bound) believe_everything(sensor);
   }
   return c;
 }

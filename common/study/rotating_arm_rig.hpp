@@ -39,7 +39,8 @@ struct ArmStart {
 
 enum class ArmFilter : std::uint8_t {
   imu_only,
-  hybrid25,
+  hybrid25,        ///< the published filter with the published settings
+  hybrid25_equal,  ///< its 25 states with the sensor settings of `full`: what the states alone are worth
   full,
   bound,  ///< full, with the statistics of the instruments as they are drawn, and nothing else
 };

@@ -12,6 +12,7 @@ namespace fathom::study {
 namespace {
 
 constexpr std::string_view kHybrid = "hybrid25";
+constexpr std::string_view kHybridEqual = "hybrid25_equal";
 constexpr std::string_view kFull = "full";
 
 constexpr std::string_view kEndPercent = "end_error_percent";
@@ -41,7 +42,9 @@ class Survey final : public Study {
     for (const SurveyCase& one : survey_cases()) names.push_back(one.name);
     return names;
   }
-  [[nodiscard]] std::vector<std::string_view> methods() const override { return {kHybrid, kFull}; }
+  [[nodiscard]] std::vector<std::string_view> methods() const override {
+    return {kHybrid, kHybridEqual, kFull};
+  }
   [[nodiscard]] std::vector<Metric> metrics() const override {
     return {{kEndPercent, "%"}, {kEndError, "m"}, {kNees, "1"}, {kScaleError, "%"}, {kYawError, "deg"}};
   }
@@ -55,10 +58,13 @@ class Survey final : public Study {
     options.seed = request.seed;
     sim::Simulation simulation(survey_scenario(one, request.seed), options);
     std::vector<std::pair<std::string_view, EngineRun>> engines;
-    engines.reserve(2);
-    if (request.wants(kHybrid))
-      engines.emplace_back(kHybrid, EngineRun(survey_config(one, SurveyFilter::hybrid25)));
-    if (request.wants(kFull)) engines.emplace_back(kFull, EngineRun(survey_config(one, SurveyFilter::full)));
+    engines.reserve(3);
+    const auto enter = [&](std::string_view method, SurveyFilter filter) {
+      if (request.wants(method)) engines.emplace_back(method, EngineRun(survey_config(one, filter)));
+    };
+    enter(kHybrid, SurveyFilter::hybrid25);
+    enter(kHybridEqual, SurveyFilter::hybrid25_equal);
+    enter(kFull, SurveyFilter::full);
     std::vector<EngineRun*> running;
     for (auto& [method, engine] : engines) running.push_back(&engine);
 
@@ -70,6 +76,7 @@ class Survey final : public Study {
     });
 
     const Truth truth = simulation.truth();
+    const DvlFault fault = draw_dvl_fault(one, request.seed);
     for (const auto& [method, engine] : engines) {
       const HorizontalError error = horizontal_error(engine.engine().nav_state(), truth);
       scores.add(method, kEndPercent, 100.0 * error.error_m / travelled_m);
@@ -78,8 +85,8 @@ class Survey final : public Study {
       if (!one.uncalibrated || method != kFull) continue;
       const double scale = state_value(engine.engine(), "dvl_scale");
       const double yaw_rad = state_value(engine.engine(), "dvl_misalignment_z_rad");
-      scores.add(method, kScaleError, 100.0 * (scale - kInjectedScale));
-      scores.add(method, kYawError, (yaw_rad - kInjectedYaw_rad) / kDegree);
+      scores.add(method, kScaleError, 100.0 * (scale - fault.scale));
+      scores.add(method, kYawError, (yaw_rad - fault.yaw_rad) / kDegree);
     }
   }
 };

@@ -40,9 +40,12 @@ constexpr double kOrder_m_s = 2.2;  // 2.0 through the water, after the drag of 
 constexpr double kLeg_s = 290.0;
 constexpr double kCrossing_s = 30.0;
 
-constexpr std::array<SurveyCase, 13> kCases{{
+constexpr std::array<SurveyCase, 16> kCases{{
     {.name = "tactical_straight"},
+    {.name = "tactical_straight_same_course", .surface = SurfaceLeg::same_course},
+    {.name = "tactical_straight_course_90_off", .surface = SurfaceLeg::course_90_off},
     {.name = "tactical_straight_uncalibrated", .uncalibrated = true},
+    {.name = "tactical_straight_3_sigma", .uncalibrated = true, .fault_sigma = 3.0},
     {.name = "tactical_lawn", .lawn = true},
     {.name = "tactical_lawn_uncalibrated", .lawn = true, .uncalibrated = true},
     {.name = "navigation_straight", .navigation_grade = true},
@@ -66,11 +69,17 @@ void order(sim::Scenario& s, double at_s, double heading_rad, double speed_m_s =
   s.mission.push_back(step);
 }
 
-/// At rest, then turns both ways at two speeds: they show the compass curve and tell the scale of the DVL
-/// from its offset.
-void order_surface(sim::Scenario& s) {
-  order(s, 0.0, kCourse_rad, 0.0, 0.0);
-  order(s, kUnderWay_s, kCourse_rad, kOrder_m_s);
+double surface_course_rad(SurfaceLeg leg) {
+  return leg == SurfaceLeg::course_90_off ? kCourse_rad - 90.0 * kDegree : kCourse_rad;
+}
+
+/// At rest, then under way. Turns both ways at two speeds show the compass curve and tell the scale of the
+/// DVL from its offset.
+void order_surface(sim::Scenario& s, SurfaceLeg leg) {
+  const double course_rad = surface_course_rad(leg);
+  order(s, 0.0, course_rad, 0.0, 0.0);
+  order(s, kUnderWay_s, course_rad, kOrder_m_s);
+  if (leg != SurfaceLeg::turns) return;
   double t = kUnderWay_s + 12.0;
   for (int quarter = 1; quarter <= 16; ++quarter, t += 14.0) {
     const double turned = quarter <= 8 ? quarter : 16 - quarter;
@@ -110,8 +119,8 @@ sim::Scenario survey_scenario(const SurveyCase& one, std::uint64_t seed) {
   s.start.latitude_rad = 36.4 * kDegree;
   s.start.longitude_rad = 127.4 * kDegree;
   s.start.depth_m = 0.12;
-  s.start.rpy_rad = {0.0, 0.0, kCourse_rad};
-  order_surface(s);
+  s.start.rpy_rad = {0.0, 0.0, surface_course_rad(one.surface)};
+  order_surface(s, one.surface);
   if (one.lawn) {
     order_lawn(s);
   } else {
@@ -144,8 +153,9 @@ sim::Scenario survey_scenario(const SurveyCase& one, std::uint64_t seed) {
   dvl.lever_B_m = kDvlLever_B_m;
   dvl.bias_sigma_m_s = kDvlBias_m_s;
   if (one.uncalibrated) {
-    dvl.scale = kInjectedScale;
-    dvl.mounting_rpy_rad = {0.0, 0.0, kInjectedYaw_rad};
+    const DvlFault fault = draw_dvl_fault(one, seed);
+    dvl.scale = fault.scale;
+    dvl.mounting_rpy_rad = {0.0, 0.0, fault.yaw_rad};
   } else {
     dvl.scale_sigma = kDvlScale;
     dvl.misalignment_sigma_rad = kDvlMisalignment_rad;
@@ -185,13 +195,23 @@ sim::Scenario survey_scenario(const SurveyCase& one, std::uint64_t seed) {
   return s;
 }
 
+DvlFault draw_dvl_fault(const SurveyCase& one, std::uint64_t seed) {
+  if (!one.uncalibrated) return {};
+  if (one.fault_sigma != 0.0)
+    return {one.fault_sigma * kUncalibratedScale, one.fault_sigma * kUncalibratedYaw_rad};
+  sim::Random random(seed, "calibration of the Doppler log");
+  const double scale = random.normal(kUncalibratedScale);
+  return {scale, random.normal(kUncalibratedYaw_rad)};
+}
+
 estimation::EngineConfig survey_config(const SurveyCase& one, SurveyFilter filter) {
   const bool published = filter == SurveyFilter::hybrid25;
+  const bool states25 = filter != SurveyFilter::full;
   const ImuGrade& grade = one.navigation_grade ? kNavigation : kTactical;
   estimation::EngineConfig c;
-  c.configuration = published ? "hybrid25" : "full";
+  c.configuration = states25 ? "hybrid25" : "full";
   (void)estimation::named_state_groups(c.configuration, c.groups);
-  if (!published) {
+  if (!states25) {
     c.groups.dvl_bias = true;
     c.groups.current = one.water_track;
     c.groups.usbl_bias = c.groups.usbl_misalignment = one.usbl;
@@ -199,8 +219,8 @@ estimation::EngineConfig survey_config(const SurveyCase& one, SurveyFilter filte
   tell(c.imu, grade, published ? ImuModelling::biases : ImuModelling::everything);
 
   estimation::StateModelConfig& states = c.states;
-  states.dvl_scale_sigma = one.uncalibrated ? kInjectedScale : kDvlScale;
-  states.dvl_misalignment_sigma_rad = one.uncalibrated ? kInjectedYaw_rad : kDvlMisalignment_rad;
+  states.dvl_scale_sigma = one.uncalibrated ? kUncalibratedScale : kDvlScale;
+  states.dvl_misalignment_sigma_rad = one.uncalibrated ? kUncalibratedYaw_rad : kDvlMisalignment_rad;
   states.dvl_bias_sigma_m_s = kDvlBias_m_s;
   states.current_sigma_m_s = 0.3;
   states.current_time_constant_s = 0.0;  // it does not change here

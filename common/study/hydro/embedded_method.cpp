@@ -69,6 +69,8 @@ std::vector<ErrorPoint> run_embedded(const Run& run) {
   config.position_m = run.start.position_sigma_N_m[0];
   config.tilt_rad = run.start.attitude_sigma_rad[0];
   config.heading_rad = run.start.attitude_sigma_rad[2];
+  // The printed filter keeps the printed noise; the other is told what the instrument is.
+  if constexpr (N == estimation::hydro::kLinkedStates) config.dvl_m_s = dvl_equivalent_sigma_m_s();
   EmbeddedFilter<N> filter(run.coefficients, config);
   filter.start(start_of(run), 0.0);
   std::vector<ErrorPoint> out;

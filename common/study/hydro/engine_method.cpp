@@ -27,16 +27,20 @@ estimation::EngineConfig config_of(const Run& run, EngineMethod method) {
   c.imu.gyro_scale_sigma = c.imu.accel_scale_sigma = 0.0;
   c.imu.gyro_misalignment_sigma_rad = c.imu.accel_misalignment_sigma_rad = 0.0;
   auto dvl = estimation::default_sensor(SourceKind::dvl, "dvl");
-  dvl.sigma = {0.01, 0.01, 0.006};
+  dvl.sigma = {kDvlSigma_m_s, kDvlSigma_m_s, 0.6 * kDvlSigma_m_s};
   dvl.proportional_sigma = 0.0;
   auto depth = estimation::default_sensor(SourceKind::depth, "depth");
   depth.sigma = {0.02, 0.02, 0.02};
   c.sensors = {dvl, depth};
   c.horizon_s = 1.0;
   c.snapshot_interval_s = 0.5;
-  if (method == EngineMethod::conventional) return c;
+  if (method == EngineMethod::conventional) {
+    // The scale is no state of it: it is told of the scale error as noise.
+    c.sensors.front().sigma[0] = c.sensors.front().sigma[1] = dvl_equivalent_sigma_m_s();
+    return c;
+  }
   c.groups.dvl_scale = true;
-  c.states.dvl_scale_sigma = 0.003;
+  c.states.dvl_scale_sigma = kDvlScaleSigma;
   if (method == EngineMethod::without_model) return c;
   c.groups.current = c.groups.model_scale = c.groups.model_bias = true;
   c.states.current_time_constant_s = 0.0;  // (STUDY-6): it stays for the ten minutes

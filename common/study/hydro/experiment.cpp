@@ -10,7 +10,6 @@ namespace fathom::study::hydro {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kSpeed_m_s = 1.54;
 constexpr double kDepth_m = 20.0;
 
 sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
@@ -64,11 +63,11 @@ sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
   imu.accelerometer.random_walk = 5e-4;
   auto& dvl = s.sensors.dvl;
   dvl.enabled = true;
-  dvl.rate_hz = 10.0;
+  dvl.rate_hz = kDvl_hz;
   dvl.phase_s = 0.05;
-  dvl.beam_sigma_m_s = 0.00707;  // 0.01 m/s along x and y
+  dvl.beam_sigma_m_s = 0.707 * kDvlSigma_m_s;  // of a Janus head at 30 degrees
   dvl.beam_sigma_per_speed = 0.0;
-  dvl.scale_sigma = 0.003;
+  dvl.scale_sigma = kDvlScaleSigma;
   dvl.maximum_range_m = 200.0;
   if (one.dvl_loss) dvl.dropouts = {{kLossFrom_s, kLossFrom_s + kLoss_s + 1.0}};
   auto& depth = s.sensors.depth;
@@ -90,6 +89,10 @@ sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
 }
 
 }  // namespace
+
+double dvl_equivalent_sigma_m_s() {
+  return std::hypot(kDvlSigma_m_s, kDvlScaleSigma * kSpeed_m_s * std::sqrt(kPublished_s * kDvl_hz));
+}
 
 double duration_s(const Case& one) {
   return one.dvl_loss ? kLossFrom_s + kLoss_s : kPublished_s;

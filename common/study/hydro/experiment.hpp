@@ -27,6 +27,16 @@ inline constexpr double kLoss_s = 300.0;
 inline constexpr double kHeadingSigma_deg = 1.5;
 inline constexpr TimeNs kEpochNs = 1'700'000'000 * kNsPerSecond;
 
+inline constexpr double kSpeed_m_s = 1.54;
+inline constexpr double kDvl_hz = 10.0;
+inline constexpr double kDvlSigma_m_s = 0.01;  ///< of one component along x and y, white
+inline constexpr double kDvlScaleSigma = 0.003;
+
+/// White noise of a DVL component that stands for its scale error where the scale is no state: over the
+/// published run the position drifts by as much, sqrt(T f) scale v for a constant error against noise of f
+/// samples a second. The white noise of the instrument is in it.
+[[nodiscard]] double dvl_equivalent_sigma_m_s();
+
 [[nodiscard]] double duration_s(const Case& one);
 
 /// One run: what the instruments said in the order of arrival, what happened, and what the estimators are
