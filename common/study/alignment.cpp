@@ -214,9 +214,12 @@ void run_method(const Case& one, std::string_view method, std::uint64_t seed, Sc
   sim::Random model(seed, "model");
   sim::TruthGenerator truth(scenario_of(one, release), seed);
   Instruments instruments(one, seed);
-  DropAlignment alignment(config_of(method, model));
-  alignment.start(geo::from_rpy(
-      {one.roll_error_deg * kDegree, kPitch_rad + one.pitch_error_deg * kDegree, kHeading_rad}));
+  const DropConfig config = config_of(method, model);
+  DropAlignment alignment(config);
+  // The heading is handed over as well as it is said to be.
+  const double heading_rad = kHeading_rad + release.normal(one.sensor_errors * config.heading_sigma_rad);
+  alignment.start(
+      geo::from_rpy({one.roll_error_deg * kDegree, kPitch_rad + one.pitch_error_deg * kDegree, heading_rad}));
   const bool fine = method == kFine;
   Snapshot claimed;  // when the method says that it is done
   Snapshot refined;

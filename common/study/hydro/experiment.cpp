@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geo/so3.hpp"
+#include "geo/wgs84.hpp"
 
 namespace fathom::study::hydro {
 namespace {
@@ -116,13 +117,18 @@ Run make_run(const Case& one, std::uint64_t seed) {
   sim::Random random(seed, "hydro.start");
   auto& given = run.start;
   given.stamp_ns = kEpochNs;
-  given.latitude_rad = start.latitude_rad;
-  given.longitude_rad = start.longitude_rad;
-  given.altitude_m = start.altitude_m;
+  given.position_sigma_N_m = {0.1, 0.1, 0.1};
+  const double north_m = random.normal(given.position_sigma_N_m[0]);
+  const double east_m = random.normal(given.position_sigma_N_m[1]);
+  const double down_m = random.normal(given.position_sigma_N_m[2]);
+  const geo::Geodetic place = geo::moved_by({start.latitude_rad, start.longitude_rad, start.altitude_m},
+                                            Eigen::Vector3d(north_m, east_m, down_m));
+  given.latitude_rad = place.latitude_rad;
+  given.longitude_rad = place.longitude_rad;
+  given.altitude_m = place.altitude_m;
   given.velocity_sigma_N_m_s = {0.05, 0.05, 0.05};
   for (std::size_t i = 0; i < 3; ++i)
     given.velocity_N_m_s[i] = start.velocity_N_m_s[i] + random.normal(given.velocity_sigma_N_m_s[i]);
-  given.position_sigma_N_m = {0.1, 0.1, 0.1};
   given.attitude_sigma_rad = {one.tilt_sigma_deg * kDegree, one.tilt_sigma_deg * kDegree,
                               kHeadingSigma_deg * kDegree};
   // The error about north, east and down: C_estimated = (I - [phi x]) C.
