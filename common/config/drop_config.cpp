@@ -93,25 +93,34 @@ void describe(Schema<DropConfig>& s) {
   s.field("speed_scale_sigma", &C::speed_scale_sigma, "of its factor, a ratio").range(1e-6, 1);
   s.field("speed_bias_sigma_m_s", &C::speed_bias_sigma_m_s, "slow error").unit("m/s").range(1e-6, 10);
   s.field("speed_bias_tau_s", &C::speed_bias_tau_s, "of it").unit("s").range(0.1, 1e5);
-  s.field("speed_lag_s", &C::speed_lag_s, "by which the propulsor follows the speed").unit("s").range(0, 10);
+  s.field("speed_lag_s", &C::speed_lag_s, "by which the propulsor follows the speed")
+      .unit("s")
+      .range(0, 10)
+      .nullable();
   s.field("depth_sigma_m", &C::depth_sigma_m, "white noise of a sample").unit("m").range(1e-4, 100);
   s.field("sensor_timeout_s", &C::sensor_timeout_s, "an older depth or propulsor speed is missing")
       .unit("s")
       .range(0.01, 10);
   s.field("slip_per_turn_m", &C::slip_per_turn_m, "side velocity of the hull per turn rate")
       .unit("m")
-      .range(0, 100);
+      .range(0, 100)
+      .nullable();
   s.field("trim_m2_s2", &C::trim_m2_s2, "heave velocity times speed that carries the weight in water")
       .unit("m^2/s^2")
-      .range(-1000, 1000);
+      .range(-1000, 1000)
+      .nullable();
   s.field("flow_lag_m", &C::flow_lag_m, "distance travelled in one time constant of the slip")
       .unit("m")
-      .range(0.01, 1000);
+      .range(0.01, 1000)
+      .nullable();
   s.field("flow_sigma_m_s", &C::flow_sigma_m_s, "of what the slip model does not know, turbulence included")
       .unit("m/s")
       .range(1e-4, 10);
   s.field("flow_tau_s", &C::flow_tau_s, "correlation time of that").unit("s").range(0.1, 1e5);
-  s.field("surge_tau_s", &C::surge_tau_s, "in which the speed follows the thrust").unit("s").range(0.05, 600);
+  s.field("surge_tau_s", &C::surge_tau_s, "in which the speed follows the thrust")
+      .unit("s")
+      .range(0.05, 600)
+      .nullable();
 }
 
 }  // namespace fathom::config

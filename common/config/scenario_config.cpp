@@ -44,6 +44,16 @@ void describe(Schema<sim::EnvironmentConfig>& s) {
   s.field("wave_period_s", &C::wave_period_s, "of the swell").unit("s").range(1, 30);
 }
 
+void describe(Schema<sim::StartSpread>& s) {
+  using C = sim::StartSpread;
+  s.field("position_N_m", &C::position_N_m, "1 sigma north, east, down").unit("m").range(0, 1e5);
+  s.field("velocity_N_m_s", &C::velocity_N_m_s, "1 sigma north, east, down").unit("m/s").range(0, 100);
+  s.field("attitude_deg", &C::attitude_rad, "1 sigma about north, east, down")
+      .unit("deg")
+      .scaled(kDegree)
+      .range(0, 60);
+}
+
 void describe(Schema<sim::StartConfig>& s) {
   using C = sim::StartConfig;
   s.field("latitude_deg", &C::latitude_rad, "of the body origin")
@@ -59,6 +69,7 @@ void describe(Schema<sim::StartConfig>& s) {
   s.field("depth_m", &C::depth_m, "below the mean surface; negative above").unit("m").range(-20000, 11000);
   s.field("speed_m_s", &C::speed_m_s, "ahead, through water or air").unit("m/s").range(0, 300);
   s.field("rpy_deg", &C::rpy_rad, "roll, pitch, yaw").unit("deg").scaled(kDegree).range(-180, 360);
+  s.field("spread", &C::spread, "by which the true start differs from this one, drawn once a run");
 }
 
 void describe(Schema<sim::MissionStep>& s) {

@@ -27,10 +27,12 @@ void describe(Schema<sim::AuvConfig>& s);
 void describe(Schema<sim::AirDropConfig>& s);
 void describe(Schema<sim::AircraftConfig>& s);
 void describe(Schema<sim::RotatingArmConfig>& s);
+void describe(Schema<sim::RemusBeyondModel>& s);
 void describe(Schema<sim::RemusConfig>& s);
 void describe(Schema<sim::VehicleConfig>& s);
 
 void describe(Schema<sim::EnvironmentConfig>& s);
+void describe(Schema<sim::StartSpread>& s);
 void describe(Schema<sim::StartConfig>& s);
 void describe(Schema<sim::MissionStep>& s);
 void describe(Schema<sim::ScenarioLimits>& s);

@@ -69,6 +69,9 @@ void describe(Schema<sim::AuvConfig>& s) {
 
 void describe(Schema<sim::AirDropConfig>& s) {
   using C = sim::AirDropConfig;
+  s.field("coefficient_sigma", &C::coefficient_sigma,
+          "1 sigma of the factor of each coefficient of the hull, drawn once a run")
+      .range(0, 0.3);
   s.field("parachute_at_s", &C::parachute_at_s, "after release").unit("s").range(0, 60);
   s.field("terminal_speed_m_s", &C::terminal_speed_m_s, "under the parachute").unit("m/s").range(5, 200);
   s.field("mass_kg", &C::mass_kg, "of the vehicle").unit("kg").range(1, 1e5);
@@ -147,9 +150,28 @@ void describe(Schema<sim::RotatingArmConfig>& s) {
       .range(0.001, 50);
 }
 
+void describe(Schema<sim::RemusBeyondModel>& s) {
+  using C = sim::RemusBeyondModel;
+  s.field("linear_damping_share", &C::linear_damping_share,
+          "of the quadratic drag ahead and lift across at cruise, added linearly")
+      .range(0, 1);
+  s.field("cross_flow_share", &C::cross_flow_share,
+          "of the cross-flow drag: coupling by the speed of the whole flow")
+      .range(0, 1);
+  s.field("thrust_lag_s", &C::thrust_lag_s, "of the thrust behind the shaft speed").unit("s").range(0, 10);
+  s.field("trim_moment_sigma_N_m", &C::trim_moment_sigma_N_m,
+          "1 sigma of a constant pitch and yaw moment, drawn once a run")
+      .unit("N m")
+      .range(0, 10);
+}
+
 void describe(Schema<sim::RemusConfig>& s) {
   using C = sim::RemusConfig;
   describe_steering(s);
+  s.field("coefficient_share", &C::coefficient_share,
+          "each hydrodynamic coefficient is off by up to this share, drawn once a run")
+      .range(0, 0.5);
+  s.field("beyond", &C::beyond, "what the hull does beyond the model that estimators are given");
   s.field("hull_diameter_m", &C::hull_diameter_m, "over which the vehicle floats up")
       .unit("m")
       .range(0.05, 5);

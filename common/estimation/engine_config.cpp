@@ -179,6 +179,22 @@ void check_vehicle_model(const VehicleModelConfig& model, const StateGroups& gro
   check.that(groups.model_bias, "groups.model_bias: false: expected true where vehicle_model is enabled");
 }
 
+void check_air_drop(const DropConfig& drop, Check& check) {
+  const auto own = [&](const char* key, double value, double low, double high) {
+    if (known(value)) {
+      check.in(std::string("air_drop.") + key, value, low, high);
+    } else {
+      check.that(false, std::string("air_drop.") + key +
+                            ": missing: expected the vehicle's own value where the start is an air drop");
+    }
+  };
+  own("slip_per_turn_m", drop.slip_per_turn_m, 0, 100);
+  own("trim_m2_s2", drop.trim_m2_s2, -1000, 1000);
+  own("flow_lag_m", drop.flow_lag_m, 0.01, 1000);
+  own("surge_tau_s", drop.surge_tau_s, 0.05, 600);
+  own("speed_lag_s", drop.speed_lag_s, 0, 10);
+}
+
 }  // namespace
 
 bool named_state_groups(const std::string& name, StateGroups& groups) {
@@ -284,6 +300,7 @@ std::string EngineConfig::validate() const {
   check_alignment(alignment, check);
   check_constraints(constraints, check);
   check_vehicle_model(vehicle_model, groups, check);
+  if (alignment.mode == StartMode::air_drop) check_air_drop(air_drop, check);
   std::set<std::pair<std::string, bool>> names;
   check.that(sensors.size() <= 24, "sensors: " + std::to_string(sensors.size()) + ": expected at most 24");
   for (const SensorConfig& one : sensors) {

@@ -28,6 +28,14 @@ struct EnvironmentConfig {
   double wave_period_s = 4.0;
 };
 
+/// One standard deviation by which the true start differs from the configured one, drawn once a run: what is
+/// handed over to navigation is known as well as this and no better.
+struct StartSpread {
+  std::array<double, 3> position_N_m{0.0, 0.0, 0.0};
+  std::array<double, 3> velocity_N_m_s{0.0, 0.0, 0.0};
+  std::array<double, 3> attitude_rad{0.0, 0.0, 0.0};  ///< about north, east, down
+};
+
 /// Where and how the body origin starts, t = 0.
 struct StartConfig {
   double latitude_rad = 0.0;
@@ -35,6 +43,7 @@ struct StartConfig {
   double depth_m = 0.0;    ///< below the mean surface; negative above
   double speed_m_s = 0.0;  ///< along the body's x axis, through the medium
   std::array<double, 3> rpy_rad{0.0, 0.0, 0.0};
+  StartSpread spread;
 };
 
 /// An order to the autopilot from `at_s` on. Unknown values keep what the step before said.
@@ -71,9 +80,21 @@ struct AuvConfig {
   double maximum_turn_rate_rad_s = 0.12;
 };
 
+/// What a real hull does beyond the equations of Gertler and Hagen that estimators are given.
+struct RemusBeyondModel {
+  double linear_damping_share =
+      0.0;                        ///< of the quadratic drag ahead and lift across at cruise, added linearly
+  double cross_flow_share = 0.0;  ///< of the cross-flow drag: coupling by the speed of the whole flow
+  double thrust_lag_s = 0.0;      ///< of the thrust behind the shaft speed
+  double trim_moment_sigma_N_m = 0.0;  ///< constant pitch and yaw moment of a hull out of trim, drawn once
+};
+
 /// REMUS 100 (Prestero 2001) in six degrees of freedom. The hull's coefficients belong to the vehicle; its
 /// actuators and what the autopilot may ask for are free.
 struct RemusConfig {
+  /// Each hydrodynamic coefficient times a factor of its own, uniform within 1 +- this, drawn once a run.
+  double coefficient_share = 0.0;
+  RemusBeyondModel beyond;
   double fin_limit_rad = 0.2374;  ///< 13.6 degrees
   double fin_tau_s = 0.1;
   double propulsor_tau_s = 0.5;
@@ -84,6 +105,9 @@ struct RemusConfig {
 
 /// Vehicle released from an aircraft: parachute, water entry, dive, run at set depth.
 struct AirDropConfig {
+  /// One standard deviation of the factor of each coefficient of the hull, drawn once a run. Mass and
+  /// buoyancy are weighed ashore and stay.
+  double coefficient_sigma = 0.0;
   double parachute_at_s = 0.8;
   double terminal_speed_m_s = 44.0;  ///< under the parachute
   double mass_kg = 240.0;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "geo/wgs84.hpp"
+#include "sim/random.hpp"
 #include "sim/vehicle.hpp"
 
 namespace fathom::sim {
@@ -72,9 +73,10 @@ struct TruthGenerator::Impl {
     x[kLat] = start.latitude_rad;
     x[kLon] = start.longitude_rad;
     x[kAlt] = scenario.environment.surface_altitude_m - start.depth_m;
-    const Quaterniond q = q_of_rpy(start.rpy_rad[0], start.rpy_rad[1], start.rpy_rad[2]);
-    x.segment<4>(kAttitude) << q.w(), q.x(), q.y(), q.z();
+    Quaterniond q = q_of_rpy(start.rpy_rad[0], start.rpy_rad[1], start.rpy_rad[2]);
     x[kV] = start.speed_m_s;
+    if (spreads(start.spread)) draw_start(seed, q);
+    x.segment<4>(kAttitude) << q.w(), q.x(), q.y(), q.z();
     order.speed_m_s = start.speed_m_s;
     order.heading_rad = start.rpy_rad[2];
     order.depth_m = start.depth_m;
@@ -83,6 +85,35 @@ struct TruthGenerator::Impl {
       x[kOmega + 2] = start.speed_m_s / scenario.vehicle.rotating_arm.radius_m;
     }
     publish(0.0);
+  }
+
+  static bool spreads(const StartSpread& spread) {
+    const auto any = [](const std::array<double, 3>& sigma) {
+      return std::any_of(sigma.begin(), sigma.end(), [](double one) { return one > 0.0; });
+    };
+    return any(spread.position_N_m) || any(spread.velocity_N_m_s) || any(spread.attitude_rad);
+  }
+
+  /// The true start about the configured one: place, velocity over ground, and attitude turned about N.
+  void draw_start(std::uint64_t seed, Quaterniond& q_NB) {
+    Random random(seed, "start");
+    const auto draw = [&](const std::array<double, 3>& sigma) {
+      const double north = random.normal(sigma[0]);
+      const double east = random.normal(sigma[1]);
+      const double down = random.normal(sigma[2]);
+      return Vector3d(north, east, down);
+    };
+    const StartSpread& spread = scenario.start.spread;
+    const Vector3d moved_N_m = draw(spread.position_N_m);
+    const Vector3d v_N_m_s = q_NB * x.segment<3>(kV).eval() + draw(spread.velocity_N_m_s);
+    const Vector3d turn_rad = draw(spread.attitude_rad);
+    const geo::Geodetic at = geo::moved_by({x[kLat], x[kLon], x[kAlt]}, moved_N_m);
+    x[kLat] = at.latitude_rad;
+    x[kLon] = at.longitude_rad;
+    x[kAlt] = at.altitude_m;
+    if (const double angle = turn_rad.norm(); angle > 0.0)
+      q_NB = Quaterniond(Eigen::AngleAxisd(angle, turn_rad / angle)) * q_NB;
+    x.segment<3>(kV) = q_NB.conjugate() * v_N_m_s;
   }
 
   void update_order(double t_s) {

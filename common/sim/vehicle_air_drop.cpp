@@ -18,6 +18,7 @@ class AirDrop final : public Vehicle {
  public:
   AirDrop(const AirDropConfig& config, const EnvironmentConfig& environment, std::uint64_t seed)
       : config_(config), random_(seed, "air_drop") {
+    draw_coefficients(seed);
     lateral_ = GaussMarkov(environment.turbulence_m_s, environment.turbulence_tau_s, random_);
     vertical_ = GaussMarkov(environment.turbulence_m_s, environment.turbulence_tau_s, random_);
   }
@@ -75,6 +76,16 @@ class AirDrop final : public Vehicle {
   }
 
  private:
+  /// Each coefficient of the hull as this vehicle has it.
+  void draw_coefficients(std::uint64_t seed) {
+    if (config_.coefficient_sigma <= 0.0) return;
+    Random random(seed, "air_drop coefficients");
+    for (double* one : {&config_.added_surge_kg, &config_.added_sway_kg, &config_.inertia_roll_kg_m2,
+                        &config_.inertia_pitch_kg_m2, &config_.drag_coefficient, &config_.tail_lift_kg_m,
+                        &config_.body_lift_kg_m, &config_.fin_lift_kg_m, &config_.munk_kg})
+      *one *= std::max(0.2, 1.0 + random.normal(config_.coefficient_sigma));
+  }
+
   [[nodiscard]] BodyRates in_air(const BodyState& state) const {
     const Vector3d& V = state.V_B_m_s;
     const Vector3d& omega = state.omega_NB_B_rad_s;

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/LU>
 
@@ -25,17 +27,45 @@ Matrix3d cross_matrix(const Vector3d& a) {
 constexpr double kWeight_N = 299.0;
 constexpr double kBuoyancy_N = 306.0;
 constexpr double kMass_kg = kWeight_N / 9.81;
-constexpr double kThrust_N = 3.86;
-constexpr double kTorque_N_m = -0.543;
 constexpr double kThrust_rpm = 1500.0;
-constexpr double kCruise_m_s = 1.5436;  // where kThrust_N balances the drag
+constexpr double kCruise_m_s = 1.5436;  // where the thrust balances the drag
 const Vector3d kCentreOfGravity_m(0.0, 0.0, 0.0196);
 
-Matrix6 added_mass() {
+/// Hydrodynamic coefficients, magnitudes as Prestero has them; the equations below carry the signs.
+struct Hull {
+  double added_surge = 0.93, added_cross = 35.5, added_roll = 0.0704, added_turn = 4.88,
+         added_coupling = 1.93;
+  double X_uu = 1.62, X_cross = 35.5, X_turn = 1.93;
+  double Y_vv = 131.0, Y_rr = 0.632, Y_uv = 28.6, Y_ur = 5.22, Y_wp = 35.5, Y_pq = 1.93, Y_rudder = 9.64;
+  double Z_ww = 131.0, Z_qq = 0.632, Z_uw = 28.6, Z_uq = 5.22, Z_vp = 35.5, Z_rp = 1.93, Z_stern = 9.64;
+  double K_pp = 0.13, K_shaft = 0.543, X_shaft = 3.86;
+  double M_ww = 3.18, M_qq = 188.0, M_uw = 24.0, M_uq = 2.0, M_vp = 1.93, M_rp = 4.86, M_stern = 6.15;
+  double N_vv = 3.18, N_rr = 94.0, N_uv = 24.0, N_ur = 2.0, N_wp = 1.93, N_pq = 4.86, N_rudder = 6.15;
+};
+constexpr std::array kHullMembers{
+    &Hull::added_surge, &Hull::added_cross, &Hull::added_roll, &Hull::added_turn, &Hull::added_coupling,
+    &Hull::X_uu,        &Hull::X_cross,     &Hull::X_turn,     &Hull::Y_vv,       &Hull::Y_rr,
+    &Hull::Y_uv,        &Hull::Y_ur,        &Hull::Y_wp,       &Hull::Y_pq,       &Hull::Y_rudder,
+    &Hull::Z_ww,        &Hull::Z_qq,        &Hull::Z_uw,       &Hull::Z_uq,       &Hull::Z_vp,
+    &Hull::Z_rp,        &Hull::Z_stern,     &Hull::K_pp,       &Hull::K_shaft,    &Hull::X_shaft,
+    &Hull::M_ww,        &Hull::M_qq,        &Hull::M_uw,       &Hull::M_uq,       &Hull::M_vp,
+    &Hull::M_rp,        &Hull::M_stern,     &Hull::N_vv,       &Hull::N_rr,       &Hull::N_uv,
+    &Hull::N_ur,        &Hull::N_wp,        &Hull::N_pq,       &Hull::N_rudder};
+
+Hull draw_hull(double share, std::uint64_t seed) {
+  Hull hull;
+  if (share <= 0.0) return hull;
+  Random random(seed, "remus coefficients");
+  for (const auto member : kHullMembers) hull.*member *= random.uniform(1.0 - share, 1.0 + share);
+  return hull;
+}
+
+Matrix6 added_mass(const Hull& hull) {
   Matrix6 a = Matrix6::Zero();
-  a.diagonal() << 0.93, 35.5, 35.5, 0.0704, 4.88, 4.88;
-  a(1, 5) = a(5, 1) = -1.93;
-  a(2, 4) = a(4, 2) = 1.93;
+  a.diagonal() << hull.added_surge, hull.added_cross, hull.added_cross, hull.added_roll, hull.added_turn,
+      hull.added_turn;
+  a(1, 5) = a(5, 1) = -hull.added_coupling;
+  a(2, 4) = a(4, 2) = hull.added_coupling;
   return a;
 }
 
@@ -52,13 +82,24 @@ Matrix6 rigid_body() {
 class Remus final : public Vehicle {
  public:
   Remus(const RemusConfig& config, const EnvironmentConfig& environment, std::uint64_t seed)
-      : config_(config), random_(seed, "remus"), inverse_((rigid_body() + added_mass()).inverse()) {
+      : config_(config),
+        environment_(environment),
+        random_(seed, "remus"),
+        hull_(draw_hull(config.coefficient_share, seed)),
+        inverse_((rigid_body() + added_mass(hull_)).inverse()) {
+    Random trim(seed, "remus trim");
+    trim_N_m_ = {0.0, trim.normal(config.beyond.trim_moment_sigma_N_m),
+                 trim.normal(config.beyond.trim_moment_sigma_N_m)};
+    wave_phase_rad_ = trim.uniform(0.0, 2.0 * std::numbers::pi);
     sway_ = GaussMarkov(environment.turbulence_m_s, environment.turbulence_tau_s, random_);
     heave_ = GaussMarkov(environment.turbulence_m_s, environment.turbulence_tau_s, random_);
   }
 
   void control(const BodyState& state, const Order& order, double dt_s) override {
     turbulence_ = {0.0, sway_.advance(dt_s, random_), heave_.advance(dt_s, random_)};
+    turbulence_ += state.q_NB.conjugate() * orbital_velocity_N(state);
+    const double lag_s = config_.beyond.thrust_lag_s;
+    thrust_rpm_ += (lag_s > 0.0 ? 1.0 - std::exp(-dt_s / lag_s) : 1.0) * (state.actuator.x() - thrust_rpm_);
     rpm_command_ = order.speed_m_s / kCruise_m_s * kThrust_rpm;
     const Vector3d rpy = rpy_of(state.q_NB);
     const Vector3d& rate = state.omega_NB_B_rad_s;
@@ -92,7 +133,10 @@ class Remus final : public Vehicle {
     const double u = V.x(), v = V.y(), w = V.z();
     const double p = omega.x(), q = omega.y(), r = omega.z();
     const double rudder = state.actuator.y(), stern = state.actuator.z();
-    const double drive = state.actuator.x() * std::abs(state.actuator.x()) / (kThrust_rpm * kThrust_rpm);
+    // The thrust may lag behind the shaft; without a lag it follows within the interval.
+    const double shaft_rpm = config_.beyond.thrust_lag_s > 0.0 ? thrust_rpm_ : state.actuator.x();
+    const double drive = shaft_rpm * std::abs(shaft_rpm) / (kThrust_rpm * kThrust_rpm);
+    const Hull& k = hull_;
     const auto square = [](double x) { return x * std::abs(x); };
 
     const double submerged =
@@ -105,16 +149,24 @@ class Remus final : public Vehicle {
                       kMass_kg * kCentreOfGravity_m.cross(omega.cross(V));
     force += weight - submerged * kBuoyancy_N * down_B;
     moment += kCentreOfGravity_m.cross(weight);
-    force += Vector3d(-1.62 * square(u) + 35.5 * (v * r - w * q) - 1.93 * (q * q + r * r) + kThrust_N * drive,
-                      -131.0 * square(v) + 0.632 * square(r) - 28.6 * u * v + 5.22 * u * r + 35.5 * w * p +
-                          1.93 * p * q + 9.64 * u * u * rudder,
-                      -131.0 * square(w) - 0.632 * square(q) - 28.6 * u * w - 5.22 * u * q - 35.5 * v * p +
-                          1.93 * r * p - 9.64 * u * u * stern);
-    moment += Vector3d(-0.13 * square(p) + kTorque_N_m * drive,
-                       3.18 * square(w) - 188.0 * square(q) + 24.0 * u * w - 2.0 * u * q - 1.93 * v * p +
-                           4.86 * r * p - 6.15 * u * u * stern,
-                       -3.18 * square(v) - 94.0 * square(r) - 24.0 * u * v - 2.0 * u * r - 1.93 * w * p -
-                           4.86 * p * q - 6.15 * u * u * rudder);
+    force += Vector3d(
+        -k.X_uu * square(u) + k.X_cross * (v * r - w * q) - k.X_turn * (q * q + r * r) + k.X_shaft * drive,
+        -k.Y_vv * square(v) + k.Y_rr * square(r) - k.Y_uv * u * v + k.Y_ur * u * r + k.Y_wp * w * p +
+            k.Y_pq * p * q + k.Y_rudder * u * u * rudder,
+        -k.Z_ww * square(w) - k.Z_qq * square(q) - k.Z_uw * u * w - k.Z_uq * u * q - k.Z_vp * v * p +
+            k.Z_rp * r * p - k.Z_stern * u * u * stern);
+    moment += Vector3d(-k.K_pp * square(p) - k.K_shaft * drive,
+                       k.M_ww * square(w) - k.M_qq * square(q) + k.M_uw * u * w - k.M_uq * u * q -
+                           k.M_vp * v * p + k.M_rp * r * p - k.M_stern * u * u * stern,
+                       -k.N_vv * square(v) - k.N_rr * square(r) - k.N_uv * u * v - k.N_ur * u * r -
+                           k.N_wp * w * p - k.N_pq * p * q - k.N_rudder * u * u * rudder);
+    const RemusBeyondModel& beyond = config_.beyond;
+    const double linear = beyond.linear_damping_share * kCruise_m_s;
+    const double cross = std::hypot(v, w);
+    force -= linear * Vector3d(k.X_uu * u, k.Y_uv * v, k.Z_uw * w);
+    force -= beyond.cross_flow_share *
+             Vector3d(0.0, k.Y_vv * v * (cross - std::abs(v)), k.Z_ww * w * (cross - std::abs(w)));
+    moment += submerged * trim_N_m_;
     Vector6 load;
     load << force, moment;
     const Vector6 acceleration = inverse_ * load;
@@ -129,9 +181,25 @@ class Remus final : public Vehicle {
   }
 
  private:
+  /// Velocity of the water under a swell of deep water (Airy), along north and down.
+  [[nodiscard]] Vector3d orbital_velocity_N(const BodyState& state) const {
+    if (environment_.wave_height_m <= 0.0) return Vector3d::Zero();
+    const double frequency = 2.0 * std::numbers::pi / environment_.wave_period_s;
+    const double number_1_m = frequency * frequency / kModelGravity_m_s2;
+    const double size =
+        environment_.wave_height_m * frequency * std::exp(-number_1_m * std::max(state.depth_m, 0.0));
+    const double phase = frequency * state.t_s + wave_phase_rad_;
+    return {size * std::cos(phase), 0.0, size * std::sin(phase)};
+  }
+
   RemusConfig config_;
+  EnvironmentConfig environment_;
   Random random_;
+  Hull hull_;
   Matrix6 inverse_;
+  Vector3d trim_N_m_ = Vector3d::Zero();
+  double wave_phase_rad_ = 0.0;
+  double thrust_rpm_ = 0.0;
   GaussMarkov sway_;
   GaussMarkov heave_;
   Vector3d turbulence_ = Vector3d::Zero();

@@ -163,10 +163,11 @@ DropConfig config_of(std::string_view method, sim::Random& random) {
   // As the data sheets say: 1 mg, and 1.5 arc minutes of gravity.
   config.accel_sigma_m_s2 = 0.0107;
   config.flow_sigma_m_s = 0.07;
-  config.slip_per_turn_m *= 1.0 + random.normal(0.1);
-  config.trim_m2_s2 *= 1.0 + random.normal(0.1);
-  config.speed_lag_s *= 1.0 + random.normal(0.2);
-  config.flow_lag_m *= 1.0 + random.normal(0.1);
+  config.slip_per_turn_m = 1.58 * (1.0 + random.normal(0.1));
+  config.trim_m2_s2 = 2.26 * (1.0 + random.normal(0.1));
+  config.speed_lag_s = 0.1 * (1.0 + random.normal(0.2));
+  config.flow_lag_m = 3.1 * (1.0 + random.normal(0.1));
+  config.surge_tau_s = 1.5;
   return config;
 }
 

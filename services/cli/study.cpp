@@ -12,6 +12,8 @@
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
+#include "cli/study_scenarios.hpp"
+#include "config/registry.hpp"
 #include "runtime/build_info.hpp"
 #include "study/registry.hpp"
 #include "study/runner.hpp"
@@ -30,7 +32,7 @@ std::string names() {
   std::string text;
   for (const auto& one : study::study_registry())
     text += (text.empty() ? "" : ", ") + std::string(one->name());
-  return text;
+  return text + ", scenarios";
 }
 
 std::string description() {
@@ -42,7 +44,7 @@ std::string description() {
     text += "\n    methods";
     for (const auto name : one->methods()) text += " " + std::string(name);
   }
-  return text;
+  return text + "\n  scenarios: the demonstration's scenarios offline, through device bytes and codecs";
 }
 
 void print(const std::vector<study::Row>& rows) {
@@ -102,8 +104,17 @@ nlohmann::ordered_json json_of(const StudyOptions& options, const std::vector<st
   return out;
 }
 
+std::unique_ptr<const study::Study> scenario_study() {
+  try {
+    return make_scenario_study();
+  } catch (const config::ConfigError& error) {
+    throw Failure(ExitCode::bad_configuration, error.what());
+  }
+}
+
 void run(StudyOptions options) {
-  const study::Study* one = study::find_study(options.name);
+  const auto scenarios = options.name == "scenarios" ? scenario_study() : nullptr;
+  const study::Study* one = scenarios ? scenarios.get() : study::find_study(options.name);
   if (one == nullptr) {
     throw Failure(ExitCode::bad_configuration,
                   "study: " + options.name + ": no such study, expected one of " + names());

@@ -60,6 +60,11 @@ inline EngineConfig drop_config() {
   config.alignment.mode = estimation::StartMode::air_drop;
   config.imu.accel_bias_sigma_m_s2 = 0.011;
   config.groups.log_scale = true;
+  config.air_drop.slip_per_turn_m = 1.58;
+  config.air_drop.trim_m2_s2 = 2.26;
+  config.air_drop.flow_lag_m = 3.1;
+  config.air_drop.surge_tau_s = 1.5;
+  config.air_drop.speed_lag_s = 0.1;
   SensorConfig depth = estimation::default_sensor(SourceKind::depth, "depth");
   depth.sigma = {0.1, 0.1, 0.1};
   SensorConfig propulsion = estimation::default_sensor(SourceKind::propulsion, "propulsion");

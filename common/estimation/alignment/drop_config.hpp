@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "base/unknown.hpp"
+
 namespace fathom::estimation {
 
 /// What "straight and steady" means (ALN-11): each magnitude below its limit for its hold time.
@@ -57,16 +59,18 @@ struct DropConfig {
   double speed_scale_sigma = 0.015;
   double speed_bias_sigma_m_s = 0.02;
   double speed_bias_tau_s = 5.0;
-  double speed_lag_s = 0.1;  ///< by which the propulsor follows the speed
   double depth_sigma_m = 0.05;
   double sensor_timeout_s = 0.35;  ///< older propulsor speed or depth is missing
-  // Vehicle: how it slips through the water (TILT-5).
-  double slip_per_turn_m = 1.58;  ///< side velocity per turn rate
-  double trim_m2_s2 = 2.26;       ///< heave velocity times speed that carries the weight in water
-  double flow_lag_m = 3.1;        ///< distance travelled in one time constant of the slip
-  double flow_sigma_m_s = 0.08;   ///< of what the model does not know, turbulence included
+  // The vehicle: how it slips through the water (TILT-5). There is no default, each hull has its own; an
+  // engine that starts by air drop refuses a configuration without them.
+  double slip_per_turn_m = kUnknown;  ///< side velocity per turn rate
+  double trim_m2_s2 = kUnknown;       ///< heave velocity times speed that carries the weight in water
+  double flow_lag_m = kUnknown;       ///< distance travelled in one time constant of the slip
+  double surge_tau_s = kUnknown;      ///< in which the speed follows the thrust
+  double speed_lag_s = kUnknown;      ///< by which the propulsor follows the speed
+  // What the slip model does not know.
+  double flow_sigma_m_s = 0.08;  ///< of what the model does not know, turbulence included
   double flow_tau_s = 10.0;
-  double surge_tau_s = 1.5;  ///< in which the speed follows the thrust
 };
 
 }  // namespace fathom::estimation
