@@ -29,9 +29,6 @@ constexpr double kSlopeStart_m_s2 = 5.0;
 constexpr double kSlopeNoise_m_s2 = 0.02;   // a second, of the thrust
 constexpr double kSlopePerTurn_m_s2 = 2.0;  // weight and drag along x change with the pitch
 constexpr double kTurning_s = 10.0;         // for which a wrong gyro axis turns the same way
-constexpr double kFarTurn_rad = 0.06;       // a correction as large as this is no small angle ...
-constexpr double kArrived_rad = 0.01;       // ... and done when the tilt is known to this
-constexpr double kTurnDoubt = 0.15;         // share of it that may still be missing
 constexpr double kFlowShare = 0.75;         // of the spread within a window that its mean may have
 
 /// Roll, pitch and yaw per attitude error about N (OUT-1).
@@ -159,24 +156,6 @@ Vector3d DropAlignment::take(const TiltFilter::Row* rows, int count) {
   return result.rotation_N_rad - Vector3d(0.0, 0.0, slip);
 }
 
-void DropAlignment::recentre() {
-  // (ALN-15): what was learnt while the attitude was far off was learnt with the wrong slopes.
-  const double turn = geo::log(turned_).norm();
-  const Vector3d sigma = rpy_sigma_rad();
-  if (turn < kFarTurn_rad || std::max(sigma.x(), sigma.y()) > kArrived_rad) return;
-  q_NB_ = filter_.q_NB();
-  const double tilt = std::pow(kTurnDoubt * turn, 2);
-  start_filter(Vector3d(tilt, tilt, config_.heading_sigma_rad * config_.heading_sigma_rad).asDiagonal());
-}
-
-double DropAlignment::heading_slip(const Vector3d& rotation_N_rad) {
-  // (ALN-14)
-  q_release_ = geo::normalized(geo::exp(rotation_N_rad) * q_release_);
-  const double slip = geo::wrap_pi(geo::to_rpy(q_release_).z() - release_heading_rad_);
-  q_release_ = geo::normalized(geo::exp({0.0, 0.0, -slip}) * q_release_);
-  return slip;
-}
-
 Vector3d DropAlignment::add(const DropStep& step) {
   // (ALN-12)
   time_s_ += step.dt_s > 0.0 ? step.dt_s : 0.0;
@@ -219,6 +198,7 @@ Vector3d DropAlignment::add(const DropStep& step) {
       q_NB_ = geo::normalized(q_NB_ * geo::exp(step.dt_s * rate_NB_B_));
     }
   }
+  follow_level(step);
   if (filtering_ && time_s_ >= next_slip_s_ && fresh(speed_at_s_)) {
     next_slip_s_ = std::max(next_slip_s_ + kSlip_s, time_s_);  // what a gap has skipped is not made up for
     const Vector3d model = slip(slip_rate_);
@@ -228,6 +208,7 @@ Vector3d DropAlignment::add(const DropStep& step) {
                                     filter_.heave_row(model.z(), std::hypot(kSlipNoise_m_s, doubt.y()))};
     turned += take(rows, 2);
     recentre();
+    if (captured()) turned += restart_from_level();
   }
   if (!filtering_ && config_.fine && config_.early && wet() && time_s_ - entered_s_ >= config_.fine_delay_s &&
       fresh(speed_at_s_) && fresh(depth_at_s_) && measured_speed_m_s_ > kLeastSpeed_m_s)

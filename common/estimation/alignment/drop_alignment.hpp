@@ -86,6 +86,13 @@ class DropAlignment {
   Eigen::Vector3d take(const TiltFilter::Row* rows, int count);
   /// Begins anew where the filter arrived when that was far from where it began.
   void recentre();
+  /// Follows what the accelerometers take for up, the motion taken off.
+  void follow_level(const DropStep& step);
+  /// Whether the measurements have contradicted the filter for a while and its tilt is not that of the
+  /// accelerometers.
+  [[nodiscard]] bool captured();
+  /// Begins anew from the accelerometers' level and the heading of the release; returns the correction.
+  Eigen::Vector3d restart_from_level();
   /// Follows a correction of the attitude; returns by how much the heading is off because of it.
   double heading_slip(const Eigen::Vector3d& rotation_N_rad);
   Eigen::Vector3d finish_window();
@@ -107,6 +114,8 @@ class DropAlignment {
   geo::Quaternion turned_;  ///< by the filter since it began
   TiltFilter filter_;
   double consistency_ = 1.0;
+  double contradicted_since_s_ = -1.0;                       ///< negative: the filter is consistent
+  Eigen::Vector3d level_force_B_ = Eigen::Vector3d::Zero();  ///< low-passed; zero: not known
   Eigen::Vector3d rate_NB_B_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d slip_rate_ = Eigen::Vector3d::Zero();  ///< turn rate as the slip follows it
   double g_m_s2_ = 9.80665;
