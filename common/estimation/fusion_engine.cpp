@@ -13,6 +13,7 @@
 namespace fathom::estimation {
 namespace {
 
+/// Besides two of each measurement held: all of them may be judged otherwise at once, and be final.
 constexpr std::size_t kVerdictsKept = 1024;
 
 EngineConfig checked(const EngineConfig& config) {
@@ -30,7 +31,7 @@ class FusionEngine::Impl final : public VerdictSink {
         intake_(setup_),
         history_(setup_),
         forecaster_(setup_),
-        verdicts_(kVerdictsKept) {
+        verdicts_(kVerdictsKept + 2 * setup_.config.measurement_capacity) {
     nav_.header.vehicle = std::string_view(setup_.config.vehicle);
     nav_.header.sensor = std::string_view(setup_.config.sensor);
     for (const SensorConfig& one : setup_.config.sensors) names_.emplace_back(one.sensor);
@@ -42,11 +43,11 @@ class FusionEngine::Impl final : public VerdictSink {
       case ImuIntake::Outcome::refused: {
         Judgement judgement;
         judgement.kind = result.refusal;
-        push(sample.header, SourceKind::imu, judgement);
+        refuse(sample.header, SourceKind::imu, {}, judgement);
         return false;
       }
       case ImuIntake::Outcome::first:
-        history_.begin(sample.header.stamp_ns);
+        history_.begin(sample.header.stamp_ns, *this);
         break;
       case ImuIntake::Outcome::rebased:
         history_.rebase(sample.header.stamp_ns, result.unobserved_s, *this);
@@ -68,24 +69,26 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   template <class Sample>
-  void add(const Sample& sample, SourceKind source) {
+  void add(const Sample& sample, SourceKind source, const Name& writer) {
     Judgement judgement;
     const int sensor = find(sample.header.sensor, source);
     if (sensor < 0) {
       judgement.kind = VerdictKind::source_disabled;
-      push(sample.header, source, judgement);
+      refuse(sample.header, source, writer, judgement);
       return;
     }
     Measurement& one = incoming_;
     one.stamp_ns = sample.header.stamp_ns -
                    from_seconds(setup_.config.sensors[static_cast<std::size_t>(sensor)].latency_s);
     one.command = false;
-    one.judged = false;
+    one.judged = one.settled = false;
+    one.revision = 0;
+    one.writer = writer;
     one.source = source;
     one.sensor = sensor;
     one.sequence = sample.header.sequence;
     one.sample = sample;
-    switch (history_.insert(one)) {
+    switch (history_.insert(one, *this)) {
       case History::Placing::taken:
         forecaster_.remember(sensor, one.sample);
         return;
@@ -102,7 +105,7 @@ class FusionEngine::Impl final : public VerdictSink {
         judgement.kind = VerdictKind::not_aligned;
         break;
     }
-    push(sample.header, source, judgement);
+    refuse(sample.header, source, writer, judgement);
   }
 
   bool apply(const Command& command) {
@@ -129,13 +132,15 @@ class FusionEngine::Impl final : public VerdictSink {
     }
     Measurement& one = incoming_;
     one.command = true;
-    one.judged = true;
+    one.judged = one.settled = false;
+    one.revision = 0;
+    one.writer = {};
     one.source = SourceKind::imu;
     one.sensor = -1;
     one.sequence = ++commands_;
     one.stamp_ns = history_.core().now_ns() + 1;
     one.sample = command;
-    return history_.insert(one) == History::Placing::taken;
+    return history_.insert(one, *this) == History::Placing::taken;
   }
 
   void start_from(const InitialState& state) {
@@ -180,8 +185,11 @@ class FusionEngine::Impl final : public VerdictSink {
     return true;
   }
 
-  void judged(const Measurement& measurement, const Judgement& judgement) override {
-    push(measurement.header(), measurement.source, judgement);
+  void judged(const Measurement& measurement, const Judgement& judgement, VerdictKind previous) override {
+    Verdict& verdict = push(measurement.header(), measurement.source, measurement.writer, judgement);
+    verdict.revision = measurement.revision;
+    verdict.previous = previous;
+    verdict.is_final = measurement.settled;
   }
 
   bool next_verdict(Verdict& verdict) {
@@ -227,6 +235,7 @@ class FusionEngine::Impl final : public VerdictSink {
     return nav_;
   }
   [[nodiscard]] std::uint64_t repeated_steps() const { return history_.repeated_steps(); }
+  [[nodiscard]] bool catching_up() const { return history_.catching_up(); }
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
@@ -258,14 +267,22 @@ class FusionEngine::Impl final : public VerdictSink {
     header.received_ns = nav_.header.received_ns;
   }
 
-  void push(const SampleHeader& header, SourceKind source, const Judgement& judgement) {
+  void refuse(const SampleHeader& header, SourceKind source, const Name& writer, const Judgement& judgement) {
+    push(header, source, writer, judgement).is_final = true;
+  }
+
+  Verdict& push(const SampleHeader& header, SourceKind source, const Name& writer,
+                const Judgement& judgement) {
     if (verdict_count_ == verdicts_.size()) {
       first_verdict_ = (first_verdict_ + 1) % verdicts_.size();
       --verdict_count_;
       ++dropped_;
     }
-    verdicts_[(first_verdict_ + verdict_count_) % verdicts_.size()] = verdict_of(header, source, judgement);
+    Verdict& verdict = verdicts_[(first_verdict_ + verdict_count_) % verdicts_.size()];
+    verdict = verdict_of(header, source, judgement);
+    verdict.writer = writer;
     ++verdict_count_;
+    return verdict;
   }
 
   Setup setup_;
@@ -293,29 +310,29 @@ FusionEngine& FusionEngine::operator=(FusionEngine&&) noexcept = default;
 bool FusionEngine::add(const ImuSample& sample) {
   return impl_->add(sample);
 }
-void FusionEngine::add(const GpsSample& sample) {
-  impl_->add(sample, SourceKind::gps);
+void FusionEngine::add(const GpsSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::gps, writer);
 }
-void FusionEngine::add(const DvlSample& sample) {
-  impl_->add(sample, SourceKind::dvl);
+void FusionEngine::add(const DvlSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::dvl, writer);
 }
-void FusionEngine::add(const DepthSample& sample) {
-  impl_->add(sample, SourceKind::depth);
+void FusionEngine::add(const DepthSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::depth, writer);
 }
-void FusionEngine::add(const HeadingSample& sample) {
-  impl_->add(sample, SourceKind::heading);
+void FusionEngine::add(const HeadingSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::heading, writer);
 }
-void FusionEngine::add(const UsblSample& sample) {
-  impl_->add(sample, SourceKind::usbl);
+void FusionEngine::add(const UsblSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::usbl, writer);
 }
-void FusionEngine::add(const AirspeedSample& sample) {
-  impl_->add(sample, SourceKind::airspeed);
+void FusionEngine::add(const AirspeedSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::airspeed, writer);
 }
-void FusionEngine::add(const PropulsionSample& sample) {
-  impl_->add(sample, SourceKind::propulsion);
+void FusionEngine::add(const PropulsionSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::propulsion, writer);
 }
-void FusionEngine::add(const FinsSample& sample) {
-  impl_->add(sample, SourceKind::fins);
+void FusionEngine::add(const FinsSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::fins, writer);
 }
 bool FusionEngine::apply(const Command& command) {
   return impl_->apply(command);
@@ -328,6 +345,9 @@ void FusionEngine::finish() {
 }
 std::uint64_t FusionEngine::repeated_steps() const {
   return impl_->repeated_steps();
+}
+bool FusionEngine::catching_up() const {
+  return impl_->catching_up();
 }
 const NavState& FusionEngine::nav_state() const {
   return impl_->nav_state();

@@ -36,12 +36,27 @@ namespace fathom::estimation {
 /// next inertial sample is the same to the last bit whatever the order was. Aiding samples are taken in at
 /// once and judged with the next inertial sample at or after their stamp.
 ///
-/// Bounded work. An inertial sample costs one step, or, when older measurements came in since the last one,
-/// one repetition of at most horizon_s + snapshot_interval_s of steps and measurements.
+/// The promise holds with the next inertial sample after which catching_up() is false: at once for a
+/// measurement that asks for no more than `replay_steps_per_sample` repeated steps, and never later than
+/// 32 inertial samples after the first one that asks for more; finish() waits for neither. It is made of the
+/// measurements that were taken in: more than `measurement_capacity` of them within the horizon shorten it,
+/// what is older gets the verdict late, and orders act at the instant at which they came. Of two samples of
+/// one sensor with the same stamp the one with the lower sequence number counts, and of two with the same
+/// number as well the one that came first.
 ///
-/// Verdicts. Every aiding sample leads to exactly one; an inertial sample only when it is refused. A verdict
-/// is given when a measurement is first judged; should a late neighbour change the judgement afterwards, the
-/// state follows and the verdict stands.
+/// Bounded work. An inertial sample costs one step, and when older measurements came in since the last one,
+/// at most twice `replay_steps_per_sample` repeated steps; the last of 32 as above, at most horizon_s +
+/// snapshot_interval_s of steps and measurements.
+///
+/// Verdicts. The first one of an aiding sample is given with the inertial sample with which it is judged, or
+/// at once when it is refused. When a late neighbour changes the judgement, the state follows, and another
+/// verdict is given: of the next revision, with the kind that was said before. Only the kind counts: that
+/// test ratio and innovation move within it is not said again. Exactly one verdict of each sample is final:
+/// the first, when the sample is refused without being taken in, else one more, with the innovation and test
+/// ratio that it has in the end, once no sample that may still come can act before it. That is horizon_s
+/// after its stamp; when the room for measurements runs out; when inertial samples begin anew after a gap; or
+/// in finish(). The final verdicts are, like the state, a function of the sorted samples. Inertial samples
+/// get a verdict, a final one, only when they are refused.
 class FusionEngine {
  public:
   /// Throws std::invalid_argument with the text of EngineConfig::validate() when that is not empty.
@@ -55,14 +70,15 @@ class FusionEngine {
   /// True when nav_state() is new: the sample was accepted. NavState is given from the first accepted sample
   /// on; its mode says what it is worth.
   bool add(const ImuSample& sample);
-  void add(const GpsSample& sample);
-  void add(const DvlSample& sample);
-  void add(const DepthSample& sample);
-  void add(const HeadingSample& sample);
-  void add(const UsblSample& sample);
-  void add(const AirspeedSample& sample);
-  void add(const PropulsionSample& sample);
-  void add(const FinsSample& sample);
+  /// `writer`: who published it, for its verdicts.
+  void add(const GpsSample& sample, const Name& writer = {});
+  void add(const DvlSample& sample, const Name& writer = {});
+  void add(const DepthSample& sample, const Name& writer = {});
+  void add(const HeadingSample& sample, const Name& writer = {});
+  void add(const UsblSample& sample, const Name& writer = {});
+  void add(const AirspeedSample& sample, const Name& writer = {});
+  void add(const PropulsionSample& sample, const Name& writer = {});
+  void add(const FinsSample& sample, const Name& writer = {});
 
   /// set_position, realign, enable_source, disable_source, mark_at_rest; others are ignored. Takes effect
   /// with the next inertial sample. False when the command names nothing the engine has, or lacks a number.
@@ -72,19 +88,23 @@ class FusionEngine {
   void start_from(const InitialState& state);
 
   /// At the end of a recording: every measurement that still waits gets its verdict. Late ones act now, and
-  /// nav_state() follows; those stamped after the newest inertial sample are from_the_future.
+  /// nav_state() follows; those stamped after the newest inertial sample are from_the_future. All verdicts
+  /// are final then, and an older measurement that is still added is late.
   void finish();
 
   /// At the newest accepted inertial sample. header.sequence counts navigation states.
   [[nodiscard]] const NavState& nav_state() const;
 
-  /// The oldest verdict not yet taken. Drain after each call: when more than 1024 wait, the oldest is dropped
-  /// and counted.
+  /// The oldest verdict not yet taken. Drain after each call: when more than 1024 wait, beside two for each
+  /// of `measurement_capacity`, the oldest is dropped and counted.
   bool next_verdict(Verdict& verdict);
   [[nodiscard]] std::uint64_t verdicts_dropped() const;
 
   /// Inertial steps done again for the sake of late measurements, since construction.
   [[nodiscard]] std::uint64_t repeated_steps() const;
+  /// A late measurement that asks for more than `replay_steps_per_sample` steps has not acted in nav_state()
+  /// yet.
+  [[nodiscard]] bool catching_up() const;
 
   void fill(NavDetail& detail) const;
   void fill(AlignmentStatus& status) const;

@@ -36,6 +36,7 @@ History::History(const Setup& setup)
       marks_(snapshots_.size()),
       pool_(setup.config.measurement_capacity),
       order_(setup.config.measurement_capacity),
+      judgements_(setup.config.measurement_capacity),
       catching_(setup) {
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint16_t>(i);
   for (std::size_t i = 0; i < marks_.size(); ++i) marks_[i].place = static_cast<std::uint16_t>(i);
@@ -50,7 +51,7 @@ std::size_t History::first_after(TimeNs stamp_ns) const {
   return static_cast<std::size_t>(found - begin);
 }
 
-History::Placing History::insert(const Measurement& measurement) {
+History::Placing History::insert(const Measurement& measurement, VerdictSink& sink) {
   if (!started_) return Placing::not_started;
   const TimeNs newest = core_.now_ns();
   const TimeNs stamp = measurement.stamp_ns;
@@ -67,7 +68,7 @@ History::Placing History::insert(const Measurement& measurement) {
         (dirty_ns_ != 0 && dirty_ns_ <= floor) || (catching_up_ && catching_.now_ns() < floor);
     if (stamp <= floor || needed) return Placing::late;
     for (std::size_t i = 0; i < kept; ++i) drop_snapshot(0);
-    drop_before(floor);
+    drop_before(floor, sink);
   }
   const auto begin = order_.begin();
   const auto end = begin + static_cast<std::ptrdiff_t>(event_count_);
@@ -89,11 +90,13 @@ void History::advance(const ImuStep& step, VerdictSink& sink) {
   const std::uint64_t target = steps_done_ + 1;
   go_back();
   repeat_until(target, sink);
-  if (!catching_up_) return;
-  ++catching_for_;
-  const bool forget = target - caught_up_step_ + 1 >= steps_.size();
-  const std::uint64_t most = setup_->config.replay_steps_per_sample;
-  catch_up(forget || catching_for_ >= kMostCatching ? target : most, sink);
+  if (catching_up_) {
+    ++catching_for_;
+    const bool forget = target - caught_up_step_ + 1 >= steps_.size();
+    const std::uint64_t most = setup_->config.replay_steps_per_sample;
+    catch_up(forget || catching_for_ >= kMostCatching ? target : most, sink);
+  }
+  settle_past(sink);
 }
 
 std::size_t History::snapshot_before(TimeNs stamp_ns) const {
@@ -162,11 +165,13 @@ void History::settle(VerdictSink& sink) {
     // An order stays for the step that may yet come.
     if (event(rank).command) {
       std::swap(order_[kept++], order_[rank]);
-    } else if (!event(rank).judged) {
-      sink.judged(event(rank), unplaced);
+    } else {
+      say(event(rank), unplaced, true, sink);
     }
   }
   event_count_ = kept;
+  snapshot_count_ = 0;
+  save(sink);
 }
 
 void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
@@ -175,11 +180,11 @@ void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
   while (steps_done_ < target) {
     run(core_, steps_[steps_done_ % steps_.size()], sink);
     ++steps_done_;
-    if (save_due(newest_ns)) save();
+    if (save_due(newest_ns)) save(sink);
     // A snapshot from which some step since is no longer held is of no use.
     while (snapshot_count_ > 1 && steps_done_ - marks_[0].after_step >= steps_.size()) {
       drop_snapshot(0);
-      drop_before(oldest_ns());
+      drop_before(oldest_ns(), sink);
     }
   }
   thin_snapshots(newest_ns);
@@ -191,8 +196,9 @@ void History::run(Core& core, const ImuStep& step, VerdictSink& sink) {
     if (one.stamp_ns > step.to_ns) break;
     core.advance(step, one.stamp_ns);
     const Judgement judgement = core.apply(one);
-    if (!one.judged && !one.command) sink.judged(one, judgement);
-    one.judged = true;
+    if (one.command || one.settled) continue;
+    judgements_[order_[rank]] = judgement;
+    if (!one.judged || judgement.kind != one.said) say(one, judgement, false, sink);
   }
   core.advance(step, step.to_ns);
   core.finish(step);
@@ -208,14 +214,14 @@ bool History::save_due(TimeNs newest_ns) const {
          since >= (newest_ns - core_.now_ns()) / kSaveShare;
 }
 
-void History::save() {
+void History::save(VerdictSink& sink) {
   if (snapshot_count_ == snapshots_.size()) drop_snapshot(0);
   Mark& mark = marks_[snapshot_count_];
   mark.after_step = steps_done_;
   mark.now_ns = core_.now_ns();
   snapshots_[mark.place] = core_;
   ++snapshot_count_;
-  drop_before(oldest_ns());
+  drop_before(oldest_ns(), sink);
 }
 
 void History::thin_snapshots(TimeNs newest_ns) {
@@ -235,21 +241,48 @@ void History::drop_snapshot(std::size_t age_order) {
   --snapshot_count_;
 }
 
-void History::drop_before(TimeNs stamp_ns) {
+void History::drop_before(TimeNs stamp_ns, VerdictSink& sink) {
   const std::size_t count = first_after(stamp_ns);
   if (count == 0) return;
+  settle_first(count, VerdictKind::late, sink);
+  settled_count_ -= count;
   const auto begin = order_.begin();
   std::rotate(begin, begin + static_cast<std::ptrdiff_t>(count),
               begin + static_cast<std::ptrdiff_t>(event_count_));
   event_count_ -= count;
 }
 
+void History::say(Measurement& event, const Judgement& judgement, bool is_final, VerdictSink& sink) {
+  const VerdictKind previous = event.judged ? event.said : judgement.kind;
+  if (event.judged) ++event.revision;
+  event.judged = true;
+  event.settled = is_final;
+  event.said = judgement.kind;
+  sink.judged(event, judgement, previous);
+}
+
+void History::settle_first(std::size_t count, VerdictKind unjudged, VerdictSink& sink) {
+  Judgement none;
+  none.kind = unjudged;
+  for (; settled_count_ < count; ++settled_count_) {
+    Measurement& one = event(settled_count_);
+    if (!one.command && !one.settled) say(one, one.judged ? judgement(settled_count_) : none, true, sink);
+  }
+}
+
+void History::settle_past(VerdictSink& sink) {
+  // What insert() takes in is younger than this,
+  TimeNs until_ns = std::max(marks_[0].now_ns, core_.now_ns() - from_seconds(setup_->config.horizon_s) - 1);
+  // and the second navigator judges what is younger than itself again.
+  if (catching_up_) until_ns = std::min(until_ns, catching_.now_ns());
+  while (settled_count_ < event_count_ && event(settled_count_).stamp_ns <= until_ns)
+    settle_first(settled_count_ + 1, VerdictKind::late, sink);
+}
+
 void History::forget_past(VerdictSink& sink, VerdictKind verdict) {
-  Judgement unjudged;
-  unjudged.kind = verdict;
-  for (std::size_t rank = 0; rank < event_count_; ++rank)
-    if (!event(rank).judged && !event(rank).command) sink.judged(event(rank), unjudged);
+  settle_first(event_count_, verdict, sink);
   event_count_ = 0;
+  settled_count_ = 0;
   snapshot_count_ = 0;
   steps_done_ = 0;
   fine_until_step_ = 0;
@@ -257,24 +290,24 @@ void History::forget_past(VerdictSink& sink, VerdictKind verdict) {
   catching_up_ = false;
 }
 
-void History::begin(TimeNs now_ns) {
+void History::begin(TimeNs now_ns, VerdictSink& sink) {
   core_.rebase(now_ns, 0.0);
   started_ = true;
-  save();
+  save(sink);
 }
 
 void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink) {
   forget_past(sink, VerdictKind::not_aligned);
   core_.start(initial, now_ns);
   started_ = true;
-  save();
+  save(sink);
 }
 
 void History::rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink) {
   if (catching_up_) catch_up(steps_done_, sink);
   forget_past(sink, VerdictKind::late);
   core_.rebase(now_ns, unobserved_s);
-  save();
+  save(sink);
 }
 
 void History::clear(VerdictSink& sink) {

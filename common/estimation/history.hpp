@@ -7,10 +7,12 @@
 
 namespace fathom::estimation {
 
-/// Receives the judgements as they are made.
+/// Receives the verdicts as they are given.
 class VerdictSink {
  public:
-  virtual void judged(const Measurement& measurement, const Judgement& judgement) = 0;
+  /// `measurement` has the number of this verdict, and whether it is final; `previous` is the kind of the one
+  /// before it, or of this one when it is the first.
+  virtual void judged(const Measurement& measurement, const Judgement& judgement, VerdictKind previous) = 0;
 
  protected:
   ~VerdictSink() = default;
@@ -29,6 +31,10 @@ class VerdictSink {
 /// sample: a second navigator starts from the snapshot and takes that many steps with each sample, while the
 /// first goes on without the event. As soon as the second has caught up it takes the first one's place. Then
 /// the state is that function of the sorted events again.
+///
+/// The first verdict of an event is given when it acts for the first time, another one when a repetition
+/// judges it to be of another kind, and the final one when nothing that may still come can act before it: it
+/// has left the horizon, or the room that there is for events, and no second navigator is behind it.
 class History {
  public:
   enum class Placing : std::uint8_t { taken, late, duplicate, from_the_future, not_started };
@@ -44,13 +50,14 @@ class History {
   }
 
   /// Takes an event in; it acts with the next step.
-  Placing insert(const Measurement& measurement);
+  Placing insert(const Measurement& measurement, VerdictSink& sink);
   /// One inertial interval, with all the repetition that late events ask for.
   void advance(const ImuStep& step, VerdictSink& sink);
   /// Lets late events act now instead of with the next steps; those after the present instant are given up.
+  /// All verdicts are final then: what comes later and is older is late.
   void settle(VerdictSink& sink);
   /// Lets the present instant be this one, with no past.
-  void begin(TimeNs now_ns);
+  void begin(TimeNs now_ns, VerdictSink& sink);
   void begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink);
   void rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink);
   /// Back to before the first sample.
@@ -75,7 +82,14 @@ class History {
     std::uint16_t place = 0;  ///< in snapshots_
   };
 
-  /// Events that have not acted yet get this verdict.
+  /// Gives a verdict of an event, the one after those that were given before.
+  static void say(Measurement& event, const Judgement& judgement, bool is_final, VerdictSink& sink);
+  /// Gives the final verdict of the next `count` events that have none; `unjudged`: of those that have not
+  /// acted.
+  void settle_first(std::size_t count, VerdictKind unjudged, VerdictSink& sink);
+  /// Gives the final verdict of events that no event to come can precede.
+  void settle_past(VerdictSink& sink);
+  /// Every event gets its final verdict and is forgotten; this one, when it has not acted yet.
   void forget_past(VerdictSink& sink, VerdictKind verdict);
   /// Goes back to before the earliest event that came late, or lets the second navigator do it.
   void go_back();
@@ -90,14 +104,15 @@ class History {
   [[nodiscard]] TimeNs oldest_ns() const;
   /// Whether a snapshot is due, `newest_ns` being the end of the newest step.
   [[nodiscard]] bool save_due(TimeNs newest_ns) const;
-  void save();
+  void save(VerdictSink& sink);
   void thin_snapshots(TimeNs newest_ns);
   void drop_snapshot(std::size_t age_order);
-  void drop_before(TimeNs stamp_ns);
+  void drop_before(TimeNs stamp_ns, VerdictSink& sink);
   [[nodiscard]] const Core& snapshot(std::size_t age_order) const {
     return snapshots_[marks_[age_order].place];
   }
   [[nodiscard]] Measurement& event(std::size_t rank) { return pool_[order_[rank]]; }
+  [[nodiscard]] const Judgement& judgement(std::size_t rank) const { return judgements_[order_[rank]]; }
   [[nodiscard]] std::size_t first_after(TimeNs stamp_ns) const;
 
   const Setup* setup_;
@@ -112,6 +127,8 @@ class History {
   std::vector<Measurement> pool_;
   std::vector<std::uint16_t> order_;  ///< ranks to places in the pool; the first event_count_ are in use
   std::size_t event_count_ = 0;
+  std::size_t settled_count_ = 0;      ///< so many of the oldest have their final verdict
+  std::vector<Judgement> judgements_;  ///< the newest of each place in the pool
   std::uint64_t repeated_steps_ = 0;
   std::uint64_t fine_until_step_ = 0;  ///< snapshots stand close as long as late events keep coming
   // The second navigator. Snapshots up to caught_up_step_ are its own, those behind it the first one's.

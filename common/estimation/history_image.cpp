@@ -24,7 +24,8 @@ bool is_bool(const bool& value) {
 
 /// Whether it can be what it says it is: bytes from the network may be anything.
 bool sound(const Measurement& event, std::size_t sensors) {
-  return is_bool(event.command) && is_bool(event.judged) &&
+  return is_bool(event.command) && is_bool(event.judged) && is_bool(event.settled) &&
+         static_cast<std::size_t>(event.said) < kVerdictKinds && event.writer.sound() &&
          event.sample.index() < std::variant_size_v<AnySample> && event.sensor >= (event.command ? -1 : 0) &&
          event.sensor < static_cast<int>(sensors) && event.header().vehicle.sound() &&
          event.header().sensor.sound();
@@ -74,10 +75,16 @@ bool History::read(ImageReader& image, VerdictSink& sink) {
   }
   for (std::size_t rank = 0; rank < order_.size(); ++rank) order_[rank] = static_cast<std::uint16_t>(rank);
   event_count_ = head.events;
-  for (std::size_t rank = 0; rank < event_count_; ++rank) image.get(pool_[rank]);
+  for (std::size_t rank = 0; rank < event_count_; ++rank) {
+    image.get(pool_[rank]);
+    judgements_[rank] = {};  // until it acts again
+    judgements_[rank].kind = pool_[rank].said;
+    // Those that have their final verdict are the oldest.
+    if (settled_count_ == rank && (pool_[rank].settled || pool_[rank].command)) ++settled_count_;
+  }
   steps_done_ = head.base_step;
   started_ = true;
-  save();
+  save(sink);
   repeat_until(head.steps_done, sink);
   return true;
 }

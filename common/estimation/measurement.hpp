@@ -20,12 +20,16 @@ using AnySample = std::variant<Command, GpsSample, DvlSample, DepthSample, Headi
 
 /// Something that happens to the filter at an instant: a measurement or an order.
 struct Measurement {
-  TimeNs stamp_ns = 0;   ///< validity, latency taken off
-  bool command = false;  ///< an order: no verdict
-  bool judged = false;   ///< its verdict has been given
+  TimeNs stamp_ns = 0;                   ///< validity, latency taken off
+  bool command = false;                  ///< an order: no verdict
+  bool judged = false;                   ///< its first verdict has been given
+  bool settled = false;                  ///< its final verdict has been given
+  VerdictKind said = VerdictKind::used;  ///< of the verdict given last
+  std::uint32_t revision = 0;            ///< of the verdict given last
   SourceKind source = SourceKind::gps;
   int sensor = -1;  ///< index in EngineConfig::sensors
   std::uint64_t sequence = 0;
+  Name writer;  ///< who published it, for its verdicts
   AnySample sample;
 
   [[nodiscard]] const SampleHeader& header() const {

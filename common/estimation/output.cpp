@@ -118,7 +118,7 @@ Verdict verdict_of(const SampleHeader& header, SourceKind source, const Judgemen
   verdict.header = header;
   verdict.source = source;
   verdict.model = judgement.model;
-  verdict.kind = judgement.kind;
+  verdict.kind = verdict.previous = judgement.kind;
   verdict.dimensions = judgement.dimensions;
   for (std::size_t i = 0; i < judgement.dimensions; ++i) {
     verdict.innovation[i] = judgement.innovation[i];

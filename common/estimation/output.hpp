@@ -12,7 +12,8 @@ void fill(const Setup& setup, const Core& core, NavState& out);
 void fill(const Setup& setup, const Core& core, NavDetail& out);
 void fill(const Setup& setup, const Core& core, AlignmentStatus& out);
 
-/// What is published of a judgement, under the header of the sample judged.
+/// What is published of a judgement, under the header of the sample judged. The first of its measurement, and
+/// not final, unless the caller says otherwise.
 [[nodiscard]] Verdict verdict_of(const SampleHeader& header, SourceKind source, const Judgement& judgement);
 
 }  // namespace fathom::estimation

@@ -19,6 +19,13 @@ EngineConfig checked(const EngineConfig& config) {
   return config;
 }
 
+/// What is recorded is judged once.
+Verdict final_verdict(const SampleHeader& header, SourceKind source, const Judgement& judgement) {
+  Verdict out = verdict_of(header, source, judgement);
+  out.is_final = true;
+  return out;
+}
+
 }  // namespace
 
 /// What the filter did in some ticks, and the navigator after each of them.
@@ -41,7 +48,7 @@ void Smoother::add(const ImuSample& sample) {
   if (result.outcome == ImuIntake::Outcome::refused) {
     Judgement judgement;
     judgement.kind = result.refusal;
-    refused_.push_back(verdict_of(sample.header, SourceKind::imu, judgement));
+    refused_.push_back(final_verdict(sample.header, SourceKind::imu, judgement));
     return;
   }
   if (result.outcome == ImuIntake::Outcome::rebased) ++axis_;
@@ -58,7 +65,7 @@ void Smoother::remember(const Sample& sample, SourceKind source) {
   if (found == sensors.end()) {
     Judgement judgement;
     judgement.kind = VerdictKind::source_disabled;
-    refused_.push_back(verdict_of(sample.header, source, judgement));
+    refused_.push_back(final_verdict(sample.header, source, judgement));
     return;
   }
   Event& event = events_.emplace_back();
@@ -117,7 +124,7 @@ void Smoother::refuse(const Event& event, VerdictKind kind,
   if (!verdict || event.measurement.command) return;
   Judgement judgement;
   judgement.kind = kind;
-  verdict(verdict_of(event.measurement.header(), event.measurement.source, judgement));
+  verdict(final_verdict(event.measurement.header(), event.measurement.source, judgement));
 }
 
 void Smoother::advance(Snapshot& at, const std::function<void(const Verdict&)>& verdict) const {
@@ -144,7 +151,7 @@ void Smoother::advance(Snapshot& at, const std::function<void(const Verdict&)>& 
       }
       at.core.advance(tick.step, one.stamp_ns);
       const Judgement judgement = at.core.apply(one);
-      if (verdict && !one.command) verdict(verdict_of(one.header(), one.source, judgement));
+      if (verdict && !one.command) verdict(final_verdict(one.header(), one.source, judgement));
     }
     at.core.advance(tick.step, tick.step.to_ns);
     at.core.finish(tick.step);

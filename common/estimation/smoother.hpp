@@ -45,7 +45,7 @@ class Smoother {
   void add(const Command& command);
 
   struct Output {
-    /// Exactly one verdict of each measurement, in the order of their instants.
+    /// Exactly one verdict of each measurement, a final one, in the order of their instants.
     std::function<void(const Verdict&)> verdict;
     /// The forward pass, one state per accepted inertial sample, in the order of time.
     std::function<void(const NavState&)> filtered;

@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-/// What became of one measurement. Exactly one per measurement.
+/// What became of one measurement.
 enum class VerdictKind : std::uint8_t {
   used = 0,
   rejected = 1,      ///< by the gate: test ratio above 1
@@ -41,6 +41,13 @@ enum class SourceKind : std::uint8_t {
 inline constexpr std::size_t kSourceKinds = 9;
 [[nodiscard]] std::string_view to_string(SourceKind source);
 
+/// A judgement of one measurement. The first one (revision 0) is given as soon as the measurement has been
+/// judged. A late neighbour may change the judgement: then another verdict of the same measurement follows.
+/// Exactly one verdict of each measurement is final, and it is the last one.
+///
+/// Who counts measurements as they are judged counts each first verdict, and moves it from `previous` to
+/// `kind` with each later one (VerdictTally). Who needs totals that never fall counts the final ones.
+///
 /// header: stamp and sequence of the measurement; received_ns: its arrival.
 struct Verdict {
   SampleHeader header;
@@ -53,6 +60,43 @@ struct Verdict {
   std::array<double, 6> innovation_sigma{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
   double test_ratio = kUnknown;  ///< below 1 accepted
   double limit = kUnknown;       ///< chi-square threshold behind the ratio, or the bound that was broken
+  std::uint32_t revision = 0;    ///< number of this verdict among those of its measurement, from 0
+  VerdictKind previous = VerdictKind::used;  ///< kind of the revision before; `kind` itself in revision 0
+  bool is_final = false;                     ///< the measurement cannot be judged again
+};
+
+/// The first verdict of a measurement, or one that differs in kind from the one before: something happened.
+[[nodiscard]] constexpr bool is_news(const Verdict& verdict) {
+  return verdict.revision == 0 || verdict.kind != verdict.previous;
+}
+
+/// How many measurements were judged how. Each is counted once, with its first verdict, and moves when a
+/// later verdict differs. Verdicts of a measurement whose first was not heard change nothing in the sum.
+class VerdictTally {
+ public:
+  void add(const Verdict& verdict) {
+    const auto kind = static_cast<std::size_t>(verdict.kind);
+    const auto previous = static_cast<std::size_t>(verdict.previous);
+    if (kind >= kVerdictKinds || previous >= kVerdictKinds || !is_news(verdict)) return;
+    if (verdict.revision > 0) {
+      // Where nothing has been counted as that, its first verdict was not heard.
+      if (counts_[previous] == 0) return;
+      --counts_[previous];
+    }
+    ++counts_[kind];
+  }
+  [[nodiscard]] const std::array<std::uint64_t, kVerdictKinds>& counts() const { return counts_; }
+  [[nodiscard]] std::uint64_t operator[](VerdictKind kind) const {
+    return counts_[static_cast<std::size_t>(kind)];
+  }
+  [[nodiscard]] std::uint64_t sum() const {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : counts_) sum += count;
+    return sum;
+  }
+
+ private:
+  std::array<std::uint64_t, kVerdictKinds> counts_{};
 };
 
 }  // namespace fathom

@@ -23,6 +23,10 @@ struct Mapping<Verdict> {
     copy(plain.innovation_sigma, wire.innovation_sigma());
     copy(plain.test_ratio, wire.test_ratio());
     copy(plain.limit, wire.limit());
+    copy(plain.revision, wire.revision());
+    copy_enum<VerdictKind::from_the_future, v1::VerdictKind::VERDICT_FROM_THE_FUTURE>(copy, plain.previous,
+                                                                                      wire.previous());
+    copy(plain.is_final, wire.is_final());
   }
 
   static std::string key_text(const Verdict& sample) { return vehicle_and_sensor(sample); }
