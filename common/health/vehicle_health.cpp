@@ -77,7 +77,7 @@ void VehicleHealth::add(const ServiceStatus& status, const Instant& now) {
 }
 
 void VehicleHealth::add(const Verdict& verdict, const Instant& now) {
-  if (!ours(verdict.header)) return;
+  if (!ours(verdict.header) || !is_news(verdict)) return;
   gps_.add(verdict);
   fixes_.add(verdict);
   refusal_.add(verdict, now);

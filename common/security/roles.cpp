@@ -27,10 +27,10 @@ constexpr auto kFusionWrites = list("fathom/v1/nav_state", "fathom/v1/nav_detail
                                     "fathom/v1/engine_state", "fathom/v1/service_status");
 // What the others of its kind say, too: of several fusion services each knows how far it is from the one that
 // leads.
-constexpr auto kFusionReads =
-    list("fathom/v1/imu", "fathom/v1/gps", "fathom/v1/dvl", "fathom/v1/depth", "fathom/v1/heading",
-         "fathom/v1/usbl", "fathom/v1/airspeed", "fathom/v1/propulsion", "fathom/v1/fins",
-         "fathom/v1/command", "fathom/v1/nav_state", "fathom/v1/replica_status", "fathom/v1/engine_state");
+constexpr auto kFusionReads = list(
+    "fathom/v1/imu", "fathom/v1/gps", "fathom/v1/dvl", "fathom/v1/depth", "fathom/v1/heading",
+    "fathom/v1/usbl", "fathom/v1/airspeed", "fathom/v1/propulsion", "fathom/v1/fins", "fathom/v1/command",
+    "fathom/v1/nav_state", "fathom/v1/verdict", "fathom/v1/replica_status", "fathom/v1/engine_state");
 
 constexpr auto kMonitorWrites =
     list("fathom/v1/alarm", "fathom/v1/monitor_status", "fathom/v1/service_status");

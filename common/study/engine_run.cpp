@@ -54,7 +54,7 @@ void EngineRun::take(const sim::Measurement& measurement) {
       },
       measurement);
   Verdict verdict;
-  while (engine_.next_verdict(verdict)) ++(verdict.kind == VerdictKind::used ? used_ : refused_);
+  while (engine_.next_verdict(verdict)) tally_.add(verdict);
 }
 
 bool EngineRun::navigating() const {

@@ -40,16 +40,14 @@ class EngineRun {
 
   [[nodiscard]] const estimation::FusionEngine& engine() const { return engine_; }
   [[nodiscard]] bool navigating() const;
-  /// Measurements of aiding sensors by verdict.
-  [[nodiscard]] std::uint64_t used() const { return used_; }
-  [[nodiscard]] std::uint64_t refused() const { return refused_; }
+  /// Measurements by verdict.
+  [[nodiscard]] const VerdictTally& verdicts() const { return tally_; }
 
  private:
   estimation::FusionEngine engine_;
   ImuSum sum_;
   double at_rest_s_ = 0.0;
-  std::uint64_t used_ = 0;
-  std::uint64_t refused_ = 0;
+  VerdictTally tally_;
 };
 
 /// Carries out a scenario for `duration_s` and hands the measurements to all engines in the order of their

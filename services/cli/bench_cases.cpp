@@ -66,7 +66,8 @@ BenchRow solve(const std::string& configuration, int rounds) {
         used = 0;
         for (const auto& sample : samples) {
           if (feed(engine, sample)) (void)engine.nav_state();
-          while (engine.next_verdict(verdict)) used += verdict.kind == VerdictKind::used ? 1 : 0;
+          while (engine.next_verdict(verdict))
+            used += verdict.revision == 0 && verdict.kind == VerdictKind::used ? 1 : 0;
         }
       },
       [&] {

@@ -43,7 +43,7 @@ PassageResult run(const Passage& passage) {
   const auto take_verdicts = [&] {
     Verdict verdict;
     while (engine.next_verdict(verdict))
-      ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+      if (verdict.is_final) ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
   };
   std::uint64_t done = 0;
   for_each_sample(passage, [&](const auto& sample) {

@@ -60,7 +60,14 @@ bool StatusBook::add(const Alarm& alarm, TimeNs) {
 bool StatusBook::add(const Verdict& verdict, TimeNs) {
   if (!ours(verdict.header)) return false;
   if (verdicts_.size() >= kMostNames && !verdicts_.contains(verdict.header.sensor)) return true;
+  if (!is_news(verdict)) return true;
   VerdictCounts& counts = verdicts_[verdict.header.sensor];
+  if (verdict.revision > 0) {
+    // Counted before as something else, unless its first verdict was not heard.
+    std::uint64_t& before = verdict.previous == VerdictKind::used ? counts.used : counts.not_used;
+    if (before == 0) return true;
+    --before;
+  }
   if (verdict.kind == VerdictKind::used) {
     ++counts.used;
   } else {

@@ -34,6 +34,33 @@ bool same_names(const NavDetail& a, const NavDetail& b) {
   return true;
 }
 
+VerdictRow verdict_row(const Verdict& verdict) {
+  VerdictRow row;
+  row.utc_ns = verdict.header.stamp_ns;
+  row.kind = verdict.kind;
+  row.dimensions = static_cast<std::uint8_t>(std::min(verdict.dimensions, 6U));
+  row.test_ratio = static_cast<float>(verdict.test_ratio);
+  row.latency_s = static_cast<float>(to_seconds(verdict.header.received_ns - verdict.header.stamp_ns));
+  for (std::size_t i = 0; i < row.dimensions; ++i) {
+    row.innovation[i] = static_cast<float>(verdict.innovation[i]);
+    row.sigma[i] = static_cast<float>(verdict.innovation_sigma[i]);
+  }
+  return row;
+}
+
+/// The newest row of that instant for which `same` holds; none is older than `kRevisable` rows.
+template <class Row, class Same>
+Row* row_at(Ring<Row>& rows, TimeNs utc_ns, const Same& same) {
+  constexpr std::size_t kRevisable = 256;
+  for (std::size_t back = 1; back <= std::min(rows.size(), kRevisable); ++back) {
+    Row& row = rows[rows.size() - back];
+    if (row.utc_ns == utc_ns && same(row)) return &row;
+  }
+  return nullptr;
+}
+
+const auto kAny = [](const auto&) { return true; };
+
 }  // namespace
 
 NavRow nav_row(const NavState& state) {
@@ -116,21 +143,20 @@ void History::add(const Verdict& verdict) {
     return;
   }
   VerdictSeries& series = verdicts_[*index];
+  if (verdict.revision > 0) {
+    const TimeNs utc_ns = verdict.header.stamp_ns;
+    const bool fresh = std::any_of(fresh_.verdicts.begin(), fresh_.verdicts.end(), [&](const auto& one) {
+      return one.first == *index && one.second.utc_ns == utc_ns;
+    });
+    if (fresh || row_at(series.rows, utc_ns, kAny) != nullptr)
+      fresh_.verdicts.emplace_back(*index, verdict_row(verdict));
+    return;
+  }
   // What was not used is what people look for: it gets a denser spacing than what was.
   const DurationNs spacing = verdict.kind == VerdictKind::used ? kVerdictSpacingNs : kVerdictSpacingNs / 4;
   if (!due(verdict.header.stamp_ns, series.last_ns, spacing)) return;
   series.last_ns = verdict.header.stamp_ns;
-  VerdictRow row;
-  row.utc_ns = verdict.header.stamp_ns;
-  row.kind = verdict.kind;
-  row.dimensions = static_cast<std::uint8_t>(std::min(verdict.dimensions, 6U));
-  row.test_ratio = static_cast<float>(verdict.test_ratio);
-  row.latency_s = static_cast<float>(to_seconds(verdict.header.received_ns - verdict.header.stamp_ns));
-  for (std::size_t i = 0; i < row.dimensions; ++i) {
-    row.innovation[i] = static_cast<float>(verdict.innovation[i]);
-    row.sigma[i] = static_cast<float>(verdict.innovation_sigma[i]);
-  }
-  fresh_.verdicts.emplace_back(*index, row);
+  fresh_.verdicts.emplace_back(*index, verdict_row(verdict));
 }
 
 void History::add(const FixRow& fix) {
@@ -142,10 +168,39 @@ void History::add(const FixRow& fix) {
   if (fresh_.fixes.size() < kMostFresh) fresh_.fixes.push_back(fix);
 }
 
+void History::revise_fix(const Verdict& verdict) {
+  const auto same = [&](const FixRow& row) { return row.sensor == verdict.header.sensor; };
+  const auto fresh = std::find_if(fresh_.fixes.begin(), fresh_.fixes.end(), [&](const FixRow& row) {
+    return row.utc_ns == verdict.header.stamp_ns && same(row);
+  });
+  if (fresh != fresh_.fixes.end()) {
+    fresh->verdict = verdict.kind;
+    return;
+  }
+  const FixRow* row = row_at(fixes_, verdict.header.stamp_ns, same);
+  if (row == nullptr || fresh_.fixes.size() >= kMostFresh) return;
+  fresh_.fixes.push_back(*row);
+  fresh_.fixes.back().verdict = verdict.kind;
+}
+
 Fresh History::commit() {
   for (const NavRow& row : fresh_.nav) nav_.push(row);
-  for (const auto& [index, row] : fresh_.verdicts) verdicts_[index].rows.push(row);
-  for (const FixRow& row : fresh_.fixes) fixes_.push(row);
+  for (const auto& [index, row] : fresh_.verdicts) {
+    VerdictRow* before = row_at(verdicts_[index].rows, row.utc_ns, kAny);
+    if (before != nullptr) {
+      *before = row;
+    } else {
+      verdicts_[index].rows.push(row);
+    }
+  }
+  for (const FixRow& row : fresh_.fixes) {
+    FixRow* before = row_at(fixes_, row.utc_ns, [&](const FixRow& one) { return one.sensor == row.sensor; });
+    if (before != nullptr) {
+      *before = row;
+    } else {
+      fixes_.push(row);
+    }
+  }
   if (fresh_.detail) detail_.push(*fresh_.detail);
   return std::exchange(fresh_, {});
 }

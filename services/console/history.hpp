@@ -94,9 +94,12 @@ class History {
 
   void add(const NavState& state);
   void add(const NavDetail& detail);
-  /// Rows nearer to the one before than the spacing are left out, unless one was not used.
+  /// Rows nearer to the one before than the spacing are left out, unless one was not used. A later verdict on
+  /// the same measurement takes the place of the row of the first one, where that was kept.
   void add(const Verdict& verdict);
   void add(const FixRow& fix);
+  /// A later verdict on a fix that add() has kept.
+  void revise_fix(const Verdict& verdict);
 
   /// What came since the last call. What add() keeps shows in the rings from then on, so that a snapshot
   /// and the increments after it fit without gap or overlap.

@@ -31,19 +31,22 @@ void Picture::add(const NavDetail& detail, const health::Instant&) {
 }
 
 void Picture::add(const Verdict& verdict, const health::Instant& at) {
-  if (!book_.add(verdict, at.monotonic_ns)) return;
+  if (!book_.add(verdict, at.monotonic_ns) || !is_news(verdict)) return;
   history_.add(verdict);
   judge_fix(verdict);
   if (sources_.size() >= kMostNames && !sources_.contains(verdict.header.sensor)) return;
   Source& source = sources_[verdict.header.sensor];
   source.line.sensor = verdict.header.sensor;
   source.line.kind = verdict.source;
+  source.tally.add(verdict);
+  source.line.counts = source.tally.counts();
+  // A later verdict on an older measurement says nothing about the sensor as it is now.
+  if (verdict.revision > 0 && verdict.header.stamp_ns != source.stamp_ns) return;
+  source.stamp_ns = verdict.header.stamp_ns;
   source.line.last = verdict.kind;
   source.line.last_ratio = verdict.test_ratio;
   source.line.latency_s = to_seconds(verdict.header.received_ns - verdict.header.stamp_ns);
-  if (const auto kind = static_cast<std::size_t>(verdict.kind); kind < kVerdictKinds)
-    ++source.line.counts[kind];
-  source.heard_ns = at.monotonic_ns;
+  if (verdict.revision == 0) source.heard_ns = at.monotonic_ns;
   if (verdict.kind == VerdictKind::used) source.used_ns = at.monotonic_ns;
 }
 
@@ -103,6 +106,7 @@ void Picture::judge_fix(const Verdict& verdict) {
     return fix.row.utc_ns == verdict.header.stamp_ns && fix.row.sensor == verdict.header.sensor;
   });
   if (at == waiting_.end()) {
+    if (verdict.revision > 0) history_.revise_fix(verdict);
     judged_.push({verdict.header.sensor, verdict.header.stamp_ns, verdict.kind});
     return;
   }

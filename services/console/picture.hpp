@@ -89,6 +89,8 @@ class Picture {
  private:
   struct Source {
     SourceLine line;
+    VerdictTally tally;
+    TimeNs stamp_ns = 0;  ///< of the newest measurement judged
     TimeNs used_ns = 0;
     TimeNs heard_ns = 0;
   };

@@ -54,7 +54,7 @@ struct Observation {
   TimeNs truth_began_ns = 0;  ///< the first row of the truth: 0 until there is one
   TimeNs aligned_ns = 0;      ///< stamp of the first status that said aligned: 0 until there is one
   std::map<std::string, ServiceRecord> services;
-  std::map<std::string, std::array<std::uint64_t, kVerdictKinds>> verdicts;
+  std::map<std::string, VerdictTally> verdicts;
   std::map<std::string, Alarm> alarms;  ///< every alarm seen, in its last state
   std::vector<GpsOutage> outages;
   dataset::Score score;

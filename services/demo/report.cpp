@@ -47,7 +47,8 @@ std::string report_json(const std::string& scenario, double duration_s, const Ob
   json services = json::object();
   for (const std::string& name : demands.services) services[name] = health_word(seen, name);
   json verdicts = json::object();
-  for (const auto& [source, counts] : seen.verdicts) {
+  for (const auto& [source, tally] : seen.verdicts) {
+    const auto& counts = tally.counts();
     for (std::size_t kind = 0; kind < counts.size(); ++kind) {
       verdicts[source][std::string(to_string(static_cast<VerdictKind>(kind)))] = counts[kind];
     }

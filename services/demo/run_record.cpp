@@ -148,7 +148,7 @@ void RunRecord::add(const AlignmentStatus& status) {
 }
 
 void RunRecord::add(const Verdict& verdict) {
-  ++seen_.verdicts[verdict.header.sensor.str()].at(static_cast<std::size_t>(verdict.kind));
+  seen_.verdicts[verdict.header.sensor.str()].add(verdict);
 }
 
 void RunRecord::add(const Alarm& alarm) {

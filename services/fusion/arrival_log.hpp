@@ -53,19 +53,25 @@ class ArrivalLog {
   using Sample = std::variant<ImuSample, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
                               AirspeedSample, PropulsionSample, FinsSample>;
 
+  struct Arrival {
+    Sample sample;
+    Name writer;
+  };
+
   /// Forgets everything; note() keeps samples only while it is on.
   void keep(bool on) {
     if (on == on_) return;
     on_ = on;
-    samples_.clear();
-    samples_.shrink_to_fit();
+    arrivals_.clear();
+    arrivals_.shrink_to_fit();
     orders_.clear();
   }
+  /// `writer`: who published it.
   template <class T>
-  void note(const T& sample) {
+  void note(const T& sample, const Name& writer = {}) {
     if (!on_) return;
-    if (samples_.size() == kMost) samples_.pop_front();
-    samples_.emplace_back(sample);
+    if (arrivals_.size() == kMost) arrivals_.pop_front();
+    arrivals_.push_back({sample, writer});
   }
   void note(const Command& order) {
     if (!on_) return;
@@ -73,14 +79,14 @@ class ArrivalLog {
     if (orders_.size() == kMostOrders) orders_.pop_front();
     orders_.push_back(order);
   }
-  [[nodiscard]] const std::deque<Sample>& samples() const { return samples_; }
+  [[nodiscard]] const std::deque<Arrival>& arrivals() const { return arrivals_; }
   [[nodiscard]] const std::deque<Command>& orders() const { return orders_; }
 
  private:
   static constexpr std::size_t kMost = 8192;  // ten seconds of the busiest vehicle
   static constexpr std::size_t kMostOrders = 64;
   bool on_ = false;
-  std::deque<Sample> samples_;
+  std::deque<Arrival> arrivals_;
   std::deque<Command> orders_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -14,12 +15,12 @@
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "estimation/fusion_engine.hpp"
-#include "fusion/arrival_book.hpp"
 #include "fusion/arrival_log.hpp"
 #include "fusion/checkpoint.hpp"
 #include "fusion/checkpoint_keeper.hpp"
 #include "fusion/life_sign.hpp"
 #include "fusion/replica_link.hpp"
+#include "fusion/verdict_desk.hpp"
 
 namespace fathom::fusion {
 namespace {
@@ -87,10 +88,10 @@ struct FusionService::Impl {
         start(started(the_host, config, label)),
         nav_states(host.participant(), nav_state_options(host, config)),
         details(host.participant(), slow_options(config)),
-        verdicts(host.participant()),
         alignments(host.participant(), slow_options(config)),
         forecasts(host.participant(), slow_options(config)),
         link(replica_link(config)),
+        verdicts(host, mutex, engine, link ? [this] { return speaks(); } : std::function<bool()>()),
         gps(host.participant(), aiding<GpsSample>()),
         dvl(host.participant(), aiding<DvlSample>()),
         depth(host.participant(), aiding<DepthSample>()),
@@ -123,25 +124,35 @@ struct FusionService::Impl {
   ~Impl() {
     host.on_tick(kNsPerSecond, [] {});
     host.on_status([](ServiceStatus&) {});
+    // Neither a fusion that goes on from a checkpoint nor another one will say what became of what is held.
+    if (keeper || link) return;
+    {
+      const std::lock_guard lock(mutex);
+      ended = true;
+      engine.finish();
+    }
+    verdicts.publish();
   }
 
   template <class T>
   typename bus::Reader<T>::Handler aiding() {
     return [this](const T& sample, const bus::SampleInfo& info) {
       std::uint64_t missed = 0;
+      // Now, as it may be gone when the last verdict is given.
+      const Name writer(host.participant().writer_name(info.writer_guid));
       {
         const std::lock_guard lock(mutex);
+        if (ended) return;
         if (sample.header.vehicle != vehicle) {
           ++counts.other_vehicle;
           return;
         }
-        arrivals.note(source_of(sample), sample.header, info.writer_guid);
-        log.note(sample);
+        log.note(sample, writer);
         missed = gaps.note(source_of(sample), sample.header);
-        engine.add(sample);
+        engine.add(sample, writer);
       }
       if (link && missed > 0) link->missed(missed);
-      publish_verdicts();
+      verdicts.publish();
     };
   }
 
@@ -154,6 +165,7 @@ struct FusionService::Impl {
     bool other_unit = false;
     {
       const std::lock_guard lock(mutex);
+      if (ended) return;
       if (sample.header.vehicle != vehicle) {
         ++counts.other_vehicle;
         return;
@@ -164,8 +176,8 @@ struct FusionService::Impl {
     if (other_unit) return refuse_other_unit(sample, info);
     {
       const std::lock_guard lock(mutex);
-      imu_writer = info.writer_guid;
-      log.note(sample);
+      verdicts.set_imu_writer(info.writer_guid);
+      log.note(sample, {});
       missed = gaps.note(SourceKind::imu, sample.header);
       ++counts.imu_samples;
       fresh = engine.add(sample);
@@ -187,7 +199,7 @@ struct FusionService::Impl {
       if (speaks()) alignments.write(alignment);
       host.log().info("alignment: " + std::string(to_string(alignment.phase)));
     }
-    publish_verdicts();
+    verdicts.publish();
   }
 
   // A second unit never mixes with the first: its samples are judged, not integrated.
@@ -195,13 +207,10 @@ struct FusionService::Impl {
     Verdict verdict;
     verdict.header = sample.header;
     verdict.source = SourceKind::imu;
-    verdict.kind = VerdictKind::source_disabled;
+    verdict.kind = verdict.previous = VerdictKind::source_disabled;
+    verdict.is_final = true;
     verdict.writer = Name(host.participant().writer_name(info.writer_guid));
-    {
-      const std::lock_guard lock(mutex);
-      ++counts.verdicts[static_cast<std::size_t>(verdict.kind)];
-    }
-    verdicts.write(verdict);
+    verdicts.publish(verdict);
   }
 
   void on_command(const Command& command) {
@@ -230,27 +239,6 @@ struct FusionService::Impl {
     return true;
   }
 
-  // Takes the verdicts out in batches, so that the engine is not held while they are written.
-  void publish_verdicts() {
-    std::array<Verdict, 32> batch;
-    std::size_t count = 0;
-    do {
-      count = 0;
-      {
-        const std::lock_guard lock(mutex);
-        while (count < batch.size() && engine.next_verdict(batch[count])) {
-          Verdict& verdict = batch[count++];
-          ++counts.verdicts[static_cast<std::size_t>(verdict.kind)];
-          const auto writer =
-              verdict.source == SourceKind::imu ? std::optional(imu_writer) : arrivals.writer_of(verdict);
-          if (writer) verdict.writer = Name(host.participant().writer_name(*writer));
-        }
-      }
-      if (!speaks()) continue;
-      for (const Verdict& verdict : std::span(batch).first(count)) verdicts.write(verdict);
-    } while (count == batch.size());
-  }
-
   void publish_slow() {
     NavDetail detail;
     AlignmentStatus alignment;
@@ -274,6 +262,7 @@ struct FusionService::Impl {
     LifeSign::Moment moment;
     {
       const std::lock_guard lock(mutex);
+      counts.verdicts = verdicts.figures();
       moment = {counts, newest_nav_state_ns, phase, imu_sensor, start.how};
     }
     life_sign.fill(moment, host.clock(), status);
@@ -300,19 +289,22 @@ struct FusionService::Impl {
     for (const Command& order : log.orders()) engine.apply(order);
     gaps.go_on_from(state.last);
     int told_again = 0;
-    for (const ArrivalLog::Sample& sample : log.samples()) {
+    for (const ArrivalLog::Arrival& arrival : log.arrivals()) {
       std::visit(
           [&]<class T>(const T& one) {
             if constexpr (std::is_same_v<T, ImuSample>) {
               if (one.header.sensor != imu_sensor) return;
               if (one.header.stamp_ns <= engine.nav_state().header.stamp_ns) return;
+              engine.add(one);
+            } else {
+              engine.add(one, arrival.writer);
             }
-            engine.add(one);
             ++told_again;
           },
-          sample);
+          arrival.sample);
       for (Verdict verdict; engine.next_verdict(verdict);) continue;
     }
+    verdicts.begin_anew();
     phase = engine.nav_state().alignment;
     return "and " + std::to_string(told_again) + " samples since";
   }
@@ -352,11 +344,11 @@ struct FusionService::Impl {
   Name imu_sensor;            // the one listened to
   Started start;
   estimation::FusionEngine& engine = start.engine;
-  ArrivalBook arrivals;
-  bus::WriterGuid imu_writer{};
   LifeSign::Counts counts;
   AlignmentPhase phase = AlignmentPhase::none;
   TimeNs newest_nav_state_ns = 0;
+
+  bool ended = false;
 
   ArrivalLog log;
   SampleGaps gaps;
@@ -365,11 +357,11 @@ struct FusionService::Impl {
 
   bus::Writer<NavState> nav_states;
   bus::Writer<NavDetail> details;
-  bus::Writer<Verdict> verdicts;
   bus::Writer<AlignmentStatus> alignments;
   bus::Writer<Forecast> forecasts;
 
   std::unique_ptr<ReplicaLink> link;  // none where this is the only fusion
+  VerdictDesk verdicts;
 
   // Readers end first: their handlers use everything above.
   bus::Reader<GpsSample> gps;

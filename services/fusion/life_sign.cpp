@@ -38,7 +38,16 @@ void LifeSign::fill(const Moment& now, const Clock& clock, ServiceStatus& status
   status.counters.push_back({"imu_samples", counts.imu_samples});
   status.counters.push_back({"nav_states", counts.nav_states});
   for (std::size_t kind = 0; kind < kVerdictKinds; ++kind) {
-    status.counters.push_back({to_string(static_cast<VerdictKind>(kind)), counts.verdicts[kind]});
+    status.counters.push_back(
+        {to_string(static_cast<VerdictKind>(kind)), counts.verdicts.tally.counts()[kind]});
+  }
+  status.counters.push_back({"final_verdicts", counts.verdicts.final_ones});
+  status.counters.push_back({"revised_verdicts", counts.verdicts.revised});
+  status.counters.push_back({"dropped_verdicts", counts.verdicts.dropped});
+  if (const std::uint64_t dropped = counts.verdicts.dropped - last_.verdicts.dropped; dropped > 0) {
+    if (status.state == ServiceState::healthy) status.state = ServiceState::degraded;
+    status.text += (status.text.empty() ? "" : "; ") + std::to_string(dropped) +
+                   " verdicts were dropped because too many waited to be published";
   }
   status.counters.push_back({"other_vehicle", counts.other_vehicle});
   status.counters.push_back({"commands", counts.commands});

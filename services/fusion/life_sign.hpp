@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 
@@ -11,11 +10,18 @@
 
 namespace fathom::fusion {
 
+struct VerdictFigures {
+  VerdictTally tally;  ///< measurements by what was said of them last
+  std::uint64_t final_ones = 0;
+  std::uint64_t revised = 0;  ///< verdicts that differ from the one before
+  std::uint64_t dropped = 0;  ///< verdicts that were never published, because too many waited
+};
+
 /// What a fusion service says of itself each second.
 class LifeSign {
  public:
   struct Counts {
-    std::array<std::uint64_t, kVerdictKinds> verdicts{};
+    VerdictFigures verdicts;
     std::uint64_t imu_samples = 0;
     std::uint64_t nav_states = 0;  ///< published
     std::uint64_t other_vehicle = 0;

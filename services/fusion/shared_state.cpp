@@ -55,12 +55,12 @@ Result<SharedState> decode_shared(std::span<const std::byte> bytes) {
 
 std::string gap_between(const SharedState& state, const ArrivalLog& log) {
   SampleGaps::Table first;
-  for (const ArrivalLog::Sample& sample : log.samples()) {
+  for (const ArrivalLog::Arrival& arrival : log.arrivals()) {
     std::visit(
         [&](const auto& one) {
           first.try_emplace({source_of(one), one.header.sensor}, one.header.sequence);
         },
-        sample);
+        arrival.sample);
   }
   for (const auto& [stream, sequence] : state.last) {
     const auto found = first.find(stream);

@@ -82,7 +82,8 @@ void add_navigation(Builder& out, const MetricsSnapshot& now) {
             "Time until fusion expects its 95 % uncertainty to pass a limit.");
   for (const ForecastLimit& limit : now.forecast)
     out.add(limit.time_to_limit_s, {{"limit", limit.name.str()}});
-  out.counter("verdicts_total", "Measurements judged by fusion, as heard by the monitor.");
+  out.counter("verdicts_total",
+              "Measurements by what fusion made of them in the end, as heard by the monitor.");
   for (const auto& [sensor, counts] : now.verdicts) {
     for (std::size_t kind = 0; kind < counts.size(); ++kind) {
       const auto word = to_string(static_cast<VerdictKind>(kind));

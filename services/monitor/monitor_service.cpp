@@ -99,6 +99,7 @@ struct MonitorService::Impl {
   void count(const Verdict& verdict) {
     const auto kind = static_cast<std::size_t>(verdict.kind);
     if (verdict.header.vehicle.view() != config.common.vehicle || kind >= kVerdictKinds) return;
+    if (!verdict.is_final) return;  // each measurement once, and a counter never falls
     if (verdicts.size() < kMostSensors || verdicts.contains(verdict.header.sensor)) {
       ++verdicts[verdict.header.sensor][kind];
     }

@@ -159,10 +159,11 @@ class FusionEar {
   [[nodiscard]] std::vector<NavState> all_states() const {
     return with([&] { return states; });
   }
+  /// Measurements of which this was said first.
   [[nodiscard]] int count(SourceKind source, VerdictKind kind) const {
     return with([&] {
       int n = 0;
-      for (const Verdict& v : verdicts) n += v.source == source && v.kind == kind ? 1 : 0;
+      for (const Verdict& v : verdicts) n += v.source == source && v.kind == kind && v.revision == 0 ? 1 : 0;
       return n;
     });
   }
@@ -174,6 +175,15 @@ class FusionEar {
         if (v.source == source && v.header.sequence == sequence) out.push_back(v);
       }
       return out;
+    });
+  }
+  /// How many final verdicts there are on what that source measured at an instant.
+  [[nodiscard]] int finals(SourceKind source, TimeNs stamp_ns) const {
+    return with([&] {
+      int n = 0;
+      for (const Verdict& v : verdicts)
+        n += v.source == source && v.header.stamp_ns == stamp_ns && v.is_final ? 1 : 0;
+      return n;
     });
   }
   /// Who wrote what was judged.

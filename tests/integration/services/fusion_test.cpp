@@ -161,6 +161,67 @@ TEST_F(FusionTest, SaysThatInertialSamplesAreMissing) {
   }));
 }
 
+TEST_F(FusionTest, SaysAgainWhatALateFixChangesAndOnceWhatIsFinal) {
+  start(174, {"engine.horizon_s=2"});
+  vehicle->run(100, false);
+  Command somewhere = vehicle->command(CommandKind::set_position);
+  somewhere.latitude_rad = kLatitude;
+  somewhere.longitude_rad = kLongitude;
+  somewhere.sigma_m = 200.0;
+  vehicle->write(somewhere);
+  ASSERT_TRUE(wait_until([&] {
+    vehicle->run(10, false);
+    return ear->state_count() > 0 && ear->last_state().position_covariance_N_m2[0] > 1e4;
+  }));
+  vehicle->run(20, false);
+  GpsSample good = vehicle->gps();
+  good.position_sigma_N_m = {2.0, 2.0, 4.0};
+  vehicle->run(20, false);
+  GpsSample wrong = vehicle->gps();
+  wrong.position_sigma_N_m = {2.0, 2.0, 4.0};
+  wrong.latitude_rad += 250.0 / 6.36e6;
+  vehicle->write(wrong);
+  vehicle->run(10, false);
+  EXPECT_EQ(to_string(verdict_on(SourceKind::gps, wrong.header.sequence)), "used");
+
+  vehicle->write(good);
+  vehicle->run(10, false);
+  EXPECT_EQ(to_string(verdict_on(SourceKind::gps, good.header.sequence)), "used");
+  ASSERT_TRUE(wait_until([&] { return ear->of(SourceKind::gps, wrong.header.sequence).size() == 2; }));
+  const Verdict revised = ear->of(SourceKind::gps, wrong.header.sequence).back();
+  EXPECT_EQ(to_string(revised.kind), "rejected");
+  EXPECT_EQ(to_string(revised.previous), "used");
+  EXPECT_EQ(revised.revision, 1U);
+  EXPECT_FALSE(revised.is_final);
+  ASSERT_TRUE(wait_until([&] { return ear->last_state().header.stamp_ns == vehicle->now_ns(); }));
+  EXPECT_NEAR((ear->last_state().latitude_rad - kLatitude) * 6.36e6, 0.0, 3.0);
+
+  vehicle->run(220, false);
+  ASSERT_TRUE(wait_until([&] { return ear->of(SourceKind::gps, wrong.header.sequence).size() == 3; }));
+  const Verdict last = ear->of(SourceKind::gps, wrong.header.sequence).back();
+  EXPECT_EQ(to_string(last.kind), "rejected");
+  EXPECT_EQ(last.revision, 2U);
+  EXPECT_TRUE(last.is_final);
+  EXPECT_EQ(last.writer, Name("still_vehicle"));
+  EXPECT_EQ(ear->of(SourceKind::gps, good.header.sequence).size(), 2U);
+  EXPECT_EQ(ear->finals(SourceKind::gps, good.header.stamp_ns), 1);
+}
+
+TEST_F(FusionTest, AnOrderlyEndIsFinal) {
+  start(175);
+  vehicle->run(200);
+  ASSERT_TRUE(wait_until([&] { return ear->state_count() >= 200; }));
+  EXPECT_EQ(ear->finals(SourceKind::gps, kStart_ns + 100 * kPeriod_ns), 0) << "the horizon is five seconds";
+  fusion->kill(SIGTERM);
+  EXPECT_EQ(fusion->wait(), 0) << fusion->err();
+  for (int tick = 40; tick <= 200; tick += 20) {
+    const TimeNs stamp_ns = kStart_ns + tick * kPeriod_ns;
+    EXPECT_TRUE(wait_until([&] { return ear->finals(SourceKind::gps, stamp_ns) == 1; })) << tick;
+    EXPECT_EQ(ear->finals(SourceKind::dvl, stamp_ns), 1) << tick;
+  }
+  launch();
+}
+
 TEST(FusionExecutable, RefusesABadConfigurationBeforeAnythingStarts) {
   Process fusion("fathom-fusion", {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/fusion.json",
                                    "--set", "engine.horizon_s=often"});

@@ -85,6 +85,7 @@ TEST_F(Standby, TakesOverWithTheStateOfTheOneThatDied) {
   both_in_step(169);
   EXPECT_TRUE(hears("fusion"));
   vehicle->run(50);
+  const int died = vehicle->ticks() / 20 * 20;
   fusion->kill(SIGKILL);
   EXPECT_EQ(fusion->wait(), 128 + SIGKILL);
   ASSERT_TRUE(under_way_until([&] { return hears("fusion_b"); })) << second->err();
@@ -104,6 +105,22 @@ TEST_F(Standby, TakesOverWithTheStateOfTheOneThatDied) {
             (after.header.stamp_ns - before.header.stamp_ns) / kPeriod_ns);
   // It lies still: what one states and the other one goes on with is the same place.
   EXPECT_NEAR((after.latitude_rad - before.latitude_rad) * 6.371e6, 0.0, 0.01);
+
+  // Each measurement is judged for good once, by the one or by the other. One may have been under way.
+  vehicle->run(700);
+  const auto finals = [&](int tick) {
+    const TimeNs stamp_ns = kStart_ns + tick * kPeriod_ns;
+    return std::pair(ear->finals(SourceKind::gps, stamp_ns), ear->finals(SourceKind::dvl, stamp_ns));
+  };
+  ASSERT_TRUE(wait_until([&] { return finals(died + 160).second > 0; }));
+  int missing = 0;
+  for (int tick = died - 700; tick <= died + 160; tick += 20) {
+    const auto [gps, dvl] = finals(tick);
+    EXPECT_LE(std::max(gps, dvl), 1) << tick - died;
+    missing += (gps == 0 ? 1 : 0) + (dvl == 0 ? 1 : 0);
+  }
+  EXPECT_LE(missing, 1);
+  EXPECT_EQ(finals(died + 20), std::pair(1, 1));
 
   // And back: the first one, started again, leads only when it knows what the other one knows.
   const std::size_t from = states.size();

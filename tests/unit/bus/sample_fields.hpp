@@ -88,8 +88,8 @@ void fields(Is<NavDetail> auto& s, auto visit) {
   visit(header, a, count, states);
 }
 void fields(Is<Verdict> auto& s, auto visit) {
-  auto& [header, a, b, c, d, e, f, g, h, i] = s;
-  visit(header, a, b, c, d, e, f, g, h, i);
+  auto& [header, a, b, c, d, e, f, g, h, i, j, k, l] = s;
+  visit(header, a, b, c, d, e, f, g, h, i, j, k, l);
 }
 void fields(Is<AlignmentCondition> auto& s, auto visit) {
   auto& [a, b, c, d, e, f] = s;

@@ -47,8 +47,12 @@ struct Scene {
     sample.longitude_rad = 127.4 * kDegree;
     add(sample, "gps");
   }
-  void verdict(TimeNs stamp_ns, VerdictKind kind, const char* sensor = "gps") {
+  void verdict(TimeNs stamp_ns, VerdictKind kind, const char* sensor = "gps", std::uint32_t revision = 0,
+               VerdictKind previous = VerdictKind::used, bool is_final = false) {
     Verdict out;
+    out.revision = revision;
+    out.previous = revision == 0 ? kind : previous;
+    out.is_final = is_final;
     out.header.stamp_ns = stamp_ns;
     out.header.received_ns = stamp_ns + 80 * kNsPerMillisecond;
     out.source = SourceKind::gps;
@@ -136,6 +140,39 @@ TEST(Picture, SourcesAreCountedAndAged) {
   EXPECT_EQ(series["model"], "gps_position");
   EXPECT_EQ(series["rows"][0].size(), 4U + 2U * 2U);
   EXPECT_EQ(series["rows"][0][4], 0.5);
+}
+
+TEST(Picture, AMeasurementThatIsJudgedAgainIsShownAsJudgedLastAndCountedOnce) {
+  Scene scene;
+  scene.gps(kUtc);
+  scene.verdict(kUtc, VerdictKind::used);
+  EXPECT_EQ(scene.tick()["fixes"][0][6], static_cast<int>(VerdictKind::used));
+  scene.gps(kUtc + 2 * kNsPerSecond);
+  scene.verdict(kUtc + 2 * kNsPerSecond, VerdictKind::used);
+  (void)scene.tick();
+  scene.verdict(kUtc, VerdictKind::rejected, "gps", 1, VerdictKind::used);
+  const auto tick = scene.tick();
+  ASSERT_EQ(tick["fixes"].size(), 1U);
+  EXPECT_EQ(tick["fixes"][0][6], static_cast<int>(VerdictKind::rejected));
+  ASSERT_EQ(tick["verdicts"][0]["rows"].size(), 1U);
+  EXPECT_EQ(tick["verdicts"][0]["rows"][0][1], static_cast<int>(VerdictKind::rejected));
+  EXPECT_EQ(tick["sources"][0]["counts"][0], 1);
+  EXPECT_EQ(tick["sources"][0]["counts"][1], 1);
+  EXPECT_EQ(tick["sources"][0]["last"], "used") << "of the newest measurement";
+  EXPECT_EQ(tick["status"]["verdicts"]["gps"]["used"], 1);
+  EXPECT_EQ(tick["status"]["verdicts"]["gps"]["not_used"], 1);
+
+  scene.verdict(kUtc, VerdictKind::rejected, "gps", 2, VerdictKind::rejected, true);
+  scene.verdict(kUtc + 2 * kNsPerSecond, VerdictKind::used, "gps", 1, VerdictKind::used, true);
+  const auto after = scene.tick();
+  EXPECT_TRUE(after["fixes"].empty()) << "a final verdict that says the same is no news";
+  EXPECT_TRUE(after["verdicts"].empty());
+  EXPECT_EQ(after["sources"][0]["counts"], tick["sources"][0]["counts"]);
+  const auto snapshot = scene.snapshot();
+  ASSERT_EQ(snapshot["fixes"].size(), 2U);
+  EXPECT_EQ(snapshot["fixes"][0][6], static_cast<int>(VerdictKind::rejected));
+  ASSERT_EQ(snapshot["verdicts"][0]["rows"].size(), 2U);
+  EXPECT_EQ(snapshot["verdicts"][0]["rows"][0][1], static_cast<int>(VerdictKind::rejected));
 }
 
 TEST(Picture, OtherVehiclesAreNotShown) {

@@ -53,6 +53,21 @@ test("a tick that the snapshot holds already is left out", () => {
   assert.equal(store.nav.length, 1);
 });
 
+test("what is judged again takes the place of what was said before", () => {
+  takeSnapshot(snapshot());
+  takeTick(tick(1, 1000));
+  takeTick(tick(2, 2000));
+  const again = tick(3, 1000, {nav: []});
+  again.verdicts[0].rows[0][1] = 1;
+  again.fixes[0][6] = 1;
+  takeTick(again);
+  assert.deepEqual(store.series.get("dvl dvl_velocity").table.column("kind"), [1, 0]);
+  assert.deepEqual(
+    store.fixes.map((fix) => fix.verdict),
+    [1, 0],
+  );
+});
+
 test("other states begin anew", () => {
   takeSnapshot(snapshot());
   takeTick(tick(1, 1000));

@@ -131,7 +131,7 @@ struct ModelRun {
         }
       }
       while (engine.next_verdict(verdict))
-        if (verdicts != nullptr) verdicts->push_back(verdict);
+        if (verdicts != nullptr && is_news(verdict)) verdicts->push_back(verdict);
     }
     if (detail != nullptr) engine.fill(*detail);
     return engine.nav_state();

@@ -109,7 +109,7 @@ Outcome run(Kind kind) {
     if (std::holds_alternative<DvlSample>(sample) && t > kDvlEnds_s) continue;
     test::feed(engine, sample);
     while (engine.next_verdict(verdict))
-      if (verdict.source == SourceKind::usbl) ++out.usbl[verdict.kind];
+      if (verdict.source == SourceKind::usbl && is_news(verdict)) ++out.usbl[verdict.kind];
     if (!std::holds_alternative<ImuSample>(sample)) continue;
     const Truth& truth = survey.truth[index++];
     if (t < kDvlEnds_s) continue;

@@ -45,7 +45,7 @@ inline Verdict verdict(SourceKind source, VerdictKind kind, double seconds, cons
   Verdict out;
   out.header = header(sensor, seconds);
   out.source = source;
-  out.kind = kind;
+  out.kind = out.previous = kind;
   return out;
 }
 

@@ -1,5 +1,6 @@
 #include "health/vehicle_health.hpp"
 
+#include <cmath>
 #include <set>
 #include <string>
 
@@ -101,6 +102,51 @@ TEST(VehicleHealth, ADiveIsExactlyOneOutage) {
   EXPECT_NEAR(status.gps_outage_total_s, 30.5, 0.1);
   EXPECT_EQ(status.alarms_active, 0u);
   EXPECT_EQ(status.alarms_unacknowledged, 1u);
+}
+
+TEST(VehicleHealth, AFixThatFusionRefusesAfterAllEndsNoOutageAndWhatItSaysAgainCountsForNothing) {
+  const auto judged = [](double t, std::uint32_t revision, VerdictKind previous, VerdictKind kind) {
+    Verdict out = verdict(SourceKind::gps, kind, t, "gps");
+    out.revision = revision;
+    out.previous = previous;
+    return out;
+  };
+  const auto outage_after = [&](bool revised) {
+    VehicleHealth health{config(), at(0.0)};
+    for (double t = 0.0; t < 40.0; t += 0.1) {
+      const bool fix = t < 5.0 || t > 20.0;
+      const bool tenth = std::llround(10.0 * t) % 5 == 0;
+      if (tenth) health.add(gps(t, fix), at(t));
+      if (tenth && fix) {
+        health.add(judged(t, 0, VerdictKind::used, VerdictKind::used), at(t));
+        if (revised && t > 20.0) {
+          health.add(judged(t, 1, VerdictKind::used, VerdictKind::rejected), at(t));
+          health.add(judged(t, 2, VerdictKind::rejected, VerdictKind::rejected), at(t));
+        } else {
+          health.add(judged(t, 1, VerdictKind::used, VerdictKind::used), at(t));
+        }
+      }
+      health.evaluate(at(t));
+    }
+    return health.status(at(40.0)).gps_outage_active;
+  };
+  EXPECT_FALSE(outage_after(false));
+  EXPECT_TRUE(outage_after(true));
+}
+
+TEST(VehicleHealth, AFinalVerdictOnTheLastRefusalIsNoSecondOne) {
+  // Five refusals in a row within ten seconds are an alarm; four, each said twice, are none.
+  VehicleHealth health{config(), at(0.0)};
+  for (double t = 0.0; t < 16.0; t += 4.0) {
+    Verdict refused = verdict(SourceKind::dvl, VerdictKind::rejected, t, "dvl");
+    refused.previous = VerdictKind::rejected;
+    health.add(refused, at(t));
+    refused.revision = 1;
+    refused.is_final = true;
+    health.add(refused, at(t));
+    health.evaluate(at(t));
+  }
+  for (const Alarm& alarm : health.take_changes()) EXPECT_NE(alarm.alarm, Name("refused:dvl"));
 }
 
 TEST(VehicleHealth, DeadFusionIsSeenAndGpsOutagesAreStillKept) {

@@ -3,11 +3,25 @@
 const kSpanMs = 600000;
 const kSlack = 400; // rows beyond the span before they are cut, so that cutting is rare
 
+/** The newest row of time t, or -1. Rows may be a minute out of order. */
+function newestAt(length, timeOf, t, also = () => true) {
+  if (length === 0 || t > timeOf(length - 1)) return -1;
+  for (let i = length - 1; i >= 0 && timeOf(i) >= t - 60000; --i) if (timeOf(i) === t && also(i)) return i;
+  return -1;
+}
+
 /** A table kept as columns; the first one is the time in ms. */
 export class Table {
   constructor(names) {
     this.names = names;
     this.columns = names.map(() => []);
+  }
+  /** In place of the newest row of the same time, when there is one. */
+  put(row) {
+    const times = this.columns[0];
+    const at = newestAt(times.length, (i) => times[i], row[0]);
+    if (at < 0) return this.push(row);
+    for (let i = 0; i < this.columns.length; ++i) this.columns[i][at] = row[i] ?? null;
   }
   push(row) {
     for (let i = 0; i < this.columns.length; ++i) this.columns[i].push(row[i] ?? null);
@@ -73,15 +87,19 @@ function takeVerdicts(list) {
       store.series.set(key, series);
     }
     for (const row of rows) {
-      series.table.push(row);
+      series.table.put(row); // a measurement may be judged again
       series.dimensions = Math.max(series.dimensions, (row.length - 4) / 2);
     }
   }
 }
 
 function takeFixes(rows) {
-  for (const [t, lat, lon, sigma, source, sensor, verdict] of rows)
-    store.fixes.push({t, lat, lon, sigma, source, sensor, verdict});
+  for (const [t, lat, lon, sigma, source, sensor, verdict] of rows) {
+    const fix = {t, lat, lon, sigma, source, sensor, verdict};
+    const at = newestAt(store.fixes.length, (i) => store.fixes[i].t, t, (i) => store.fixes[i].sensor === sensor);
+    if (at < 0) store.fixes.push(fix);
+    else store.fixes[at] = fix; // judged again
+  }
   const newest = store.fixes[store.fixes.length - 1]?.t ?? 0;
   if (store.fixes.length > kSlack && store.fixes[kSlack].t < newest - kSpanMs) {
     store.fixes = store.fixes.filter((fix) => fix.t >= newest - kSpanMs);
