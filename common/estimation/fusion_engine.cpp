@@ -193,7 +193,10 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   bool next_verdict(Verdict& verdict) {
-    if (verdict_count_ == 0) return false;
+    if (verdict_count_ == 0) {
+      first_verdict_ = 0;  // always the same memory, while they are taken in time
+      return false;
+    }
     verdict = verdicts_[first_verdict_];
     first_verdict_ = (first_verdict_ + 1) % verdicts_.size();
     --verdict_count_;
