@@ -175,27 +175,6 @@ TEST(Revision, ASecondNavigatorRevisesAsItPasses) {
   expect_settled(vehicle.of(18));
 }
 
-TEST(Revision, NoFinalWordWhileASecondNavigatorIsBehind) {
-  Adrift vehicle([](EngineConfig& c) {
-    c.replay_steps_per_sample = 2;
-    c.horizon_s = 2.0;
-  });
-  vehicle.steps(20);
-  vehicle.fix(20, 250.0);
-  vehicle.steps(20);
-  // Just within the horizon; to make up for it takes longer than the horizon lasts.
-  vehicle.fix(20 - 0, 250.0);
-  vehicle.fix(21, 0.0);
-  vehicle.steps(1);
-  vehicle.steps(60);
-  for (const int step : {20, 21}) {
-    int finals = 0;
-    for (const Verdict& one : vehicle.of(step))
-      finals += one.is_final && one.kind != VerdictKind::duplicate ? 1 : 0;
-    EXPECT_EQ(finals, 1) << step;
-  }
-}
-
 TEST(Revision, WhatIsRefusedOutrightIsFinalAtOnce) {
   Adrift vehicle;
   vehicle.fix(1, 0.0);
