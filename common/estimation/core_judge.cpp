@@ -4,6 +4,7 @@
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/usbl_range_bearing.hpp"
 #include "estimation/core.hpp"
+#include "samples/gps_quality.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -20,6 +21,8 @@ VerdictKind verdict_of(Usable usable) {
       return VerdictKind::used;
     case Usable::out_of_range:
       return VerdictKind::out_of_range;
+    case Usable::no_fix:
+      return VerdictKind::no_fix;
     case Usable::unknown_frame:
       return VerdictKind::unknown_frame;
     case Usable::not_estimated:
@@ -223,7 +226,8 @@ Vector3d Core::velocity_of_log() const {
 void Core::mark_used(const Measurement& measurement, bool with_position) {
   switch (measurement.source) {
     case SourceKind::gps:
-      if (with_position) gps_used_ns_ = now_ns_;
+      // A fix of kilometres has its weight in the filter, but nobody navigates by it.
+      if (with_position && is_accurate(std::get<GpsSample>(measurement.sample))) gps_used_ns_ = now_ns_;
       velocity_used_ns_ = now_ns_;
       break;
     case SourceKind::usbl:

@@ -28,6 +28,7 @@ void AlarmBook::hold(const Condition& condition, const Instant& now) {
   Entry& entry = found->second;
   Alarm& alarm = entry.alarm;
   entry.away = false;
+  entry.unknown_until_ns = 0;
   entry.clear_hold_s = condition.clear_hold_s;
   describe(alarm, condition);
   const bool raised = !alarm.active;
@@ -46,10 +47,11 @@ void AlarmBook::hold(const Condition& condition, const Instant& now) {
   note_change(alarm);
 }
 
-void AlarmBook::release(const Name& key, const Instant& now) {
+void AlarmBook::release(const Name& key, const Instant& now, bool certain) {
   const auto found = entries_.find(key);
   if (found == entries_.end() || !found->second.alarm.active) return;
   Entry& entry = found->second;
+  if (entry.unknown_until_ns != 0 && !certain && now.monotonic_ns < entry.unknown_until_ns) return;
   if (!entry.away) {
     entry.away = true;
     entry.away_since_ns = now.monotonic_ns;
@@ -73,15 +75,29 @@ void AlarmBook::event(const Condition& condition, const Instant& now) {
   if (found != entries_.end() && found->second.alarm.active) clear(found->second, now);
 }
 
-void AlarmBook::restore(const Alarm& alarm, const Instant& now) {
+void AlarmBook::restore(const Alarm& alarm, const Instant& now, double unknown_s) {
   if (entries_.contains(alarm.alarm) || !make_room(alarm.severity)) return;
   Entry& entry = entries_[alarm.alarm];
   entry.alarm = alarm;
   entry.alarm.header.vehicle = vehicle_;
-  entry.alarm.active = false;
-  entry.alarm.acknowledged = false;
-  if (entry.alarm.cleared_ns == 0) entry.alarm.cleared_ns = now.utc_ns;
+  if (alarm.active) {
+    entry.unknown_until_ns = now.monotonic_ns + from_seconds(unknown_s);
+  } else if (entry.alarm.cleared_ns == 0) {
+    entry.alarm.cleared_ns = now.utc_ns;
+  }
   note_change(entry.alarm);
+}
+
+void AlarmBook::settle(const Instant& now) {
+  for (auto entry = entries_.begin(); entry != entries_.end();) {
+    const auto next = std::next(entry);
+    const TimeNs until_ns = entry->second.unknown_until_ns;
+    if (entry->second.alarm.active && until_ns != 0 && now.monotonic_ns >= until_ns) {
+      clear(entry->second, now);
+      erase_if_done(entry);
+    }
+    entry = next;
+  }
 }
 
 int AlarmBook::acknowledge(std::string_view target, const Instant& /*now*/) {
@@ -154,6 +170,7 @@ bool AlarmBook::make_room(Severity severity) {
 
 void AlarmBook::clear(Entry& entry, const Instant& now) {
   entry.away = false;
+  entry.unknown_until_ns = 0;
   entry.alarm.active = false;
   entry.alarm.cleared_ns = now.utc_ns;
   note_change(entry.alarm);

@@ -43,15 +43,20 @@ class AlarmBook {
   explicit AlarmBook(Name vehicle = {}) : vehicle_(vehicle) {}
 
   void hold(const Condition& condition, const Instant& now);
-  void release(const Name& key, const Instant& now);
+  /// `certain` false: it does not hold as far as is known. An alarm of before a restart then waits for its
+  /// time.
+  void release(const Name& key, const Instant& now, bool certain = false);
   /// hold() or release() by `active`, for conditions whose text is cheap.
   void set(bool active, const Condition& condition, const Instant& now);
   /// A momentary event: raised and cleared in one, it stays until acknowledged.
   void event(const Condition& condition, const Instant& now);
 
-  /// An alarm of before a restart that nobody has acknowledged: it stays, over as far as is known, until
-  /// somebody does. Ignored when the book has it already.
-  void restore(const Alarm& alarm, const Instant& now);
+  /// An alarm of before a restart. One that was active stays active until its condition is known again not to
+  /// hold, at most for `unknown_s`; one that was over stays until it is acknowledged. Ignored when the book
+  /// has it already.
+  void restore(const Alarm& alarm, const Instant& now, double unknown_s);
+  /// Clears what restore() kept active and nothing has confirmed in time.
+  void settle(const Instant& now);
 
   /// "*" acknowledges every alarm. Returns how many were newly acknowledged.
   int acknowledge(std::string_view target, const Instant& now);
@@ -67,12 +72,14 @@ class AlarmBook {
   /// True when an active alarm is at least this severe.
   [[nodiscard]] bool any_active(Severity at_least) const;
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+  [[nodiscard]] const Name& vehicle() const { return vehicle_; }
 
  private:
   struct Entry {
     Alarm alarm;
     TimeNs away_since_ns = 0;  ///< monotonic; when the condition was first released, while still active
     bool away = false;
+    TimeNs unknown_until_ns = 0;  ///< monotonic; of an alarm of before a restart, 0: known
     double clear_hold_s = 0.5;
   };
 

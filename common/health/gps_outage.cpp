@@ -5,22 +5,24 @@
 #include <numbers>
 
 #include "health/text.hpp"
+#include "samples/gps_quality.hpp"
 
 namespace fathom::health {
 namespace {
 
 constexpr std::size_t kMaxReceivers = 16;  // names come from the network: bounded
+constexpr std::size_t kMostUnjudged = 64;
 
 bool is_refusal(VerdictKind kind) {
   return kind == VerdictKind::rejected || kind == VerdictKind::frozen || kind == VerdictKind::out_of_range ||
          kind == VerdictKind::unknown_frame || kind == VerdictKind::from_the_future ||
-         kind == VerdictKind::late;
+         kind == VerdictKind::late || kind == VerdictKind::source_disabled;
 }
 
 }  // namespace
 
 bool is_usable(const GpsSample& sample) {
-  return sample.fix >= GpsFix::fix_3d && std::isfinite(sample.latitude_rad) &&
+  return sample.fix >= GpsFix::fix_3d && is_accurate(sample) && std::isfinite(sample.latitude_rad) &&
          std::isfinite(sample.longitude_rad) && std::abs(sample.latitude_rad) <= std::numbers::pi / 2;
 }
 
@@ -40,15 +42,86 @@ void GpsOutage::add(const GpsSample& sample, const Instant& now, bool believed) 
     unusable(name, receiver);
     return;
   }
+  if (receiver.unjudged.size() == kMostUnjudged) receiver.unjudged.pop_front();
+  receiver.unjudged.push_back({sample.header.stamp_ns, now.monotonic_ns});
   receiver.clock.usable(now.monotonic_ns);
+  if (!counts(name)) return;
   overall_.usable(now.monotonic_ns);
   overall_source_ = name;
 }
 
 void GpsOutage::add(const Verdict& verdict) {
-  if (verdict.source != SourceKind::gps || !is_refusal(verdict.kind)) return;
+  if (verdict.source != SourceKind::gps) return;
+  const bool refused = is_refusal(verdict.kind);
+  if (!refused && verdict.kind != VerdictKind::used) return;
   const auto found = receivers_.find(verdict.header.sensor);
-  if (found != receivers_.end()) unusable(found->first, found->second);
+  if (found == receivers_.end()) return;
+  Receiver& receiver = found->second;
+  auto& unjudged = receiver.unjudged;
+  const auto fix = std::find_if(unjudged.begin(), unjudged.end(),
+                                [&](const Unjudged& one) { return one.stamp_ns == verdict.header.stamp_ns; });
+  if (fix == unjudged.end()) {
+    if (refused) unusable(found->first, receiver);
+    return;
+  }
+  if (!refused) {
+    receiver.refusing = false;
+    receiver.taken_ns = fix->monotonic_ns;
+  } else {
+    if (!receiver.refusing) {
+      // What came before the first refusal stands; where nothing did, this fix is where it began.
+      receiver.refusing = true;
+      if (fix != unjudged.begin()) receiver.taken_ns = std::prev(fix)->monotonic_ns;
+      if (receiver.taken_ns == 0) receiver.taken_ns = fix->monotonic_ns;
+    }
+    doubt(found->first, receiver.taken_ns);
+    unusable(found->first, receiver);
+  }
+  unjudged.erase(unjudged.begin(), std::next(fix));
+}
+
+void GpsOutage::add(const NavState& state, const Instant& now) {
+  fusion_heard_ = fusion_heard_ || state.mode != NavMode::none;
+  if (std::isfinite(state.gps_outage_s) && state.gps_outage_s >= 0.0 && state.gps_outage_s < 1e9)
+    overall_.told(now.monotonic_ns - from_seconds(state.gps_outage_s));
+}
+
+std::vector<GpsOutageBook> GpsOutage::books(const Instant& now) const {
+  std::vector<GpsOutageBook> out;
+  const auto put = [&](const Name& name, const OutageClock& clock) {
+    if (!clock.ever_usable()) return;
+    GpsOutageBook book{name, clock.record()};
+    book.record.last_usable_ns += now.utc_ns - now.monotonic_ns;
+    out.push_back(book);
+  };
+  put({}, overall_);
+  for (const auto& [name, receiver] : receivers_) put(name, receiver.clock);
+  return out;
+}
+
+void GpsOutage::resume(const std::vector<GpsOutageBook>& books, const Instant& now) {
+  for (const GpsOutageBook& book : books) {
+    OutageRecord record = book.record;
+    record.last_usable_ns -= now.utc_ns - now.monotonic_ns;
+    if (book.receiver.empty()) {
+      if (!overall_.ever_usable()) overall_.resume(record, now.monotonic_ns);
+      continue;
+    }
+    if (receivers_.contains(book.receiver) || receivers_.size() >= kMaxReceivers) continue;
+    receivers_.emplace(book.receiver, Receiver{OutageClock(config_.outage)})
+        .first->second.clock.resume(record, now.monotonic_ns);
+  }
+}
+
+bool GpsOutage::known(const Instant& now) const {
+  if (!config_.expected || overall_.known() || overall_.active()) return true;
+  if (!overall_.ever_usable() && fusion_heard_) return true;
+  return now.monotonic_ns - start_.monotonic_ns >= from_seconds(config_.outage.limit_s);
+}
+
+bool GpsOutage::counts(const Name& receiver) const {
+  return config_.receivers.empty() ||
+         std::find(config_.receivers.begin(), config_.receivers.end(), receiver) != config_.receivers.end();
 }
 
 void GpsOutage::unusable(const Name& name, Receiver& receiver) {
@@ -74,7 +147,7 @@ void GpsOutage::doubt(const Name& name, TimeNs since_monotonic_ns) {
   // What the other receivers gave in the meantime remains.
   TimeNs believed_ns = since_monotonic_ns;
   for (const auto& [other, receiver] : receivers_) {
-    if (other != name && receiver.clock.ever_usable() && !receiver.clock.active()) {
+    if (other != name && counts(other) && receiver.clock.ever_usable() && !receiver.clock.active()) {
       believed_ns = std::max(believed_ns, receiver.clock.last_usable_ns());
     }
   }
@@ -149,7 +222,7 @@ void GpsOutage::report(AlarmBook& book, const Instant& now) const {
 void GpsOutage::report_outage(AlarmBook& book, const Instant& now, const Name& key, const OutageClock& clock,
                               Severity severity, const std::string& who) const {
   if (!clock.active()) {
-    book.release(key, now);
+    book.release(key, now, clock.known());
     return;
   }
   const double outage_s = clock.now_s();

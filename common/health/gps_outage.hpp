@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <map>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "health/instant.hpp"
 #include "health/outage_clock.hpp"
 #include "samples/gps.hpp"
+#include "samples/nav_state.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::health {
@@ -20,16 +22,28 @@ struct GpsOutageConfig {
   bool expected = true;              ///< false: a vehicle without GPS; nothing is said about the first fix
   double first_fix_limit_s = 120.0;  ///< without any usable fix this long after the start, say so
   bool per_receiver_alarms = true;   ///< with two or more receivers, an alarm for each besides the common one
+  std::vector<Name> receivers;       ///< those that count for the vehicle; empty: every one
 };
 
-/// A fix that position may rest on: three-dimensional or better, at a finite place on earth.
+/// The outages of one receiver, or of the vehicle under an empty name; instants are UTC.
+struct GpsOutageBook {
+  Name receiver;
+  OutageRecord record;
+};
+
+/// A fix that position may rest on: three-dimensional or better, at a finite place on earth, accurate as
+/// samples/gps_quality.hpp asks for.
 [[nodiscard]] bool is_usable(const GpsSample& sample);
 
 /// GPS outages per receiver and for the vehicle as a whole (no receiver gives a usable fix).
 ///
 /// Works from the receivers alone, so it works when fusion is dead. Where fusion's verdicts are heard, a fix
-/// that fusion refused breaks the run that would end an outage: it is over when fixes are there and not
-/// refused. A fix with the same stamp as the one before it is no new fix.
+/// that fusion refused, or whose receiver it does not listen to, was none: it neither keeps an outage from
+/// beginning nor ends one. For the vehicle only the configured receivers count. A fix with the same stamp as
+/// the one before it is no new fix.
+///
+/// A monitor that is started again goes on from its books of before (resume()); until fixes, fusion or a
+/// silence of `limit_s` have told what holds now, known() is false.
 ///
 /// An outage is graded by its length and by the forecast, whichever is worse; while it lasts the grade only
 /// rises, and it ends by OutageClock's run of fixes: neither end flaps.
@@ -43,6 +57,16 @@ class GpsOutage {
   /// Verdicts of other sources are ignored.
   void add(const Verdict& verdict);
   void add(const Forecast& forecast, const Instant& now) { forecast_.add(forecast, now); }
+  /// How long fusion has been without a fix: counts where nothing was heard here yet.
+  void add(const NavState& state, const Instant& now);
+  /// To be called before anything is heard.
+  void resume(const std::vector<GpsOutageBook>& books, const Instant& now);
+  /// What resume() of a later process goes on from: the vehicle and each receiver that ever had a fix.
+  [[nodiscard]] std::vector<GpsOutageBook> books(const Instant& now) const;
+  /// Whether there is anything to be said about GPS now.
+  [[nodiscard]] bool known(const Instant& now) const;
+  /// A usable fix not longer ago than the limit, or none expected.
+  [[nodiscard]] bool good() const { return !config_.expected || (overall_.known() && !overall_.active()); }
   /// This receiver's fixes turn out to have been worth nothing since then, and none is until the next add():
   /// for a fix found frozen after the fact.
   void doubt(const Name& name, TimeNs since_monotonic_ns);
@@ -61,14 +85,23 @@ class GpsOutage {
   }
 
  private:
+  /// A fix that fusion has not judged yet.
+  struct Unjudged {
+    TimeNs stamp_ns = 0;
+    TimeNs monotonic_ns = 0;
+  };
   struct Receiver {
     OutageClock clock;
+    std::deque<Unjudged> unjudged{};
+    TimeNs taken_ns = 0;    ///< monotonic, of the last fix that fusion took, or did not refuse
+    bool refusing = false;  ///< fusion refused the last one that it judged
     TimeNs last_stamp_ns = 0;
     bool heard = false;
     Severity severity = Severity::notice;  ///< of the present outage
   };
 
   void unusable(const Name& name, Receiver& receiver);
+  [[nodiscard]] bool counts(const Name& receiver) const;
   void grade(const OutageClock& clock, Severity& severity, const Instant& now) const;
   [[nodiscard]] static ReceiverOutage describe(const Name& name, const OutageClock& clock, Severity severity,
                                                const Instant& now);
@@ -80,6 +113,7 @@ class GpsOutage {
   OutageClock overall_;
   Severity overall_severity_ = Severity::notice;
   ForecastWatch forecast_;
+  bool fusion_heard_ = false;
   Name overall_source_;  ///< the receiver that gave the last usable fix
   std::map<Name, Receiver> receivers_;
 };

@@ -22,6 +22,7 @@ class NavWatch {
 
   void add(const NavState& state, const Instant& now);
   void evaluate(const Instant& now);
+  [[nodiscard]] bool ever_heard() const { return stream_.ever_heard(); }
   /// "nav_state_missing", "nav_state_slow", "nav_state_invalid", "nav_uncertain".
   void report(AlarmBook& book, const Instant& now) const;
 

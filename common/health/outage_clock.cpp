@@ -6,7 +6,33 @@
 
 namespace fathom::health {
 
+void OutageClock::resume(const OutageRecord& record, TimeNs monotonic_ns) {
+  ever_usable_ = true;
+  active_ = record.active;
+  resumed_ = true;
+  resumed_ns_ = monotonic_ns;
+  last_usable_ns_ = std::min(record.last_usable_ns, monotonic_ns);
+  count_ = record.count;
+  longest_ns_ = record.longest_ns;
+  total_ns_ = record.total_ns;
+  run_ = 0;
+  evaluated_ns_ = std::max(evaluated_ns_, monotonic_ns);
+}
+
+void OutageClock::told(TimeNs last_usable_monotonic_ns) {
+  if (known() || active_) return;
+  last_usable_ns_ =
+      ever_usable_ ? std::max(last_usable_ns_, last_usable_monotonic_ns) : last_usable_monotonic_ns;
+  ever_usable_ = true;
+  resumed_ = false;
+}
+
 void OutageClock::usable(TimeNs monotonic_ns) {
+  if (resumed_ && !active_) {
+    // Whether there was an outage meanwhile nobody can say: there is none now.
+    last_usable_ns_ = std::max(last_usable_ns_, monotonic_ns);
+  }
+  resumed_ = false;
   if (!ever_usable_) {
     ever_usable_ = true;
     last_usable_ns_ = monotonic_ns;
@@ -37,6 +63,8 @@ void OutageClock::doubt(TimeNs since_monotonic_ns) {
 void OutageClock::evaluate(TimeNs monotonic_ns) {
   evaluated_ns_ = std::max(evaluated_ns_, monotonic_ns);
   if (!ever_usable_) return;
+  if (resumed_ && (active_ || evaluated_ns_ - resumed_ns_ >= from_seconds(limits_.limit_s))) resumed_ = false;
+  if (resumed_) return;
   if (run_ > 0 && evaluated_ns_ - run_last_ns_ > from_seconds(limits_.limit_s)) run_ = 0;
   begin_if_due(evaluated_ns_);
   if (active_) longest_ns_ = std::max(longest_ns_, present_ns());

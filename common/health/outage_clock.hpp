@@ -13,6 +13,15 @@ struct OutageLimits {
   double clear_hold_s = 1.0;  ///< ... spread over at least this long
 };
 
+/// The books of one source of fixes, as they outlive the process that kept them.
+struct OutageRecord {
+  bool active = false;
+  TimeNs last_usable_ns = 0;  ///< on the clock of whoever holds the record
+  std::uint32_t count = 0;
+  DurationNs longest_ns = 0;
+  DurationNs total_ns = 0;  ///< of the outages that have ended
+};
+
 /// Keeps the books of one source of fixes. All times are monotonic.
 ///
 /// An outage is counted from the last usable fix before it to the first fix of the run that ended it. A run
@@ -32,6 +41,18 @@ class OutageClock {
   /// To be called often: outages begin and end here and in usable().
   void evaluate(TimeNs monotonic_ns);
 
+  /// Goes on from books of before. What happened since their last line is not known: without an outage in
+  /// them the first fix, told() or a silence of `limit_s` says whether one has begun.
+  void resume(const OutageRecord& record, TimeNs monotonic_ns);
+  /// Somebody else heard the last usable fix then. Counts where nothing was heard here.
+  void told(TimeNs last_usable_monotonic_ns);
+  [[nodiscard]] OutageRecord record() const {
+    return {active_, last_usable_ns_, count_, longest_ns_, total_ns_};
+  }
+  /// Whether it can say anything about now: false before the first fix, and after resume() until something is
+  /// heard.
+  [[nodiscard]] bool known() const { return ever_usable_ && !resumed_; }
+
   [[nodiscard]] bool ever_usable() const { return ever_usable_; }
   [[nodiscard]] bool active() const { return active_; }
   /// The last usable fix; during an outage the one before it.
@@ -50,6 +71,8 @@ class OutageClock {
   OutageLimits limits_;
   bool ever_usable_ = false;
   bool active_ = false;
+  bool resumed_ = false;  ///< and nothing heard since
+  TimeNs resumed_ns_ = 0;
   TimeNs last_usable_ns_ = 0;  ///< before the outage, while there is one
   TimeNs evaluated_ns_ = 0;
   int run_ = 0;  ///< usable fixes in a row since the outage began

@@ -49,6 +49,11 @@ void SensorWatch::evaluate(const Instant& now) {
   for (Sensor& sensor : sensors_) sensor.stream.evaluate(now.monotonic_ns);
 }
 
+bool SensorWatch::all_heard() const {
+  return std::all_of(sensors_.begin(), sensors_.end(),
+                     [](const Sensor& sensor) { return !sensor.expected || sensor.stream.ever_heard(); });
+}
+
 void SensorWatch::report(AlarmBook& book, const Instant& now) const {
   for (const Sensor& sensor : sensors_) {
     if (!sensor.expected) continue;

@@ -30,6 +30,8 @@ class SensorWatch {
 
   void heard(SourceKind kind, const Name& name, const Instant& now);
   void evaluate(const Instant& now);
+  /// Whether each expected sensor has been heard at least once.
+  [[nodiscard]] bool all_heard() const;
   /// "sensor_missing:<name>" by each sensor's severity, "sensor_slow:<name>" as a notice.
   void report(AlarmBook& book, const Instant& now) const;
   /// The expected ones in the order of the configuration, then the others.

@@ -51,6 +51,11 @@ void ServiceWatch::evaluate(const Instant& now) {
   for (Service& service : services_) service.stream.evaluate(now.monotonic_ns);
 }
 
+bool ServiceWatch::all_heard() const {
+  return std::all_of(services_.begin(), services_.end(),
+                     [](const Service& service) { return !service.expected || service.stream.ever_heard(); });
+}
+
 void ServiceWatch::report(AlarmBook& book, const Instant& now) {
   for (Service& service : services_) {
     if (service.expected) {

@@ -31,6 +31,8 @@ class ServiceWatch {
 
   void add(const ServiceStatus& status, const Instant& now);
   void evaluate(const Instant& now);
+  /// Whether each expected service has been heard at least once.
+  [[nodiscard]] bool all_heard() const;
   /// "service_missing:<name>", "service_unwell:<name>", and the momentary notice "service_restarted:<name>".
   void report(AlarmBook& book, const Instant& now);
   [[nodiscard]] std::vector<WatchedItem> items(const Instant& now) const;

@@ -17,13 +17,21 @@ std::vector<std::pair<SourceKind, Name>> names_of(const std::vector<ExpectedSens
   return names;
 }
 
+GpsOutageConfig gps_config(const HealthConfig& config) {
+  GpsOutageConfig gps = config.gps;
+  for (const ExpectedSensor& sensor : config.sensors)
+    if (sensor.kind == SourceKind::gps) gps.receivers.push_back(sensor.name);
+  return gps;
+}
+
 }  // namespace
 
 VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start, DescribeWriter describe)
     : config_(config),
+      start_(start),
       describe_(std::move(describe)),
       book_(config.vehicle),
-      gps_(config.gps, start),
+      gps_(gps_config(config), start),
       fixes_(config.fixes),
       stamps_(config.stamps),
       writers_(names_of(config.sensors)),
@@ -60,6 +68,7 @@ void VehicleHealth::add(const DvlSample& sample, const Instant& now, const Write
 void VehicleHealth::add(const NavState& state, const Instant& now) {
   if (!ours(state.header)) return;
   nav_.add(state, now);
+  gps_.add(state, now);
   fixes_.add(state, now);
   alignment_.add(state, now);
 }
@@ -109,6 +118,13 @@ void VehicleHealth::evaluate(const Instant& now) {
   services_.report(book_, now);
   intruders_.report(book_, now);
   clocks_.report(book_, now);
+  book_.settle(now);
+}
+
+bool VehicleHealth::known(const Instant& now) const {
+  if (!gps_.known(now)) return false;
+  if (now.monotonic_ns - start_.monotonic_ns >= from_seconds(config_.startup_s)) return true;
+  return (!config_.nav.expected || nav_.ever_heard()) && sensors_.all_heard() && services_.all_heard();
 }
 
 MonitorStatus VehicleHealth::status(const Instant& now) const {
@@ -134,7 +150,8 @@ MonitorStatus VehicleHealth::status(const Instant& now) const {
   status.sensors = sensors_.items(now);
   status.services = services_.items(now);
   const bool navigating = !config_.nav.expected || (nav_.fresh() && is_navigating(nav_.mode()));
-  status.healthy = navigating && !book_.any_active(Severity::warning);
+  status.known = known(now);
+  status.healthy = status.known && navigating && gps_.good() && !book_.any_active(Severity::warning);
   return status;
 }
 

@@ -61,8 +61,12 @@ class VehicleHealth {
   }
   /// Acknowledgements; other commands are not for the monitor. Returns how many alarms were acknowledged.
   int apply(const Command& command, const Instant& now);
-  /// See AlarmBook::restore().
-  void restore(const Alarm& alarm, const Instant& now) { book_.restore(alarm, now); }
+  /// See AlarmBook::restore(). What was active stays so for the time that sensors and services have to be
+  /// heard.
+  void restore(const Alarm& alarm, const Instant& now) { book_.restore(alarm, now, config_.startup_s); }
+  /// See GpsOutage::resume() and books().
+  void resume(const std::vector<GpsOutageBook>& books, const Instant& now) { gps_.resume(books, now); }
+  [[nodiscard]] std::vector<GpsOutageBook> books(const Instant& now) const { return gps_.books(now); }
   /// What the monitor cannot do itself, e.g. keep its journal: an alarm while `active`.
   void set(bool active, const Condition& condition, const Instant& now) { book_.set(active, condition, now); }
 
@@ -77,9 +81,12 @@ class VehicleHealth {
   [[nodiscard]] double horizontal_95_m() const { return nav_.horizontal_95_m(); }
 
  private:
+  /// Whether enough was heard since the start to say how the vehicle is.
+  [[nodiscard]] bool known(const Instant& now) const;
   [[nodiscard]] bool ours(const SampleHeader& header) const { return header.vehicle == config_.vehicle; }
 
   HealthConfig config_;
+  Instant start_;
   DescribeWriter describe_;
   AlarmBook book_;
   GpsOutage gps_;

@@ -54,7 +54,8 @@ struct ReceiverOutage {
 
 struct MonitorStatus {
   SampleHeader header;
-  bool healthy = false;
+  bool known = false;    ///< false: the monitor has just been started and cannot say yet how the vehicle is
+  bool healthy = false;  ///< never while it is not known
   NavMode mode = NavMode::none;
   AlignmentPhase alignment = AlignmentPhase::none;
   double nav_state_age_s = kUnknown;

@@ -21,8 +21,9 @@ enum class VerdictKind : std::uint8_t {
   source_disabled = 7,
   unknown_frame = 8,
   from_the_future = 9,  ///< stamped further ahead of the newest inertial sample than clocks can differ
+  no_fix = 10,          ///< a satellite receiver says itself that it has no fix of the quality asked for
 };
-inline constexpr std::size_t kVerdictKinds = 10;
+inline constexpr std::size_t kVerdictKinds = 11;
 
 /// The word used on the command line and in reports, e.g. "not_aligned".
 [[nodiscard]] std::string_view to_string(VerdictKind kind);

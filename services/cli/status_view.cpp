@@ -410,6 +410,10 @@ Judgement judge(const StatusView& view) {
     degraded("The monitor was not heard.");
   } else if (view.monitor->age_s > kMonitorFresh_s) {
     degraded(text("The monitor was last heard %.1f s ago.", view.monitor->age_s));
+  } else if (!view.monitor->sample.known) {
+    degraded("The monitor has just been started and does not know yet.");
+  } else if (!view.monitor->sample.healthy && view.monitor->sample.alarms_active == 0) {
+    degraded("The monitor reports that GPS or navigation is not there.");
   } else if (!view.monitor->sample.healthy) {
     degraded(text("The monitor reports %u active alarms.", view.monitor->sample.alarms_active));
   }

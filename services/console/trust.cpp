@@ -156,6 +156,9 @@ Trust judge_trust(const cli::StatusView& view, double fresh_s) {
     out.sentence += ", and nobody watches: the monitor is silent";
     raise(out, TrustLevel::caution);
     if (out.advice.empty()) out.advice = "Start the monitor: alarms are not judged without it.";
+  } else if (!view.monitor->sample.known) {
+    out.sentence += ", and the monitor has just been started and does not know yet";
+    raise(out, TrustLevel::caution);
   } else if (!view.monitor->sample.healthy) {
     raise(out, TrustLevel::caution);
     if (out.advice.empty()) out.advice = "See the alarms below.";

@@ -186,7 +186,7 @@ void AlarmJournal::read_latched() {
     const auto alarm = alarm_of(entry);
     if (!alarm) continue;
     std::erase_if(latched_, [&](const Alarm& known) { return known.alarm == alarm->alarm; });
-    if (!alarm->acknowledged) latched_.push_back(*alarm);
+    if (alarm->active || !alarm->acknowledged) latched_.push_back(*alarm);
   }
 }
 

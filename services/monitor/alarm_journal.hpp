@@ -35,7 +35,8 @@ class AlarmJournal {
 
   /// Opens and repairs. False: error() says why; to be tried again later.
   bool open(TimeNs utc_ns);
-  /// As of open(): alarms that nobody had acknowledged when the journal ended, in their last state.
+  /// As of open(): alarms that were active or that nobody had acknowledged when the journal ended, in their
+  /// last state.
   [[nodiscard]] const std::vector<Alarm>& latched() const { return latched_; }
   [[nodiscard]] bool is_open() const { return file_ >= 0; }
   bool append(const Alarm& alarm, JournalEvent event, TimeNs utc_ns);

@@ -69,7 +69,10 @@ class Builder {
 
 void add_navigation(Builder& out, const MetricsSnapshot& now) {
   const MonitorStatus& status = now.status;
-  out.gauge("healthy", "1 while the vehicle navigates and no warning is active.").add(status.healthy);
+  out.gauge("healthy", "1 while the vehicle navigates, GPS is there where expected and no warning is active.")
+      .add(status.healthy);
+  out.gauge("health_known", "0 while the monitor, just started, cannot say yet how the vehicle is.")
+      .add(status.known);
   out.gauge("navigation_mode", "1 for what the navigation state rests on.")
       .add_states("mode", status.mode, NavMode::inertial);
   out.gauge("alignment_phase", "1 for the present phase of alignment.")
@@ -95,11 +98,11 @@ void add_navigation(Builder& out, const MetricsSnapshot& now) {
 void add_outages(Builder& out, const MonitorStatus& status) {
   out.gauge("gps_outage_seconds", "Length of the present GPS outage of the vehicle, 0 when there is none.")
       .add(status.gps_outage_s);
-  out.gauge("gps_outage_longest_seconds", "The longest GPS outage since the monitor's start.")
+  out.gauge("gps_outage_longest_seconds", "The longest GPS outage over restarts of the monitor.")
       .add(status.gps_outage_longest_s);
-  out.counter("gps_outage_seconds_total", "Time spent in GPS outages since the monitor's start.")
+  out.counter("gps_outage_seconds_total", "Time spent in GPS outages over restarts of the monitor.")
       .add(status.gps_outage_total_s);
-  out.counter("gps_outages_total", "GPS outages since the monitor's start.")
+  out.counter("gps_outages_total", "GPS outages over restarts of the monitor.")
       .add(std::uint64_t{status.gps_outage_count});
   const auto each = [&](auto value) {
     for (const ReceiverOutage& receiver : status.receivers) {
@@ -142,7 +145,7 @@ void add_alarms(Builder& out, const MetricsSnapshot& now) {
   }
   out.gauge("alarms_unacknowledged", "Alarms that no operator has acknowledged.")
       .add(std::uint64_t{now.status.alarms_unacknowledged});
-  out.counter("alarms_raised_total", "Alarms raised since the monitor's start, by their first severity.");
+  out.counter("alarms_raised_total", "Alarms raised over restarts of the monitor, by their first severity.");
   for (std::size_t i = 0; i < now.raised.size(); ++i) {
     out.add(now.raised[i], {{"severity", std::string(to_string(static_cast<Severity>(i)))}});
   }

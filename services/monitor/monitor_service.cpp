@@ -20,6 +20,7 @@
 #include "health/vehicle_health.hpp"
 #include "monitor/alarm_journal.hpp"
 #include "monitor/metrics.hpp"
+#include "monitor/outage_file.hpp"
 #include "runtime/build_info.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
@@ -40,11 +41,12 @@ health::HealthConfig health_of(const config::MonitorConfig& config) {
 
 constexpr DurationNs kRetryNs = 10 * kNsPerSecond;    // of what could not be opened
 constexpr DurationNs kForecastNs = 5 * kNsPerSecond;  // an older forecast is none
+constexpr DurationNs kKeepNs = kNsPerSecond;          // of the outages' books
 constexpr std::size_t kMostSensors = 64;              // names come from the network: bounded
 
 /// The part of a status that is worth telling at once when it changes.
 auto headline(const MonitorStatus& status) {
-  return std::tuple(status.healthy, status.mode, status.alignment, status.gps_outage_active,
+  return std::tuple(status.known, status.healthy, status.mode, status.alignment, status.gps_outage_active,
                     status.gps_outage_severity, status.alarms_active, status.alarms_unacknowledged);
 }
 
@@ -59,7 +61,9 @@ struct MonitorService::Impl {
         status_writer(host.participant()),
         alarm_writer(host.participant()),
         journal(monitor_config.journal.path),
+        outages(monitor_config.journal.path),
         metrics([this] { return snapshot(); }) {
+    resume_outages(now());
     open_outputs(now());
     listen_to_sensors();
     listen<NavState>();
@@ -135,6 +139,16 @@ struct MonitorService::Impl {
     }
   }
 
+  /// Outages go on over a restart of the monitor.
+  void resume_outages(const health::Instant& at) {
+    const auto books = outages.read(health.alarms().vehicle());
+    if (!outages.error().empty()) host.log().warning(outages.error());
+    health.resume(books, at);
+    for (const health::GpsOutageBook& book : books) {
+      if (book.receiver.empty() && book.record.active) host.log().info("a GPS outage of before goes on");
+    }
+  }
+
   /// Alarms are latched until somebody acknowledges them, also when the monitor was started again in between.
   void restore(const health::Instant& at) {
     int restored = 0;
@@ -142,7 +156,8 @@ struct MonitorService::Impl {
     for (const Alarm& alarm : journal.latched()) {
       if (alarm.header.vehicle.view() != config.common.vehicle) continue;
       health.restore(alarm, at);
-      ++restored;
+      told[alarm.alarm] = alarm;
+      restored += alarm.acknowledged ? 0 : 1;
     }
     if (restored > 0) {
       host.log().info(std::to_string(restored) + " alarm(s) of before that nobody has acknowledged");
@@ -244,6 +259,7 @@ struct MonitorService::Impl {
     std::vector<Alarm> changes;
     std::vector<Alarm> repeats;
     std::optional<MonitorStatus> status;
+    std::vector<health::GpsOutageBook> books;
     {
       // Nothing is written under the lock: a writer may wait for a thread of the bus that waits for the lock.
       const std::lock_guard lock(mutex);
@@ -252,6 +268,7 @@ struct MonitorService::Impl {
       health.strangers(std::move(strangers), at);
       health.evaluate(at);
       changes = health.take_changes();
+      books = health.books(at);
       if (at.monotonic_ns - repeated_ns >= from_seconds(config.alarm_repeat_s)) {
         repeated_ns = at.monotonic_ns;
         repeats = health.alarms().all();
@@ -272,7 +289,20 @@ struct MonitorService::Impl {
       status_writer.write(*status);
     }
     // Last: a disk may take its time.
+    keep_outages(books);
     for (const Alarm& alarm : changes) record(alarm);
+  }
+
+  /// Once a second, and at once when an outage has begun or ended.
+  void keep_outages(const std::vector<health::GpsOutageBook>& books) {
+    std::uint64_t turns = 0;
+    for (const health::GpsOutageBook& book : books)
+      turns += 2 * book.record.count + (book.record.active ? 1 : 0);
+    const TimeNs now_ns = host.clock().monotonic_ns();
+    if (books.empty() || (turns == kept_turns && now_ns - kept_ns < kKeepNs)) return;
+    kept_turns = turns;
+    kept_ns = now_ns;
+    if (!outages.write(health.alarms().vehicle(), books)) complain(outages.error(), outages_trouble);
   }
 
   void publish(Alarm alarm) {
@@ -352,6 +382,9 @@ struct MonitorService::Impl {
   std::optional<MonitorStatus> said;
   std::map<Name, Alarm> told;  ///< alarms as last recorded, until they are over and acknowledged
   TimeNs tried_ns = 0;
+  std::uint64_t kept_turns = 0;
+  TimeNs kept_ns = 0;
+  std::string outages_trouble;
   std::string journal_trouble;
   std::string metrics_trouble;
   std::uint64_t status_sequence = 0;
@@ -360,6 +393,7 @@ struct MonitorService::Impl {
   bus::Writer<MonitorStatus> status_writer;
   bus::Writer<Alarm> alarm_writer;
   AlarmJournal journal;
+  OutageFile outages;
   MetricsServer metrics;
   std::vector<std::shared_ptr<void>> readers;  ///< last: their handlers use all of the above
 };

@@ -13,6 +13,7 @@ struct Mapping<MonitorStatus> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
+    copy(plain.known, wire.known());
     copy(plain.healthy, wire.healthy());
     copy_enum<NavMode::inertial, v1::NavMode::NAV_MODE_INERTIAL>(copy, plain.mode, wire.mode());
     copy_enum<AlignmentPhase::lost, v1::AlignmentPhase::ALIGNMENT_PHASE_LOST>(copy, plain.alignment,

@@ -16,8 +16,7 @@ struct Mapping<Verdict> {
     copy_enum<SourceKind::fins, v1::SourceKind::SOURCE_FINS>(copy, plain.source, wire.source());
     copy(plain.model, wire.model());
     copy(plain.writer, wire.writer());
-    copy_enum<VerdictKind::from_the_future, v1::VerdictKind::VERDICT_FROM_THE_FUTURE>(copy, plain.kind,
-                                                                                      wire.kind());
+    copy_enum<VerdictKind::no_fix, v1::VerdictKind::VERDICT_NO_FIX>(copy, plain.kind, wire.kind());
     copy(plain.dimensions, wire.dimensions());
     copy(plain.innovation, wire.innovation());
     copy(plain.innovation_sigma, wire.innovation_sigma());

@@ -2,13 +2,18 @@
 
 #include "estimation/aiding/model.hpp"
 #include "samples/gps.hpp"
+#include "samples/gps_quality.hpp"
 
 namespace fathom::estimation {
 
-/// A fix of the quality that is asked for, and not one that its own receiver disowns.
-[[nodiscard]] inline bool is_fixed(const SensorConfig& sensor, const GpsSample& sample) {
+/// Whether the receiver has a fix of the quality that is asked for, and one that it does not disown itself.
+[[nodiscard]] inline Usable usable_fix(const SensorConfig& sensor, const GpsSample& sample) {
+  if (static_cast<std::uint8_t>(sample.fix) < sensor.min_fix) return Usable::no_fix;
   const bool disowned = sensor.refuse_spoofed && sample.spoofing == GpsSpoofing::affirmed;
-  return static_cast<std::uint8_t>(sample.fix) >= sensor.min_fix && !disowned;
+  return disowned ? Usable::out_of_range : Usable::yes;
+}
+[[nodiscard]] inline bool is_fixed(const SensorConfig& sensor, const GpsSample& sample) {
+  return usable_fix(sensor, sample) == Usable::yes;
 }
 
 /// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..2). The
@@ -27,11 +32,11 @@ class GpsPosition {
         latency_s_(s.value(Group::gps_latency, 0)) {}
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
-    const bool fixed = is_fixed(sensor, sample);
+    if (const Usable fix = usable_fix(sensor, sample); fix != Usable::yes) return fix;
     const bool placed = std::abs(sample.latitude_rad) <= 1.5707963267948966 &&
                         std::abs(sample.longitude_rad) <= 6.2831853071795865;
     const bool high = !known(sample.altitude_m) || std::abs(sample.altitude_m) < 5e4;
-    return fixed && placed && high ? Usable::yes : Usable::out_of_range;
+    return placed && high ? Usable::yes : Usable::out_of_range;
   }
   [[nodiscard]] int dimension() const { return 3; }
   [[nodiscard]] Vector3 measured() const {
@@ -58,8 +63,8 @@ class GpsPosition {
   [[nodiscard]] Vector3 noise() const {
     Vector3 sigma;
     for (std::size_t i = 0; i < 3; ++i)
-      sigma(static_cast<int>(i)) =
-          sigma_of(sensor_.sigma[i], sample_.position_sigma_N_m[i], sensor_.use_sample_sigma);
+      sigma(static_cast<int>(i)) = sigma_of(sensor_.sigma[i], sample_.position_sigma_N_m[i],
+                                            sensor_.use_sample_sigma || !is_accurate(sample_));
     return sigma;
   }
 

@@ -19,7 +19,7 @@ class GpsVelocity {
         latency_s_(s.value(Group::gps_latency, 0)) {}
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
-    if (!is_fixed(sensor, sample)) return Usable::out_of_range;
+    if (const Usable fix = usable_fix(sensor, sample); fix != Usable::yes) return fix;
     // A receiver that claims an impossible place is not believed in its velocity either; an unknown place is
     // no claim.
     if (known(sample.latitude_rad) && !(std::abs(sample.latitude_rad) <= 1.5707963267948966))

@@ -50,6 +50,7 @@ struct AidingState {
 enum class Usable : std::uint8_t {
   yes,
   out_of_range,
+  no_fix,
   unknown_frame,
   not_estimated,
   other_model,  ///< the sample is for another model of its source: says nothing against it

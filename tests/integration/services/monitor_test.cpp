@@ -190,20 +190,50 @@ TEST_F(MonitorTest, TheJournalSurvivesKillNineAndAnIncompleteLine) {
   ASSERT_TRUE(drive([&] { network->gps(true); },
                     [&] { return monitor->err().find("was incomplete") != std::string::npos; }))
       << monitor->err();
-  EXPECT_TRUE(wait_until([&] { return journal_lines().size() >= 4; }, 2.0));
-  // Still latched, though the new monitor never saw it.
+  // Still latched, though the new monitor never saw it; the fixes since have ended it.
   ASSERT_TRUE(drive([&] { network->gps(true); },
                     [&] { return ear->alarm("gps_outage").has_value() && !ear->active("gps_outage"); }));
+  EXPECT_TRUE(wait_until([&] { return journal_lines().size() >= 5; }, 2.0));
   EXPECT_FALSE(ear->alarm("gps_outage")->acknowledged);
   const auto lines = journal_lines();
-  ASSERT_EQ(lines.size(), 4U);
+  ASSERT_EQ(lines.size(), 5U);
   EXPECT_EQ(lines[0]["event"], "started");
   EXPECT_EQ(lines[1]["event"], "raised");
   EXPECT_EQ(lines[2]["event"], "repaired");
   EXPECT_EQ(lines[3]["event"], "started");
+  EXPECT_EQ(lines[4]["event"], "cleared");
   monitor->kill(SIGTERM);
   EXPECT_EQ(monitor->wait(), 0);
   EXPECT_EQ(journal_lines().back()["event"], "stopped");
+}
+
+TEST_F(MonitorTest, AnOutageGoesOnOverKillNine) {
+  start(188, {"services=[]", "navigation.expected=false", "gps.limit_s=1.0", "gps.warning_s=2.0"}, clock);
+  ASSERT_TRUE(drive([&] { network->gps(true); }, [&] { return ear->status()->healthy; }));
+  const TimeNs lost_ns = clock.monotonic_ns();
+  ASSERT_TRUE(drive([&] { network->gps(false); },
+                    [&] { return ear->active("gps_outage") && ear->status()->gps_outage_s > 3.0; }));
+  monitor->kill(SIGKILL);
+  EXPECT_EQ(monitor->wait(), 128 + SIGKILL);
+  ear = std::make_unique<MonitorEar>(network->participant());
+  monitor = std::make_unique<Process>("fathom-monitor", command_line);
+  bool ever_healthy = false;
+  ASSERT_TRUE(drive([&] { network->gps(false); },
+                    [&] {
+                      ever_healthy = ever_healthy || (ear->status() && ear->status()->healthy);
+                      return ear->status() && ear->status()->gps_outage_active && ear->active("gps_outage");
+                    }));
+  EXPECT_FALSE(ever_healthy);
+  EXPECT_EQ(ear->status()->gps_outage_count, 1u);
+  EXPECT_NEAR(ear->status()->gps_outage_s, to_seconds(clock.monotonic_ns() - lost_ns), 1.5);
+  const auto lines = journal_lines();
+  EXPECT_EQ(std::count_if(lines.begin(), lines.end(),
+                          [](const nlohmann::json& line) {
+                            return line.value("alarm", "") == "gps_outage" && line["event"] == "cleared";
+                          }),
+            0);
+  ASSERT_TRUE(drive([&] { network->gps(true); }, [&] { return ear->status()->healthy; }));
+  EXPECT_EQ(ear->status()->gps_outage_count, 1u);
 }
 
 TEST_F(MonitorTest, ATakenPortAndAnImpossibleJournalAreSaidAndTheMonitorGoesOn) {

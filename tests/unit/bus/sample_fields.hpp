@@ -201,7 +201,7 @@ constexpr unsigned last_of<AlignmentPhase>() {
 }
 template <>
 constexpr unsigned last_of<VerdictKind>() {
-  return static_cast<unsigned>(VerdictKind::from_the_future);
+  return static_cast<unsigned>(VerdictKind::no_fix);
 }
 template <>
 constexpr unsigned last_of<SourceKind>() {

@@ -177,24 +177,40 @@ TEST(AlarmBookRestored, StaysUntilAcknowledgedAndGivesWayToWhatHoldsNow) {
   before.active = true;
   before.severity = Severity::critical;
   before.since_ns = 7;
-  book.restore(before, at(0.0));
+  book.restore(before, at(0.0), 10.0);
   ASSERT_NE(book.find("gps_outage"), nullptr);
-  EXPECT_FALSE(book.find("gps_outage")->active) << "the condition is not seen to hold";
+  EXPECT_TRUE(book.find("gps_outage")->active) << "nothing is known against it";
   EXPECT_EQ(book.find("gps_outage")->since_ns, 7);
-  EXPECT_EQ(book.active_count(), 0u);
   EXPECT_EQ(book.unacknowledged_count(), 1u);
   EXPECT_EQ(book.take_changes().size(), 1u);
-  Condition now;
-  now.key = "gps_outage";
-  book.hold(now, at(1.0));
+  // A watcher that has heard nothing yet does not clear it; one that knows does.
+  book.release("gps_outage", at(1.0));
+  book.release("gps_outage", at(2.0));
   EXPECT_TRUE(book.find("gps_outage")->active);
-  EXPECT_EQ(book.find("gps_outage")->severity, now.severity) << "it is a new occurrence";
-  book.restore(before, at(2.0));
-  EXPECT_TRUE(book.find("gps_outage")->active);
-  book.release("gps_outage", at(3.0));
-  book.release("gps_outage", at(4.0));
+  book.release("gps_outage", at(3.0), true);
+  book.release("gps_outage", at(4.0), true);
+  EXPECT_FALSE(book.find("gps_outage")->active);
   EXPECT_EQ(book.acknowledge("*", at(5.0)), 1);
   EXPECT_EQ(book.find("gps_outage"), nullptr);
+}
+
+TEST(AlarmBook, AnAlarmOfBeforeThatNothingConfirmsEndsInTime) {
+  AlarmBook book("auv");
+  Alarm before;
+  before.alarm = "sensor_missing:sonar";
+  before.active = true;
+  book.restore(before, at(0.0), 10.0);
+  book.settle(at(9.0));
+  EXPECT_EQ(book.active_count(), 1u);
+  book.settle(at(10.0));
+  EXPECT_EQ(book.active_count(), 0u);
+  EXPECT_EQ(book.unacknowledged_count(), 1u) << "latched until somebody has seen it";
+  // One that was over stays over.
+  AlarmBook other("auv");
+  before.active = false;
+  other.restore(before, at(0.0), 10.0);
+  EXPECT_EQ(other.active_count(), 0u);
+  EXPECT_EQ(other.unacknowledged_count(), 1u);
 }
 
 }  // namespace
