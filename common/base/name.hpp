@@ -26,8 +26,6 @@ class Name {
   [[nodiscard]] constexpr const char* c_str() const { return data_.data(); }
   [[nodiscard]] std::string str() const { return std::string(view()); }
   [[nodiscard]] constexpr bool empty() const { return size_ == 0; }
-  /// False only of one whose bytes were read from somewhere (base/image.hpp).
-  [[nodiscard]] constexpr bool sound() const { return size_ <= kCapacity && data_[size_] == '\0'; }
 
   friend constexpr bool operator==(const Name& a, const Name& b) { return a.view() == b.view(); }
   friend constexpr auto operator<=>(const Name& a, const Name& b) { return a.view() <=> b.view(); }

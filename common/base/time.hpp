@@ -22,6 +22,13 @@ inline constexpr DurationNs kNsPerMillisecond = 1'000'000;
 /// Rounds to the nearest nanosecond. Values beyond +-292 years saturate, NaN becomes 0.
 [[nodiscard]] DurationNs from_seconds(double seconds);
 
+/// Nearer to 1970 than 146 years: such stamps can be added to and subtracted from each other. Instruments and
+/// networks may deliver others.
+[[nodiscard]] constexpr bool sound_stamp(TimeNs stamp_ns) {
+  constexpr TimeNs kMost = TimeNs{1} << 62;
+  return stamp_ns >= -kMost && stamp_ns <= kMost;
+}
+
 /// A civil UTC instant as instruments report it.
 struct CivilTime {
   int year = 1970;

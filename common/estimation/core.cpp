@@ -96,11 +96,22 @@ Core::Core(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {
     sensors_[i].enabled = setup.config.sensors[i].enabled;
 }
 
-void Core::read(ImageReader& image) {
-  const Setup* setup = setup_;
-  image.get(*this);
-  setup_ = setup;
-  filter_.record_to(nullptr);
+bool Core::remembers_the_past_only() const {
+  bool past = true;
+  const auto hold = [&](TimeNs stamp_ns) { past = past && (stamp_ns == 0 || stamp_ns <= now_ns_); };
+  for (const TimeNs stamp : {gps_used_ns_, usbl_used_ns_, dvl_used_ns_, velocity_used_ns_, phase_since_ns_,
+                             waiting_since_ns_, began_ns_, hold_since_ns_, gps_seen_ns_,
+                             under_way_.heading_ns, under_way_.dvl_ns, under_way_.usbl_ns})
+    hold(stamp);
+  for (const Sensor& sensor : sensors_) {
+    hold(sensor.stamp_ns);
+    hold(sensor.used_ns);
+    for (const Sensor::Rejections& one : sensor.rejections) hold(one.since_ns);
+    hold(sensor.candidate.refused_since_ns);
+    hold(sensor.candidate.since_ns);
+    hold(sensor.candidate.last_ns);
+  }
+  return past;
 }
 
 ProcessNoise Core::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& rate_B_rad_s,

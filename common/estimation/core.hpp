@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "base/image.hpp"
 #include "estimation/aiding/registry.hpp"
 #include "estimation/alignment/drop_alignment.hpp"
 #include "estimation/alignment/rest_window.hpp"
@@ -134,8 +133,6 @@ class Core {
   /// Another estimate for the present instant, as the smoother has it.
   void replace(const FilterState& state, const ErrorFilter& filter);
   void record_to(FilterTape* tape) { filter_.record_to(tape); }
-  /// All of it from an image that a navigator of an equal setup wrote as it is.
-  void read(ImageReader& image);
   /// Puts the present instant elsewhere on the time axis, after a step of the stamps.
   void rebase(TimeNs now_ns, double unobserved_s);
 
@@ -176,6 +173,10 @@ class Core {
   // core_output.cpp
   [[nodiscard]] OutputAttitude output_attitude() const;
 
+  /// For archives: see fields/core.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
  private:
   [[nodiscard]] double since(TimeNs stamp_ns) const {
     return stamp_ns == 0 ? kUnknown : to_seconds(now_ns_ - stamp_ns);
@@ -183,6 +184,8 @@ class Core {
   [[nodiscard]] AidingState aiding_state() const;
   void enter(AlignmentPhase phase);
   void lose_attitude();
+  /// No instant that is remembered lies after now.
+  [[nodiscard]] bool remembers_the_past_only() const;
 
   // core_judge.cpp
   Judgement judge(const Measurement& measurement);
@@ -245,7 +248,9 @@ class Core {
   /// Tilt is found again under way; heading, velocity and position are carried on, over `unobserved_s`
   /// without inertial samples as they were.
   void restart_drop(double tilt_sigma_rad, double unobserved_s);
-  void begin_drop(DropConfig config);
+  /// What the configuration says of a drop and what follows from it.
+  [[nodiscard]] DropConfig drop_config() const;
+  void begin_drop(const DropConfig& config);
   /// After a gap in which the attitude was lost; false where the heading is lost with it.
   bool resume_drop(double gap_s);
   void widen_drop(const GapSigma& sigma);

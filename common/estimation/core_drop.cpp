@@ -20,7 +20,7 @@ constexpr double kHeadingLeft_rad = 0.79;
 }  // namespace
 
 void Core::start_drop(const InitialState& initial) {
-  DropConfig config = setup_->config.air_drop;
+  DropConfig config = drop_config();
   config.tilt_sigma_rad = std::max(initial.attitude_sigma_rad[0], initial.attitude_sigma_rad[1]);
   config.heading_sigma_rad = initial.attitude_sigma_rad[2];
   fall_covariance_.setZero();
@@ -33,7 +33,7 @@ void Core::start_drop(const InitialState& initial) {
 }
 
 void Core::restart_drop(double tilt_sigma_rad, double unobserved_s) {
-  DropConfig config = setup_->config.air_drop;
+  DropConfig config = drop_config();
   config.tilt_sigma_rad = tilt_sigma_rad;
   config.heading_sigma_rad = rpy_sigma_rad().z();
   if (!dropping_) {
@@ -46,12 +46,17 @@ void Core::restart_drop(double tilt_sigma_rad, double unobserved_s) {
   begin_drop(config);
 }
 
-void Core::begin_drop(DropConfig config) {
+DropConfig Core::drop_config() const {
+  DropConfig config = setup_->config.air_drop;
   for (const SensorConfig& one : setup_->config.sensors)
     if (one.kind == SourceKind::propulsion && one.scale_m_s_per_rpm > 0.0)
       config.speed_per_rpm = one.scale_m_s_per_rpm;
   config.stability.max_gap_s =
       std::min(config.stability.max_gap_s, kMissedSample / setup_->config.imu.nominal_rate_hz);
+  return config;
+}
+
+void Core::begin_drop(const DropConfig& config) {
   drop_ = DropAlignment(config);
   drop_.start(state_.nav.q_NB);
   dropping_ = released_ = true;

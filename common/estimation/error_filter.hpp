@@ -77,6 +77,10 @@ class ErrorFilter {
   bool update(const Observation& observation, const InnovationStatistics& statistics,
               std::array<double, kMaxStates>& x);
 
+  /// For archives: see fields/filter.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
  private:
   [[nodiscard]] std::size_t at(int row, int column) const {
     return static_cast<std::size_t>(row * kRowStride + column);

@@ -1,13 +1,21 @@
 #include "estimation/fusion_engine.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "archive/layout.hpp"
+#include "archive/reader.hpp"
+#include "archive/writer.hpp"
+#include "estimation/fields/core.hpp"
+#include "estimation/fields/intake.hpp"
+#include "estimation/fields/state_head.hpp"
 #include "estimation/forecaster.hpp"
 #include "estimation/history.hpp"
 #include "estimation/imu_intake.hpp"
+#include "estimation/order.hpp"
 #include "estimation/output.hpp"
 
 namespace fathom::estimation {
@@ -38,6 +46,12 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   bool add(const ImuSample& sample) {
+    if (!sound_stamp(sample.header.stamp_ns)) {
+      Judgement judgement;
+      judgement.kind = VerdictKind::out_of_range;
+      refuse(sample.header, SourceKind::imu, {}, judgement);
+      return false;
+    }
     const ImuIntake::Result result = intake_.take(sample);
     switch (result.outcome) {
       case ImuIntake::Outcome::refused: {
@@ -72,8 +86,8 @@ class FusionEngine::Impl final : public VerdictSink {
   void add(const Sample& sample, SourceKind source, const Name& writer) {
     Judgement judgement;
     const int sensor = find(sample.header.sensor, source);
-    if (sensor < 0) {
-      judgement.kind = VerdictKind::source_disabled;
+    if (sensor < 0 || !sound_stamp(sample.header.stamp_ns)) {
+      judgement.kind = sensor < 0 ? VerdictKind::source_disabled : VerdictKind::out_of_range;
       refuse(sample.header, source, writer, judgement);
       return;
     }
@@ -108,28 +122,16 @@ class FusionEngine::Impl final : public VerdictSink {
     refuse(sample.header, source, writer, judgement);
   }
 
+  [[nodiscard]] std::string objection(const Command& command) const {
+    const bool target =
+        command.kind == CommandKind::enable_source || command.kind == CommandKind::disable_source;
+    if (target && std::find(names_.begin(), names_.end(), command.target) == names_.end())
+      return "it names no sensor of the configuration";
+    return objection_to(command);
+  }
+
   bool apply(const Command& command) {
-    switch (command.kind) {
-      case CommandKind::enable_source:
-      case CommandKind::disable_source: {
-        bool any = false;
-        for (const Name& name : names_) any = any || name == command.target;
-        if (!any) return false;
-        break;
-      }
-      case CommandKind::set_position:
-        if (!(std::abs(command.latitude_rad) < 1.5707) || !(std::abs(command.longitude_rad) <= 6.2832) ||
-            !(command.sigma_m > 0.0) || std::isinf(command.sigma_m) || std::isinf(command.depth_m))
-          return false;
-        break;
-      case CommandKind::mark_at_rest:
-        if (!(command.value_s >= 0.0 && command.value_s < 1e6)) return false;
-        break;
-      case CommandKind::realign:
-        break;
-      default:
-        return false;
-    }
+    if (!objection(command).empty()) return false;
     Measurement& one = incoming_;
     one.command = true;
     one.judged = one.settled = false;
@@ -157,21 +159,28 @@ class FusionEngine::Impl final : public VerdictSink {
 
   bool save(std::vector<std::byte>& out) const {
     if (!history_.started() || pending_start_) return false;
-    ImageWriter image(out);
-    image.put(ImageHead(*this));
-    image.put(intake_);
+    archive::Writer image(out, kStateVersion);
+    const SampleHeader& newest = nav_.header;
+    const StateHead head{StateHead::kMagic, kStateVersion,   layout(kStateVersion), commands_,
+                         newest.sequence,   newest.stamp_ns, newest.received_ns};
+    image("head", head);
+    image("intake", intake_);
     history_.write(image);
     return true;
   }
 
-  bool restore(std::span<const std::byte> bytes) {
-    if (bytes.size() < sizeof(ImageHead) + sizeof(ImuIntake)) return false;
-    ImageReader image(bytes);
-    ImageHead head;
-    image.get(head);
+  std::string restore(std::span<const std::byte> bytes) {
+    archive::Reader image(bytes);
+    StateHead head;
+    image("head", head);
+    if (!image.good()) return image.complaint();
+    if (head.layout != layout(head.version))
+      return "its fields are not those that this build expects of version " + std::to_string(head.version);
     ImuIntake intake(setup_);
-    intake.read(image);
-    if (head.magic != ImageHead::kMagic || !history_.read(image, *this)) return false;
+    image.set_version(head.version);
+    image("intake", intake);
+    image.expect(intake.newest_ns() == head.stamp_ns, "intake.last_ns", "the stamp of the state");
+    if (std::string why = history_.read(image, head.stamp_ns, *this); !why.empty()) return why;
     intake_ = intake;
     commands_ = head.commands;
     nav_.header.stamp_ns = head.stamp_ns;
@@ -182,7 +191,7 @@ class FusionEngine::Impl final : public VerdictSink {
     history_.for_each_event([this](const Measurement& one) {
       if (!one.command) forecaster_.remember(one.sensor, one.sample);
     });
-    return true;
+    return {};
   }
 
   void judged(const Measurement& measurement, const Judgement& judgement, VerdictKind previous) override {
@@ -242,20 +251,13 @@ class FusionEngine::Impl final : public VerdictSink {
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:
-  struct ImageHead {
-    static constexpr std::uint64_t kMagic = 0x31'45'4E'49'47'4E'45'46;  // "FENGINE1"
-    ImageHead() = default;
-    explicit ImageHead(const Impl& engine)
-        : commands(engine.commands_),
-          sequence(engine.nav_.header.sequence),
-          stamp_ns(engine.nav_.header.stamp_ns),
-          received_ns(engine.nav_.header.received_ns) {}
-    std::uint64_t magic = kMagic;
-    std::uint64_t commands = 0;
-    std::uint64_t sequence = 0;
-    TimeNs stamp_ns = 0;
-    TimeNs received_ns = 0;
-  };
+  /// Tells the fields of that version, as this build and configuration have them.
+  [[nodiscard]] std::uint64_t layout(std::uint32_t version) const {
+    archive::Layout out(version);
+    out("intake", intake_);
+    history_.layout(out);
+    return out.fingerprint();
+  }
 
   [[nodiscard]] int find(const Name& sensor, SourceKind source) const {
     for (std::size_t i = 0; i < names_.size(); ++i)
@@ -337,6 +339,9 @@ void FusionEngine::add(const PropulsionSample& sample, const Name& writer) {
 void FusionEngine::add(const FinsSample& sample, const Name& writer) {
   impl_->add(sample, SourceKind::fins, writer);
 }
+std::string FusionEngine::objection(const Command& command) const {
+  return impl_->objection(command);
+}
 bool FusionEngine::apply(const Command& command) {
   return impl_->apply(command);
 }
@@ -380,7 +385,7 @@ void FusionEngine::fill_taken(Forecast& forecast) {
 bool FusionEngine::save(std::vector<std::byte>& out) const {
   return impl_->save(out);
 }
-bool FusionEngine::restore(std::span<const std::byte> image) {
+std::string FusionEngine::restore(std::span<const std::byte> image) {
   return impl_->restore(image);
 }
 double FusionEngine::forecast_horizontal_95_m(double after_s) {

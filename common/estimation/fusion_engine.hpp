@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -80,8 +81,10 @@ class FusionEngine {
   void add(const PropulsionSample& sample, const Name& writer = {});
   void add(const FinsSample& sample, const Name& writer = {});
 
+  /// Why a command is none that this engine follows, in words; empty when it is one.
+  [[nodiscard]] std::string objection(const Command& command) const;
   /// set_position, realign, enable_source, disable_source, mark_at_rest; others are ignored. Takes effect
-  /// with the next inertial sample. False when the command names nothing the engine has, or lacks a number.
+  /// with the next inertial sample. False when there is an objection.
   bool apply(const Command& command);
 
   /// Forgets everything and starts from a given state with the first inertial sample at or after its stamp.
@@ -120,14 +123,14 @@ class FusionEngine {
   /// navigation.
   [[nodiscard]] double forecast_horizontal_95_m(double after_s);
 
-  /// Appends everything that navigation follows from, delayed measurements included: an engine of an equal
-  /// configuration and the same build that restores it does from there on what this one does, to the last
-  /// bit. Left out are verdicts not yet taken and the motion that the forecast remembers. False, with nothing
-  /// appended, before the first inertial sample.
+  /// Appends everything that navigation follows from, delayed measurements included, as an archive
+  /// (common/archive): an engine of an equal configuration that restores it, of whatever build, does from
+  /// there on what this one does, to the last bit. Left out are verdicts not yet taken and the motion that
+  /// the forecast remembers. False, with nothing appended, before the first inertial sample.
   [[nodiscard]] bool save(std::vector<std::byte>& out) const;
-  /// False, with nothing changed, when the bytes are no such image. That they are undamaged, and of this
-  /// build and configuration, is for the caller to see to.
-  [[nodiscard]] bool restore(std::span<const std::byte> image);
+  /// The bytes may be anybody's. Empty when done; else, with nothing changed, which field is wrong, what it
+  /// is and what was expected.
+  [[nodiscard]] std::string restore(std::span<const std::byte> image);
 
   /// Covariance of position (m, N), velocity and attitude error phi of the point of the IMU.
   [[nodiscard]] Eigen::Matrix<double, 9, 9> navigation_covariance() const;

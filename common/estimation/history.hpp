@@ -1,8 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
+#include "archive/layout.hpp"
+#include "archive/reader.hpp"
+#include "archive/writer.hpp"
 #include "estimation/core.hpp"
 
 namespace fathom::estimation {
@@ -63,10 +67,13 @@ class History {
   /// Back to before the first sample.
   void clear(VerdictSink& sink);
 
+  // history_archive.cpp
   /// What the state follows from: the oldest navigator that is held, and the steps and events since.
-  void write(ImageWriter& image) const;
-  /// That of another history of an equal setup. False, with nothing changed, when this is no such image.
-  [[nodiscard]] bool read(ImageReader& image, VerdictSink& sink);
+  void write(archive::Writer& archive) const;
+  /// That of another history of an equal setup, whose newest step ends at `newest_ns`. Why not, with nothing
+  /// changed, when it is none; else empty.
+  [[nodiscard]] std::string read(archive::Reader& archive, TimeNs newest_ns, VerdictSink& sink);
+  void layout(archive::Layout& archive) const;
 
   /// Steps done again because of late events, since construction.
   [[nodiscard]] std::uint64_t repeated_steps() const { return repeated_steps_; }
@@ -81,6 +88,12 @@ class History {
     TimeNs now_ns = 0;
     std::uint16_t place = 0;  ///< in snapshots_
   };
+
+  // history_archive.cpp
+  struct Candidate;
+  void read_steps(archive::Reader& archive, Candidate& out) const;
+  void read_events(archive::Reader& archive, Candidate& out) const;
+  void take_over(const Candidate& found, VerdictSink& sink);
 
   /// Gives a verdict of an event, the one after those that were given before.
   static void say(Measurement& event, const Judgement& judgement, bool is_final, VerdictSink& sink);

@@ -8,7 +8,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kNewAxis = 10;
 /// Intervals longer than this many nominal ones have lost samples in them.
 constexpr double kLostFactor = 1.5;
 

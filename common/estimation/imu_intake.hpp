@@ -26,14 +26,15 @@ class ImuIntake {
 
   explicit ImuIntake(const Setup& setup) : setup_(&setup) {}
   [[nodiscard]] Result take(const ImuSample& sample);
-  /// All of it from an image that an intake of an equal setup wrote as it is.
-  void read(ImageReader& image) {
-    const Setup* setup = setup_;
-    image.get(*this);
-    setup_ = setup;
-  }
+  /// The newest sample that was taken, 0 before the first.
+  [[nodiscard]] TimeNs newest_ns() const { return last_ns_; }
+  /// For archives: see fields/intake.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
 
  private:
+  static constexpr int kNewAxis = 10;  ///< refused stamps in a row that make an axis
+
   /// Mean rate and force of a sample along B; false when it is not usable.
   bool read(const ImuSample& sample);
 

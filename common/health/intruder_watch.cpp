@@ -23,10 +23,12 @@ void IntruderWatch::add(const ServiceStatus& status, const Instant& now) {
     strangers_.counted[service] = 0;
     permissions_.counted[service] = 0;
     malformed_.counted[service] = 0;
+    states_.counted[service] = 0;
   }
   follow(strangers_, service, status.counter("bus_stranger_refused"), now);
   follow(permissions_, service, status.counter("bus_permission_refused"), now);
   follow(malformed_, service, status.counter("bus_malformed_datagram"), now);
+  follow(states_, service, status.counter("state_refused"), now);
 }
 
 void IntruderWatch::follow(Refusals& refusals, const Name& service, std::uint64_t value, const Instant& now) {
@@ -74,6 +76,7 @@ void IntruderWatch::report(AlarmBook& book, const Instant& now) const {
        now);
   warn(book, malformed_, "malformed_datagram",
        "Somebody sends datagrams that would end a service, and are left out", now);
+  warn(book, states_, "state_refused", "Fusion was sent a state that is broken or not the leader's", now);
 }
 
 void IntruderWatch::warn(AlarmBook& book, const Refusals& refusals, const char* key, const char* what,

@@ -12,7 +12,8 @@ namespace fathom::health {
 /// Who knocks on the network, by what services count in their life signs and by whom the monitor itself sees:
 /// "stranger_refused", somebody who proved no identity, and "permission_refused", an identity that tried what
 /// it may not, where the network is protected; "malformed_datagram", bytes that would have ended or blocked a
-/// service.
+/// service; "state_refused", a navigation engine's state that is broken or does not come from the one that
+/// leads.
 /// All are warnings, active while it goes on and for kWindowS after.
 class IntruderWatch {
  public:
@@ -42,6 +43,7 @@ class IntruderWatch {
   Refusals strangers_;
   Refusals permissions_;
   Refusals malformed_;
+  Refusals states_;
   std::vector<std::string> present_;
   TimeNs present_since_ns_ = 0;
 };

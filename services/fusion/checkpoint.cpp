@@ -20,7 +20,7 @@ namespace fathom::fusion {
 namespace {
 
 constexpr std::string_view kMagic = "FATHOMCP";
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 constexpr std::size_t kHead = kMagic.size() + 2 * sizeof(std::uint32_t);  // magic, format, checksum
 
 std::uint32_t checksum(std::span<const std::byte> bytes) {
@@ -144,7 +144,6 @@ std::string objection(const CheckpointLabel& found, const CheckpointLabel& own, 
   };
   if (found.vehicle != own.vehicle) return other("vehicle", found.vehicle, own.vehicle);
   if (found.service != own.service) return other("service", found.service, own.service);
-  if (found.build != own.build) return other("build", found.build, own.build);
   if (found.configuration != own.configuration) {
     return other("configuration", found.configuration, own.configuration);
   }
@@ -166,9 +165,8 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   const std::vector<char> all{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file && !file.eof()) return Error{"cannot be read"};
-  std::vector<std::byte> out(all.size());
-  std::memcpy(out.data(), all.data(), all.size());
-  return out;
+  const auto bytes = std::as_bytes(std::span(all));
+  return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
 std::string replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes, bool sync) {

@@ -16,7 +16,7 @@ struct CheckpointLabel {
   std::string vehicle;
   std::string service;
   std::string configuration;  ///< hash of the effective configuration
-  std::string build;          ///< of the executable: an image is memory as that build laid it out
+  std::string build;          ///< of the executable that wrote it: to be told, nothing hangs on it
   TimeNs stamp_ns = 0;        ///< UTC instant of the navigation state in it
 };
 

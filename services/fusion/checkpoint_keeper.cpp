@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "fusion/checkpoint_start.hpp"
+
 namespace fathom::fusion {
 
 CheckpointKeeper::CheckpointKeeper(const config::CheckpointConfig& config, CheckpointLabel label,
@@ -42,6 +44,7 @@ void CheckpointKeeper::write() {
   if (!save_(label_.stamp_ns, image_)) return;
   encode(label_, image_, file_);
   const std::string failure = replace_file(config_.path, file_, config_.sync);
+  if (failure.empty()) forget_trial(config_.path);
   bool news = false;
   {
     const std::lock_guard lock(mutex_);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "fusion/arrival_log.hpp"
 #include "fusion/checkpoint.hpp"
 #include "fusion/checkpoint_keeper.hpp"
+#include "fusion/checkpoint_start.hpp"
 #include "fusion/life_sign.hpp"
 #include "fusion/replica_link.hpp"
 #include "fusion/verdict_desk.hpp"
@@ -47,33 +47,16 @@ CheckpointLabel label_of(host::ServiceHost& host) {
 /// An engine that is ready for the first sample, and how it came to its state.
 struct Started {
   estimation::FusionEngine engine;
-  std::string how;
+  Resumption resumption;
 };
 
 Started started(host::ServiceHost& host, const config::FusionConfig& config, const CheckpointLabel& own) {
-  Started out{estimation::FusionEngine(config::engine_config(config)), "started afresh"};
-  const config::CheckpointConfig& kept = config.checkpoint;
-  if (!kept.path.empty()) {
-    const auto refuse = [&](const std::string& why) { out.how += ": checkpoint " + kept.path + " " + why; };
-    const auto bytes = read_file(kept.path);
-    const auto found = bytes ? decode(bytes.value()) : Result<Checkpoint>(bytes.error());
-    if (!found) {
-      refuse(found.error().message);
-    } else if (const std::string why = objection(found.value().label, own, kept.max_age_s); !why.empty()) {
-      refuse(why);
-    } else if (!out.engine.restore(found.value().image)) {
-      refuse("holds no state of this engine");
-    } else {
-      std::array<char, 96> text{};
-      std::snprintf(text.data(), text.size(), "resumed from a checkpoint %.2f s old",
-                    to_seconds(own.stamp_ns - found.value().label.stamp_ns));
-      out.how = text.data();
-      host.log().info(out.how);
-      return out;
-    }
-  }
-  host.log().info(out.how);
-  if (config::starts_from_state(config.start.mode)) out.engine.start_from(config::initial_state(config));
+  Started out{estimation::FusionEngine(config::engine_config(config)), {}};
+  out.resumption = resume(out.engine, config.checkpoint, own);
+  host.log().write(out.resumption.refused ? runtime::LogLevel::warning : runtime::LogLevel::info,
+                   out.resumption.how);
+  if (!out.resumption.resumed && config::starts_from_state(config.start.mode))
+    out.engine.start_from(config::initial_state(config));
   return out;
 }
 
@@ -215,19 +198,20 @@ struct FusionService::Impl {
 
   void on_command(const Command& command) {
     if (command.header.vehicle != vehicle || command.kind == CommandKind::acknowledge_alarm) return;
-    bool applied = false;
+    std::string objection;
     {
       const std::lock_guard lock(mutex);
       ++counts.commands;
       log.note(command);
-      applied = engine.apply(command);
+      objection = engine.objection(command);
+      if (objection.empty() && !engine.apply(command)) objection = "navigation has not begun";
     }
     const std::string text = "command " + std::string(to_string(command.kind)) + " " + command.target.str() +
                              " from " + command.header.sensor.str();
-    if (applied) {
+    if (objection.empty()) {
       host.log().info(text + ": applied");
     } else {
-      host.log().warning(text + ": refused, it names nothing known or lacks a number");
+      host.log().warning(text + ": refused: " + objection);
     }
   }
 
@@ -263,7 +247,7 @@ struct FusionService::Impl {
     {
       const std::lock_guard lock(mutex);
       counts.verdicts = verdicts.figures();
-      moment = {counts, newest_nav_state_ns, phase, imu_sensor, start.how};
+      moment = {counts, newest_nav_state_ns, phase, imu_sensor, start.resumption.how};
     }
     life_sign.fill(moment, host.clock(), status);
     if (link) link->fill(status);
@@ -277,15 +261,15 @@ struct FusionService::Impl {
 
   // What arrived since the state was saved is told the engine again. What comes of it has been said by the
   // one that saved it.
-  Result<std::string> restore(const SharedState& state) {
+  ReplicaLink::Restored restore(const SharedState& state) {
     const std::lock_guard lock(mutex);
     if (imu_sensor != state.imu_sensor) {
       imu_sensor = state.imu_sensor;
-      return Error{"is of inertial unit " + imu_sensor.str() + ", listened to from now on"};
+      return {"", "is of inertial unit " + imu_sensor.str() + ", listened to from now on"};
     }
     if (std::string why = gap_between(state, log); !why.empty())
-      return Error{"does not reach this one: " + why};
-    if (!engine.restore(state.image)) return Error{"is none of this engine"};
+      return {"", "does not reach this one: " + why};
+    if (std::string why = engine.restore(state.image); !why.empty()) return {"", "is none: " + why, true};
     for (const Command& order : log.orders()) engine.apply(order);
     gaps.go_on_from(state.last);
     int told_again = 0;
@@ -306,7 +290,7 @@ struct FusionService::Impl {
     }
     verdicts.begin_anew();
     phase = engine.nav_state().alignment;
-    return "and " + std::to_string(told_again) + " samples since";
+    return {"and " + std::to_string(told_again) + " samples since", ""};
   }
 
   bool share(SharedState& state) {

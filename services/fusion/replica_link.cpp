@@ -10,6 +10,7 @@
 
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
+#include "fusion/leader_watch.hpp"
 #include "fusion/replica.hpp"
 #include "fusion/state_parts.hpp"
 
@@ -23,6 +24,7 @@ constexpr double kSilenceOfListening = 0.4;  // a leader is missed sooner than n
 constexpr DurationNs kQuarrel_ns = 2 * kNsPerSecond;
 constexpr DurationNs kLeastGap_ns = 100 * kNsPerMillisecond;
 constexpr DurationNs kLate_ns = 250 * kNsPerMillisecond;
+constexpr DurationNs kLeaderPatience_ns = 2 * kNsPerSecond;  // of the host: ten accounts
 constexpr int kSaidAfterTicks = 6;  // what lasts shorter is a hiccup of the scheduler
 
 /// In vehicle time, as the clock runs; never shorter on the host, whose scheduling is no faster in an
@@ -60,7 +62,8 @@ struct ReplicaLink::Impl {
         peers(host.participant(),
               [this](const ReplicaStatus& peer, const bus::SampleInfo& info) { on_told(peer, info); }),
         heard(
-            host.participant(), [this](const NavState& state, const bus::SampleInfo&) { on_heard(state); },
+            host.participant(),
+            [this](const NavState& state, const bus::SampleInfo& info) { on_heard(state, info); },
             nav_state_options(host, config)) {}
 
   ~Impl() {
@@ -82,12 +85,14 @@ struct ReplicaLink::Impl {
       return;
     }
     replica.told(peer, host.clock().monotonic_ns());
+    leader.told(peer, info.writer_guid, steady.monotonic_ns());
   }
 
-  void on_heard(const NavState& state) {
+  void on_heard(const NavState& state, const bus::SampleInfo& info) {
     if (state.header.vehicle != Name(label.vehicle)) return;
     const std::lock_guard lock(mutex);
     replica.heard(state, mine(state.header), host.clock().monotonic_ns());
+    if (!mine(state.header)) leader.heard(state.header.sensor, info.writer_guid, steady.monotonic_ns());
   }
 
   void run() {
@@ -134,6 +139,7 @@ struct ReplicaLink::Impl {
     }
     if (leads != led) {
       led = leads;
+      tell();  // before a state is given: nobody takes one from whom he does not know to lead
       if (leads) hooks.leads_now();
       host.publish_status_soon();
     }
@@ -223,11 +229,18 @@ struct ReplicaLink::Impl {
 
   void on_part(const EngineStatePart& part, const bus::SampleInfo& info) {
     if (part.header.vehicle != Name(label.vehicle) || mine(part.header)) return;
+    const std::string from = part.header.sensor.str();
+    {
+      std::unique_lock lock(mutex);
+      const auto objection = leader.objection(part.header.sensor, info.writer_guid, steady.monotonic_ns());
+      lock.unlock();
+      if (objection.forged) return refuse(from, objection.why, true);
+      if (!objection.why.empty()) return;
+    }
     auto whole = assembler.add(part, info.writer_guid);
     if (!whole) return;
-    const std::string from = whole->head.header.sensor.str();
     auto found = decode(whole->bytes);
-    if (!found) return refuse(from, found.error().message);
+    if (!found) return refuse(from, found.error().message, true);
     found.value().label.service = label.service;  // another instance, the same kind
     // Of what age it is does not matter: whether it leads to the leader's states is seen afterwards.
     CheckpointLabel own = label;
@@ -235,23 +248,25 @@ struct ReplicaLink::Impl {
     const std::string why = objection(found.value().label, own, 0.0);
     if (!why.empty()) return refuse(from, why);
     const auto shared = decode_shared(found.value().image);
-    if (!shared) return refuse(from, shared.error().message);
+    if (!shared) return refuse(from, shared.error().message, true);
     {
       const std::lock_guard lock(mutex);
       if (!replica.wants_state()) return;
     }
-    const auto taken = hooks.restore(shared.value());
-    if (!taken) return refuse(from, taken.error().message);
+    const Restored taken = hooks.restore(shared.value());
+    if (!taken.error.empty()) return refuse(from, taken.error, taken.unsound);
     {
       const std::lock_guard lock(mutex);
       replica.caught_up(whole->head.missed);
     }
-    host.log().info("took the state of " + from + ", " + taken.value());
+    host.log().info("took the state of " + from + ", " + taken.text);
   }
 
-  void refuse(const std::string& from, const std::string& why) {
+  /// `unsound`: it is forged or broken, not only of no use here.
+  void refuse(const std::string& from, const std::string& why, bool unsound = false) {
     const std::string text = "the state of " + from + " " + why;
     const std::lock_guard lock(mutex);
+    if (unsound) ++states_refused;
     if (std::exchange(refused, text) != text) host.log().warning(text);
   }
 
@@ -263,6 +278,8 @@ struct ReplicaLink::Impl {
 
   mutable std::mutex mutex;  // guards what follows up to the thread's own
   Replica replica;
+  LeaderWatch leader{kLeaderPatience_ns};
+  std::uint64_t states_refused = 0;
   std::string refused;
   std::optional<TimeNs> namesake_ns;  ///< when another one of the same name was last heard
 
@@ -331,6 +348,7 @@ void ReplicaLink::fill(ServiceStatus& status) const {
   status.counters.push_back({"missed_samples", replica.missed()});
   status.counters.push_back({"caught_up", replica.times_caught_up()});
   status.counters.push_back({"unprepared", replica.times_unprepared()});
+  status.counters.push_back({"state_refused", impl_->states_refused});
 }
 
 }  // namespace fathom::fusion

@@ -23,11 +23,17 @@ namespace fathom::fusion {
 /// lock is held while a hook runs.
 class ReplicaLink {
  public:
+  /// What came of a state.
+  struct Restored {
+    std::string text;      ///< of that, in words
+    std::string error;     ///< why it was not taken; empty when it was
+    bool unsound = false;  ///< because it is no state of such an engine
+  };
   struct Hooks {
     /// False when there is nothing to give.
     std::function<bool(SharedState& state)> save;
-    /// Takes up a state and what arrived since. What it says of that; an error where it could not.
-    std::function<Result<std::string>(const SharedState& state)> restore;
+    /// Takes up a state and what arrived since.
+    std::function<Restored(const SharedState& state)> restore;
     /// Whether to keep what arrives, for restore.
     std::function<void(bool on)> keep_arrivals;
     std::function<void()> leads_now;

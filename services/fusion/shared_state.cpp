@@ -2,19 +2,39 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 #include <variant>
 
-#include "base/image.hpp"
+#include "archive/reader.hpp"
+#include "archive/writer.hpp"
 
 namespace fathom::fusion {
 namespace {
 
+constexpr std::uint32_t kVersion = 1;
+/// Streams that are watched, several times over.
+constexpr std::uint64_t kMostStreams = 1024;
+
 struct Head {
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive("version", self.version, fathom::archive::Whole{1, kVersion});
+    archive("stamp_ns", self.stamp_ns, fathom::archive::kInstant);
+    archive("imu_sensor", self.imu_sensor);
+    archive("streams", self.streams);
+  }
+  std::uint32_t version = kVersion;
   TimeNs stamp_ns = 0;
   Name imu_sensor;
   std::uint64_t streams = 0;
 };
 struct Row {
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive("source", self.source, SourceKind::fins);
+    archive("sensor", self.sensor);
+    archive("sequence", self.sequence);
+  }
   SourceKind source{};
   Name sensor;
   std::uint64_t sequence = 0;
@@ -24,32 +44,32 @@ struct Row {
 
 void encode(const SharedState& state, std::vector<std::byte>& out) {
   out.clear();
-  ImageWriter writer(out);
-  writer.put(Head{state.stamp_ns, state.imu_sensor, state.last.size()});
-  for (const auto& [stream, sequence] : state.last) writer.put(Row{stream.first, stream.second, sequence});
+  archive::Writer writer(out, kVersion);
+  const Head head{kVersion, state.stamp_ns, state.imu_sensor, state.last.size()};
+  writer("head", head);
+  std::size_t index = 0;
+  for (const auto& [stream, sequence] : state.last) {
+    const Row row{stream.first, stream.second, sequence};
+    writer.element("streams", index++, row);
+  }
   out.insert(out.end(), state.image.begin(), state.image.end());
 }
 
 Result<SharedState> decode_shared(std::span<const std::byte> bytes) {
-  const Error too_short{"is cut off"};
-  const Error no_name{"holds what is no name"};
-  if (bytes.size() < sizeof(Head)) return too_short;
-  ImageReader reader(bytes);
+  archive::Reader reader(bytes, kVersion);
   Head head;
-  reader.get(head);
-  if (head.streams > reader.left() / sizeof(Row)) return too_short;
-  if (!head.imu_sensor.sound()) return no_name;
+  reader("head", head);
+  reader.expect(head.streams <= kMostStreams, "head.streams", "at most " + std::to_string(kMostStreams));
   SharedState out;
   out.stamp_ns = head.stamp_ns;
   out.imu_sensor = head.imu_sensor;
-  for (std::uint64_t i = 0; i < head.streams; ++i) {
+  for (std::uint64_t i = 0; i < head.streams && reader.good(); ++i) {
     Row row;
-    reader.get(row);
-    if (!row.sensor.sound()) return no_name;
+    reader.element("streams", i, row);
     out.last[{row.source, row.sensor}] = row.sequence;
   }
-  const auto image = bytes.last(reader.left());
-  out.image.assign(image.begin(), image.end());
+  if (!reader.good()) return Error{"is none: " + reader.complaint()};
+  out.image.assign(reader.rest().begin(), reader.rest().end());
   return out;
 }
 

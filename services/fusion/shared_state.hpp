@@ -20,7 +20,8 @@ struct SharedState {
   std::vector<std::byte> image;  ///< of the engine
 };
 
-/// As bytes for the way, and back; the error says what is wrong with them. For the same build to read.
+/// As an archive for the way, and back; the error says what is wrong with the bytes. The image is the
+/// engine's to check.
 void encode(const SharedState& state, std::vector<std::byte>& out);
 [[nodiscard]] Result<SharedState> decode_shared(std::span<const std::byte> bytes);
 

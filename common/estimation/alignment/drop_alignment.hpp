@@ -19,6 +19,10 @@ class SpeedTrack {
   [[nodiscard]] double slope_m_s2() const { return x_.y(); }
   [[nodiscard]] double slope_sigma_m_s2() const { return std::sqrt(p_(1, 1)); }
 
+  /// For archives: see fields/alignment.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
  private:
   Eigen::Vector2d x_ = Eigen::Vector2d::Zero();
   Eigen::Matrix2d p_ = Eigen::Matrix2d::Identity();
@@ -75,6 +79,10 @@ class DropAlignment {
   /// no_depth or no_speed while such samples are missing, else none.
   [[nodiscard]] StabilityReset missing() const;
   [[nodiscard]] const DropConfig& config() const { return config_; }
+
+  /// For archives: see fields/alignment.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
 
  private:
   void enter(AlignmentPhase phase);

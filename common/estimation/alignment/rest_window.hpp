@@ -37,6 +37,10 @@ class RestWindow {
   [[nodiscard]] double heading_start_rad() const;
   [[nodiscard]] RestResult result() const;
 
+  /// For archives: see fields/alignment.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
  private:
   double duration_s_ = 0.0;
   int count_ = 0;

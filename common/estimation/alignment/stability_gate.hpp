@@ -107,6 +107,10 @@ class StabilityGate {
   /// of its changes from sample to sample, mean of the axes.
   [[nodiscard]] double jitter_m2_s4() const { return jitter_; }
 
+  /// For archives: see fields/alignment.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
  private:
   [[nodiscard]] StabilityReset fault(const StabilityInput& input) const;
   void watch(StabilityCondition condition, double value, double dt_s);

@@ -72,6 +72,10 @@ class TiltFilter {
   [[nodiscard]] const Vector& bias() const { return bias_; }  ///< the first seven are 0
   [[nodiscard]] const Matrix& covariance() const { return p_; }
 
+  /// For archives: see fields/alignment.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
  private:
   geo::Quaternion q_NB_;
   Eigen::Vector3d v_N_ = Eigen::Vector3d::Zero();

@@ -59,7 +59,14 @@ class WaterVelocity {
   /// How long the model has been compared.
   [[nodiscard]] double compared_s() const { return compared_s_; }
 
+  /// For archives: see fields/core.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
  private:
+  /// Faster than any vehicle: beyond it the model has come apart.
+  static constexpr double kMost_m_s = 1e3;
+
   bool running_ = false;
   double running_s_ = 0.0;
   bool rpm_heard_ = false;

@@ -289,7 +289,7 @@ TEST(Revision, GoesOnInAnEngineThatTakesUpTheState) {
   ASSERT_TRUE(vehicle.engine.save(image));
   Adrift other;
   other.verdicts = vehicle.verdicts;
-  ASSERT_TRUE(other.engine.restore(image));
+  ASSERT_EQ(other.engine.restore(image), "");
   other.take();
   EXPECT_EQ(other.of(20).back().kind, VerdictKind::rejected);
   other.engine.finish();

@@ -50,6 +50,18 @@ TEST_F(Intruders, DatagramsThatWouldEndAServiceAreAnAlarm) {
   EXPECT_EQ(alarm("stranger_refused", 0), nullptr);
 }
 
+TEST_F(Intruders, AStateThatIsNotTheLeadersIsAnAlarm) {
+  ServiceStatus status = life_sign("fusion_b", 0, ServiceState::healthy, 100);
+  status.counters = {{"state_refused", 0}};
+  watch.add(status, at(0));
+  EXPECT_EQ(alarm("state_refused", 0), nullptr);
+  status.counters = {{"state_refused", 3}};
+  watch.add(status, at(1));
+  ASSERT_TRUE(active("state_refused", 1));
+  EXPECT_EQ(book.find("state_refused")->severity, Severity::warning);
+  EXPECT_THAT(book.find("state_refused")->text, HasSubstr("counted by fusion_b,"));
+}
+
 TEST_F(Intruders, ACountThatGrowsIsAnAlarmThatStaysUntilAcknowledged) {
   life("fusion", 0, 0);
   life("monitor", 0, 0);

@@ -1,0 +1,129 @@
+#pragma once
+
+#include "estimation/core.hpp"
+#include "estimation/fields/alignment.hpp"
+#include "estimation/fields/filter.hpp"
+
+/// Fields of the navigator and of what it remembers.
+namespace fathom::estimation {
+
+namespace hydro {
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, Controls>
+void fields(Archive& archive, Self& self) {
+  archive("rpm", self.rpm, fathom::archive::within(-1e5, 1e5));
+  archive("rudder_rad", self.rudder_rad, fathom::archive::within(-6.3, 6.3));
+  archive("stern_rad", self.stern_rad, fathom::archive::within(-6.3, 6.3));
+}
+
+template <class Archive, class Self>
+void WaterVelocity::fields(Archive& archive, Self& self) {
+  archive("running", self.running_);
+  archive("running_s", self.running_s_, fathom::archive::at_least_zero());
+  archive("rpm_heard", self.rpm_heard_);
+  archive("V_B", self.V_B_, fathom::archive::within(-kMost_m_s, kMost_m_s));
+  archive("omega_before_B", self.omega_before_B_, fathom::archive::finite());
+  archive("controls", self.controls_);
+  archive("fins_age_s", self.fins_age_s_, fathom::archive::at_least_zero());
+  archive("unmeasured_s", self.unmeasured_s_, fathom::archive::at_least_zero());
+  archive("since_compared_s", self.since_compared_s_, fathom::archive::at_least_zero());
+  archive("compared_s", self.compared_s_, fathom::archive::at_least_zero());
+  archive("doubt", self.doubt_, fathom::archive::at_least_zero());
+}
+
+}  // namespace hydro
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, Core::Sensor::Rejections>
+void fields(Archive& archive, Self& self) {
+  archive("since_ns", self.since_ns, fathom::archive::kInstant);
+  archive("count", self.count, fathom::archive::kCount);
+  archive("innovation", self.innovation, fathom::archive::finite());
+}
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, Core::Sensor::Candidate>
+void fields(Archive& archive, Self& self) {
+  archive("refused_since_ns", self.refused_since_ns, fathom::archive::kInstant);
+  archive("since_ns", self.since_ns, fathom::archive::kInstant);
+  archive("last_ns", self.last_ns, fathom::archive::kInstant);
+  archive("count", self.count, fathom::archive::kCount);
+  archive("origin", self.origin);
+  archive("first_N_m", self.first_N_m, fathom::archive::finite());
+  archive("last_N_m", self.last_N_m, fathom::archive::finite());
+}
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, Core::Sensor>
+void fields(Archive& archive, Self& self) {
+  archive("enabled", self.enabled);
+  archive("stamp_ns", self.stamp_ns, fathom::archive::kInstant);
+  archive("used_ns", self.used_ns, fathom::archive::kInstant);
+  archive("reading", self.reading, fathom::archive::any_number());  // compared only
+  archive("first_prediction", self.first_prediction, fathom::archive::finite());
+  archive("repeats", self.repeats);
+  archive("rejections", self.rejections);
+  archive("candidate", self.candidate);
+}
+
+/// Precondition of reading: `self` is a navigator of the setup that wrote it, as constructed.
+template <class Archive, class Self>
+void Core::fields(Archive& archive, Self& self) {
+  constexpr auto kOrUnknown = fathom::archive::or_unknown(fathom::archive::finite());
+  archive.left_out(self.setup_);
+  archive("now_ns", self.now_ns_, fathom::archive::kInstant);
+  archive("navigating", self.navigating_);
+  archive("levelled", self.levelled_);
+  archive("began_ns", self.began_ns_, fathom::archive::kInstant);
+  archive("state", self.state_);
+  archive("filter", self.filter_);
+  archive("rate_B", self.rate_B_, fathom::archive::finite());
+  archive("force_B", self.force_B_, fathom::archive::finite());
+  archive("travelled_N_m", self.travelled_N_m_, fathom::archive::finite());
+  archive("sensors", self.sensors_);
+  archive("gps_used_ns", self.gps_used_ns_, fathom::archive::kInstant);
+  archive("usbl_used_ns", self.usbl_used_ns_, fathom::archive::kInstant);
+  archive("dvl_used_ns", self.dvl_used_ns_, fathom::archive::kInstant);
+  archive("velocity_used_ns", self.velocity_used_ns_, fathom::archive::kInstant);
+  archive("reset_counter", self.reset_counter_, fathom::archive::kAnyWhole);
+  archive("last_reset_N_m", self.last_reset_N_m_, fathom::archive::finite());
+  archive("rest_until_ns", self.rest_until_ns_, fathom::archive::kInstant);
+  archive("next_zero_velocity_ns", self.next_zero_velocity_ns_, fathom::archive::kInstant);
+  archive("water", self.water_);
+
+  archive("phase", self.phase_, AlignmentPhase::lost);
+  archive("phase_since_ns", self.phase_since_ns_, fathom::archive::kInstant);
+  archive("waiting_since_ns", self.waiting_since_ns_, fathom::archive::kInstant);
+  archive("hold_since_ns", self.hold_since_ns_, fathom::archive::kInstant);
+  archive("window", self.window_);
+  archive("smooth_force", self.smooth_force_, fathom::archive::finite());
+  archive("smooth_time_s", self.smooth_time_s_, fathom::archive::at_least_zero());
+  archive("gps_seen_ns", self.gps_seen_ns_, fathom::archive::kInstant);
+  archive("gps_position", self.gps_position_);
+  archive("gps_velocity_N", self.gps_velocity_N_, kOrUnknown);
+  archive("gps_sigma_N_m", self.gps_sigma_N_m_, fathom::archive::at_least_zero());
+  archive("gps_speed_m_s", self.gps_speed_m_s_,
+          fathom::archive::or_unknown(fathom::archive::at_least_zero()));
+  archive("fast_fixes", self.fast_fixes_, fathom::archive::kCount);
+  archive("under_way", self.under_way_);
+  archive("released", self.released_);
+  archive("dropping", self.dropping_);
+  archive("regained", self.regained_);
+  if constexpr (Archive::kReads) {
+    archive.expect(self.released_ || !(self.dropping_ || self.regained_), "released", "a release before");
+    if (self.released_) self.drop_ = DropAlignment(self.drop_config());
+  }
+  archive("drop", self.drop_);
+  archive("fall_dv_N", self.fall_dv_N_, fathom::archive::finite());
+  archive("fall_dp_N", self.fall_dp_N_, fathom::archive::finite());
+  fathom::archive::covariance(archive, "fall_covariance", self.fall_covariance_);
+  archive("fall_s", self.fall_s_, fathom::archive::at_least_zero());
+  archive("carried_s", self.carried_s_, fathom::archive::at_least_zero());
+  archive("position_set", self.position_set_);
+  archive("set_position", self.set_position_);
+  archive("set_sigma_m", self.set_sigma_m_, fathom::archive::at_least_zero());
+  if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
+}
+
+}  // namespace fathom::estimation
