@@ -31,19 +31,21 @@ void Core::notice(const Measurement& measurement) {
     if (!is_fixed(config, *gps)) return;
     if (!std::isfinite(gps->latitude_rad) || !std::isfinite(gps->longitude_rad)) return;
     if (std::abs(gps->latitude_rad) > 1.5708 || std::abs(gps->longitude_rad) > 6.2832) return;
-    const Vector3d v = geo::vec(gps->velocity_N_m_s);
+    Vector3d v = geo::vec(gps->velocity_N_m_s);
+    if (!std::isfinite(v.x()) || !std::isfinite(v.y())) v.head<2>().setConstant(kUnknown);
     const double speed = std::hypot(v.x(), v.y());
     gps_speed_m_s_ = speed;
     const bool fast = speed > setup_->config.alignment.in_motion_speed_m_s && speed < 1000.0;
     fast_fixes_ = fast ? fast_fixes_ + 1 : 0;
     gps_seen_ns_ = now_ns_;
-    gps_position_ = {gps->latitude_rad, gps->longitude_rad, known(gps->altitude_m) ? gps->altitude_m : 0.0};
-    gps_velocity_N_ = {v.x(), v.y(), known(v.z()) ? v.z() : 0.0};
+    const bool high = std::abs(gps->altitude_m) < 5e4;  // false where it is unknown
+    gps_position_ = {gps->latitude_rad, gps->longitude_rad, high ? gps->altitude_m : 0.0};
+    gps_velocity_N_ = {v.x(), v.y(), std::isfinite(v.z()) ? v.z() : 0.0};
     for (std::size_t i = 0; i < 3; ++i) {
       const double sigma = sigma_of(config.sigma[i], gps->position_sigma_N_m[i], config.use_sample_sigma);
       gps_sigma_N_m_(static_cast<int>(i)) = std::max(sigma, setup_->config.alignment.position_sigma_m);
     }
-    if (!known(gps->altitude_m)) gps_sigma_N_m_.z() = 200.0;
+    if (!high) gps_sigma_N_m_.z() = 200.0;
     return;
   }
   if (navigating_) return;

@@ -16,6 +16,9 @@ using Eigen::Vector3d;
 constexpr double kMissedSample = 1.5;
 // A heading known worse than this is none: the filter could not be linearised about it.
 constexpr double kHeadingLeft_rad = 0.79;
+// What an instrument may say at all.
+constexpr double kDeepest_m = 12000.0;
+constexpr double kMostRpm = 1e5;
 
 }  // namespace
 
@@ -159,14 +162,14 @@ std::optional<Judgement> Core::feed_drop(const Measurement& measurement) {
   Judgement out;
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(measurement.sensor)];
   if (const auto* depth = std::get_if<DepthSample>(&measurement.sample)) {
-    if (!std::isfinite(depth->depth_m)) {
+    if (!(std::abs(depth->depth_m) < kDeepest_m)) {
       out.kind = VerdictKind::out_of_range;
       return out;
     }
     const double lever_m = (geo::to_matrix(drop_.q_NB()) * geo::vec(config.lever_B_m)).z();
     turn_drop(drop_.add_depth(depth->depth_m - lever_m));
   } else if (const auto* propulsion = std::get_if<PropulsionSample>(&measurement.sample)) {
-    if (!std::isfinite(propulsion->rpm)) {
+    if (!(std::abs(propulsion->rpm) < kMostRpm)) {
       out.kind = VerdictKind::out_of_range;
       return out;
     }

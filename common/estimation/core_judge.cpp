@@ -4,6 +4,7 @@
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/usbl_range_bearing.hpp"
 #include "estimation/core.hpp"
+#include "estimation/sigma_range.hpp"
 #include "samples/gps_quality.hpp"
 
 namespace fathom::estimation {
@@ -91,6 +92,10 @@ Judgement Core::judge(const Measurement& measurement) {
     return out;
   }
   sensor.stamp_ns = measurement.stamp_ns;
+  if (config.use_sample_sigma && !sound_sigmas(measurement.sample)) {
+    out.kind = VerdictKind::out_of_range;
+    return out;
+  }
   notice(measurement);
   const bool drives = drive_model(measurement);
   if (!navigating_) return out;

@@ -9,16 +9,23 @@ namespace fathom::estimation {
 
 using Eigen::Vector3d;
 
+namespace {
+
+constexpr double kTurn_rad = 6.2831853071795865;
+constexpr double kMostRpm = 1e5;
+
+}  // namespace
+
 bool Core::drive_model(const Measurement& measurement) {
   if (!setup_->velocity_model) return false;
   if (const auto* fins = std::get_if<FinsSample>(&measurement.sample)) {
-    if (!std::isfinite(fins->rudder_rad) || !std::isfinite(fins->stern_rad)) return false;
+    if (!(std::abs(fins->rudder_rad) <= kTurn_rad) || !(std::abs(fins->stern_rad) <= kTurn_rad)) return false;
     water_.set_fins(fins->rudder_rad, fins->stern_rad);
     return true;
   }
   const auto* propulsion = std::get_if<PropulsionSample>(&measurement.sample);
   if (propulsion == nullptr) return false;
-  if (std::isfinite(propulsion->rpm)) water_.set_rpm(propulsion->rpm);
+  if (std::abs(propulsion->rpm) < kMostRpm) water_.set_rpm(propulsion->rpm);
   if (navigating_ && !water_.running()) {
     const AidingState state = aiding_state();
     const Vector3d current(state.value(Group::current, 0), state.value(Group::current, 1), 0.0);

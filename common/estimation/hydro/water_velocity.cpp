@@ -37,6 +37,7 @@ Vector3d VelocityModel::step(const Vector3d& V_B_m_s, const Vector3d& omega_befo
 }
 
 void WaterVelocity::begin(const Vector3d& V_B_m_s) {
+  if (!possible(V_B_m_s)) return;
   running_ = true;
   running_s_ = 0.0;
   V_B_ = V_B_m_s;
@@ -63,6 +64,8 @@ void WaterVelocity::advance(const VelocityModel& model, const Vector3d& omega_B_
     V_B_ = model.step(V_B_, omega_before_B_, omega_B_rad_s, gamma_B, controls_, dt_s / parts);
     omega_before_B_ = omega_B_rad_s;
   }
+  // It begins anew with the next shaft speed.
+  if (!possible(V_B_)) stop();
 }
 
 double WaterVelocity::unmeasured_s(double longest_s) const {

@@ -66,6 +66,9 @@ class WaterVelocity {
  private:
   /// Faster than any vehicle: beyond it the model has come apart.
   static constexpr double kMost_m_s = 1e3;
+  [[nodiscard]] static bool possible(const Eigen::Vector3d& V_B_m_s) {
+    return (V_B_m_s.array().abs() <= kMost_m_s).all();  // false for NaN
+  }
 
   bool running_ = false;
   double running_s_ = 0.0;
