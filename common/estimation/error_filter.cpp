@@ -11,6 +11,11 @@ namespace {
 
 constexpr int kRows = Observation::kMaxRows;
 constexpr std::size_t kStride = Observation::kMaxRows;
+/// A measurement whose variance is less than this share of what P has there: of the fifteen digits of
+/// P - K S K' six are left.
+constexpr double kDwarfed = 1e-9;
+/// What rounding may take of the least variance that a measurement leaves.
+constexpr double kRoundingLeaves = 0.5;
 
 /// Lower Cholesky factor in place; false when not positive definite.
 bool factorise(std::array<double, kStride * kStride>& a, int n) {
@@ -167,7 +172,10 @@ void ErrorFilter::statistics(const Observation& observation, double noise_scale,
         sum += h[column] * ph[column];
       }
       const double sigma = observation.sigma[static_cast<std::size_t>(i)];
-      if (i == j) sum += noise_scale * sigma * sigma;
+      if (i == j) {
+        out.noise[static_cast<std::size_t>(i)] = noise_scale * sigma * sigma;
+        sum += out.noise[static_cast<std::size_t>(i)];
+      }
       out.s[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j)] = sum;
       out.s[static_cast<std::size_t>(j) * kStride + static_cast<std::size_t>(i)] = sum;
     }
@@ -222,15 +230,92 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
     const double* row = v.data() + static_cast<std::size_t>(i) * kMaxStates;
     for (std::size_t j = 0; j < n; ++j) x[j] += row[j] * y[static_cast<std::size_t>(i)];
   }
+  // No measurement leaves less of a variance than its noise is of its innovation's, row by row.
+  std::array<double, kMaxStates> least;
+  double left = kRoundingLeaves;
+  for (int i = 0; i < m; ++i) {
+    const double root = lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
+    left *= statistics.noise[static_cast<std::size_t>(i)] / (root * root);
+  }
+  for (int i = 0; i < n_; ++i) least[static_cast<std::size_t>(i)] = left * p_[at(i, i)];
+  const bool careful = dwarfs(observation, statistics);
   // Three rows at a time: each element of P is fetched and stored once for them.
   int i = 0;
   for (; i + 3 <= m; i += 3) subtract<3>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
   if (m - i == 2) subtract<2>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
   if (m - i == 1) subtract<1>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
-  // Rounding must not make a variance vanish: a state is never known better than to a millionth of a
-  // millionth.
-  for (int i = 0; i < n_; ++i) p_[at(i, i)] = std::max(p_[at(i, i)], 1e-24);
+  if (careful) {
+    // K' = L'^-1 V, in place.
+    for (int i = m - 1; i >= 0; --i) {
+      double* row = v.data() + static_cast<std::size_t>(i) * kMaxStates;
+      for (int k = i + 1; k < m; ++k) {
+        const double factor = lower[static_cast<std::size_t>(k) * kStride + static_cast<std::size_t>(i)];
+        const double* other = v.data() + static_cast<std::size_t>(k) * kMaxStates;
+        for (std::size_t j = 0; j < n; ++j) row[j] -= factor * other[j];
+      }
+      const double inverse = 1.0 / lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
+      for (std::size_t j = 0; j < n; ++j) row[j] *= inverse;
+    }
+    settle_rounding(observation, statistics, v.data());
+  }
+  for (int i = 0; i < n_; ++i) p_[at(i, i)] = std::max(p_[at(i, i)], least[static_cast<std::size_t>(i)]);
   return true;
+}
+
+bool ErrorFilter::dwarfs(const Observation& observation, const InnovationStatistics& statistics) const {
+  for (int i = 0; i < statistics.rows; ++i) {
+    const auto& h = observation.h[static_cast<std::size_t>(i)];
+    const double noise = statistics.noise[static_cast<std::size_t>(i)];
+    for (int c = 0; c < observation.column_count; ++c) {
+      const auto column = observation.columns[static_cast<std::size_t>(c)];
+      if (h[column] * h[column] * p_[at(column, column)] * kDwarfed > noise) return true;
+    }
+  }
+  return false;
+}
+
+void ErrorFilter::settle_rounding(const Observation& observation, const InnovationStatistics& statistics,
+                                  const double* gain) {
+  // (KF-3): Q = P H' - K R, which is nothing but rounding; W = Q - K (H Q) / 2; P <- P - W K' - K W'.
+  const int m = statistics.rows;
+  const auto row_of = [](int i) { return static_cast<std::size_t>(i) * kMaxStates; };
+  std::array<double, static_cast<std::size_t>(kRows) * kMaxStates> q{};
+  std::array<double, kStride * kStride> hq{};
+  for (int i = 0; i < m; ++i) {
+    double* row = q.data() + row_of(i);
+    const auto& h = observation.h[static_cast<std::size_t>(i)];
+    for (int c = 0; c < observation.column_count; ++c) {
+      const auto column = observation.columns[static_cast<std::size_t>(c)];
+      for (int j = 0; j < n_; ++j) row[j] += h[column] * p_[at(column, j)];
+    }
+    for (int j = 0; j < n_; ++j)
+      row[j] -= statistics.noise[static_cast<std::size_t>(i)] * gain[row_of(i) + static_cast<std::size_t>(j)];
+  }
+  for (int i = 0; i < m; ++i) {
+    const auto& h = observation.h[static_cast<std::size_t>(i)];
+    for (int j = 0; j < m; ++j)
+      for (int c = 0; c < observation.column_count; ++c) {
+        const auto column = observation.columns[static_cast<std::size_t>(c)];
+        hq[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j)] +=
+            h[column] * q[row_of(j) + column];
+      }
+  }
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < m; ++i) {
+      const double half = 0.5 * hq[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j)];
+      for (std::size_t k = 0; k < static_cast<std::size_t>(n_); ++k)
+        q[row_of(j) + k] -= half * gain[row_of(i) + k];
+    }
+  for (int r = 0; r < n_; ++r)
+    for (int c = 0; c <= r; ++c) {
+      double change = 0.0;
+      for (int i = 0; i < m; ++i) {
+        const double* w = q.data() + row_of(i);
+        const double* k = gain + row_of(i);
+        change += w[r] * k[c] + k[r] * w[c];
+      }
+      set(r, c, (*this)(r, c) - change);
+    }
 }
 
 void remove_error(const std::array<double, kMaxStates>& x, int states, FilterState& state) {

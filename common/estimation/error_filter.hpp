@@ -15,6 +15,7 @@ struct InnovationStatistics {
   /// S = H P H' + R, row-major with stride kMaxRows.
   std::array<double, Observation::kMaxRows * Observation::kMaxRows> s{};
   std::array<double, Observation::kMaxRows * kMaxStates> ph{};  ///< row i: (P H')' of component i
+  std::array<double, Observation::kMaxRows> noise{};            ///< R, the variances that are in S
   double squared_distance = 0.0;                                ///< innovation' S^-1 innovation
 };
 
@@ -72,8 +73,8 @@ class ErrorFilter {
   /// (KF-2). With `noise_scale` R is multiplied by it.
   void statistics(const Observation& observation, double noise_scale, InnovationStatistics& out) const;
 
-  /// P <- P - K S K' and the estimated error x = K innovation (KF-3). False, with nothing changed, when S is
-  /// not positive.
+  /// P <- P - K S K' and the estimated error x = K innovation (KF-3), positive also where the measurement
+  /// knows a billion times more than P. False, with nothing changed, when S is not positive.
   bool update(const Observation& observation, const InnovationStatistics& statistics,
               std::array<double, kMaxStates>& x);
 
@@ -85,6 +86,12 @@ class ErrorFilter {
   [[nodiscard]] std::size_t at(int row, int column) const {
     return static_cast<std::size_t>(row * kRowStride + column);
   }
+  /// How little rounding may leave of P - K S K' beside R: the Joseph form is due (KF-3).
+  [[nodiscard]] bool dwarfs(const Observation& observation, const InnovationStatistics& statistics) const;
+  /// What rounding has made of P - K S K' becomes (I - K H) of it (KF-3); `gain` holds K by rows of
+  /// kMaxStates.
+  void settle_rounding(const Observation& observation, const InnovationStatistics& statistics,
+                       const double* gain);
   /// Columns that the loops run over: an even number, so that two always go together. The odd one is zero.
   [[nodiscard]] int width() const { return (n_ + 1) & ~1; }
   void copy(const ErrorFilter& other) {

@@ -65,6 +65,7 @@ void keep_rows(InnovationStatistics& statistics, unsigned refused) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
     if ((refused & 1U << i) == 0) from[kept++] = i;
   for (std::size_t i = 0; i < kept; ++i) {
+    statistics.noise[i] = statistics.noise[from[i]];
     for (std::size_t j = 0; j < kept; ++j)
       statistics.s[i * kStride + j] = statistics.s[from[i] * kStride + from[j]];
     if (from[i] != i)
@@ -119,6 +120,7 @@ GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const Gat
       if (ratio <= 1.0) {
         observation.sigma[static_cast<std::size_t>(row)] = std::sqrt(scale) * sigma;
         statistics.s[i * kStride + i] = s;
+        statistics.noise[i] = scale * sigma * sigma;
         worst_kept = std::max(worst_kept, ratio);
         ++row;
       } else if (observation.rows == 1) {
@@ -141,8 +143,10 @@ GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const Gat
   const bool hopeless = statistics.squared_distance > sensor.robust_reject_ratio * result.limit;
   const double scale = hopeless ? 1.0 : noise_scale(sensor, statistics.squared_distance, observation.rows);
   if (scale > 1.0 && std::isfinite(scale)) {
-    for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
+    for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i) {
       statistics.s[i * kStride + i] += (scale - 1.0) * observation.sigma[i] * observation.sigma[i];
+      statistics.noise[i] *= scale;
+    }
     statistics.squared_distance = squared_distance(observation, statistics);
   }
   result.test_ratio = statistics.squared_distance / result.limit;
