@@ -12,8 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kSlope_s = 1.0;  // time constant of the slope of the speed
-constexpr double kSlip_s = 0.1;   // interval of the slip model as a measurement
+constexpr double kSlip_s = 0.1;  // interval of the slip model as a measurement
 constexpr double kSlipNoise_m_s = 0.05;
 constexpr double kSlipDoubt = 0.3;  // share of the slip in a turn
 constexpr double kConsistency_s = 4.0;
