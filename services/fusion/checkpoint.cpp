@@ -14,8 +14,6 @@
 #include <unistd.h>
 #include <zlib.h>
 
-#include "runtime/build_info.hpp"
-
 namespace fathom::fusion {
 namespace {
 
@@ -192,22 +190,6 @@ std::string replace_file(const std::filesystem::path& path, std::span<const std:
   why = synced ? std::string() : failure("cannot be synchronised", folder);
   ::close(place);
   return why;
-}
-
-std::string build_of_this_executable() {
-  std::string out(runtime::version());
-  std::ifstream file("/proc/self/exe", std::ios::binary);
-  if (!file) return out + "-unknown";
-  std::vector<char> block(1U << 20U);
-  uLong value = crc32_z(0, nullptr, 0);
-  do {
-    file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    value =
-        crc32_z(value, reinterpret_cast<const Bytef*>(block.data()), static_cast<std::size_t>(file.gcount()));
-  } while (file);
-  std::array<char, 16> sum{};
-  std::snprintf(sum.data(), sum.size(), "-%08x", static_cast<unsigned>(value));
-  return out + sum.data();
 }
 
 }  // namespace fathom::fusion

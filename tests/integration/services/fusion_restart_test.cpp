@@ -100,8 +100,10 @@ TEST_F(FusionRestart, StartsAfreshFromADamagedCheckpointAndSaysSo) {
   file.write("damage", 6);
   file.close();
   launch();
-  EXPECT_EQ(how_started(),
-            "started afresh: checkpoint " + checkpoint() + " is damaged: its checksum is wrong");
+  EXPECT_EQ(how_started(), "started afresh: checkpoint " + checkpoint() +
+                               " is damaged: its checksum is wrong, put aside as " + checkpoint() +
+                               ".refused");
+  EXPECT_TRUE(fs::exists(checkpoint() + ".refused"));
 }
 
 TEST_F(FusionRestart, ADiskThatTakesNothingStopsNoNavigation) {

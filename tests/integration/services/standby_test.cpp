@@ -135,6 +135,43 @@ TEST_F(Standby, TakesOverWithTheStateOfTheOneThatDied) {
   EXPECT_TRUE(under_way_until([&] { return is("fusion_b", ReplicaPhase::in_step, false); }));
 }
 
+TEST_F(Standby, AForgedStateIsRefusedCountedAndInNobodysWay) {
+  start_first(187);
+  ASSERT_TRUE(under_way_until([&] {
+    return ear->state_count() > 300 && is("fusion", ReplicaPhase::in_step, true);
+  })) << fusion->err();
+  // Somebody else on the network bears the leader's name and sends what is no state, all the time.
+  bus::Participant stranger = presence(187, "stranger");
+  bus::Writer<EngineStatePart> forger(stranger);
+  std::uint64_t refused = 0;
+  bus::Reader<ServiceStatus> lives(vehicle->participant(),
+                                   [&](const ServiceStatus& status, const bus::SampleInfo&) {
+                                     if (status.header.sensor != Name("fusion_b")) return;
+                                     const std::lock_guard lock(mutex);
+                                     refused = std::max(refused, status.counter("state_refused"));
+                                   });
+  start_second();
+  EngineStatePart part;
+  part.header = vehicle->header("fusion");
+  part.parts = 1;
+  part.size = 5000;
+  part.bytes.fill(0x7f);
+  ASSERT_TRUE(under_way_until([&] {
+    ++part.transfer;
+    ++part.header.sequence;
+    forger.write(part);
+    const std::lock_guard lock(mutex);
+    return refused > 0;
+  })) << second->err();
+  EXPECT_TRUE(under_way_until([&] {
+    ++part.transfer;
+    forger.write(part);
+    return is("fusion_b", ReplicaPhase::in_step, false) && account("fusion_b")->caught_up > 0;
+  })) << second->err();
+  EXPECT_NE(second->err().find("another participant"), std::string::npos) << second->err();
+  EXPECT_TRUE(hears("fusion"));
+}
+
 TEST_F(Standby, SaysNothingWhileItsConfigurationIsAnother) {
   start_first(170);
   ASSERT_TRUE(under_way_until([&] { return ear->state_count() > 300; })) << fusion->err();
