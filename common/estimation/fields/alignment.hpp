@@ -143,6 +143,8 @@ void DropAlignment::fields(Archive& archive, Self& self) {
   archive("turned", self.turned_);
   archive("filter", self.filter_);
   archive("consistency", self.consistency_, fathom::archive::at_least_zero());
+  archive("contradicted_since_s", self.contradicted_since_s_, fathom::archive::finite());
+  archive("level_force_B", self.level_force_B_, fathom::archive::finite());
   archive("rate_NB_B", self.rate_NB_B_, fathom::archive::finite());
   archive("slip_rate", self.slip_rate_, fathom::archive::finite());
   archive("g_m_s2", self.g_m_s2_, fathom::archive::within(0.0, 100.0));
