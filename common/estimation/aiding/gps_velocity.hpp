@@ -50,6 +50,13 @@ class GpsVelocity {
     h.block(Group::gps_latency, s_.acceleration_N_m_s2());
     h.block(Group::accel_bias, -latency_s_ * s_.C_NB);
     h.block(Group::accel_scale, -latency_s_ * s_.C_NB * s_.force_B_m_s2.asDiagonal());
+    // What each misalignment state does to the force: M = [0 m0 m1; m2 0 m3; m4 m5 0] (IMU-1).
+    const Vector3& f = s_.force_B_m_s2;
+    Eigen::Matrix<double, 3, 6> turned;
+    turned << f.y(), f.z(), 0.0, 0.0, 0.0, 0.0,  //
+        0.0, 0.0, f.x(), f.z(), 0.0, 0.0,        //
+        0.0, 0.0, 0.0, 0.0, f.x(), f.y();
+    h.block(Group::accel_misalignment, -latency_s_ * s_.C_NB * turned);
   }
   [[nodiscard]] Vector3 noise() const {
     Vector3 sigma;
