@@ -152,7 +152,7 @@ TEST_F(BadInput, AidingSamples) {
 
   GpsSample gps = gps_;
   gps.fix = GpsFix::none;
-  EXPECT_EQ(judge(gps), VerdictKind::out_of_range);
+  EXPECT_EQ(judge(gps), VerdictKind::no_fix);
   gps = gps_;
   gps.spoofing = GpsSpoofing::affirmed;
   EXPECT_EQ(judge(gps), VerdictKind::out_of_range);
