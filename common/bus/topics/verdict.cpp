@@ -23,8 +23,7 @@ struct Mapping<Verdict> {
     copy(plain.test_ratio, wire.test_ratio());
     copy(plain.limit, wire.limit());
     copy(plain.revision, wire.revision());
-    copy_enum<VerdictKind::from_the_future, v1::VerdictKind::VERDICT_FROM_THE_FUTURE>(copy, plain.previous,
-                                                                                      wire.previous());
+    copy_enum<VerdictKind::no_fix, v1::VerdictKind::VERDICT_NO_FIX>(copy, plain.previous, wire.previous());
     copy(plain.is_final, wire.is_final());
   }
 
