@@ -120,8 +120,8 @@ void fields(Is<WatchedItem> auto& s, auto visit) {
   visit(a, b, c, d);
 }
 void fields(Is<MonitorStatus> auto& s, auto visit) {
-  auto& [header, a, b, c, d, e, f, g, h, i, j, k, l, m, sensors, services, receivers] = s;
-  visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m, sensors, services, receivers);
+  auto& [header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, sensors, services, receivers] = s;
+  visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, sensors, services, receivers);
 }
 void fields(Is<ReceiverOutage> auto& s, auto visit) {
   auto& [a, b, c, d, e, f, g, h] = s;
