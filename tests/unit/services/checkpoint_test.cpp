@@ -13,8 +13,6 @@
 
 #include "runtime/build_info.hpp"
 
-#include "runtime/build_info.hpp"
-
 namespace fathom::fusion {
 namespace {
 
