@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include "bus/cdr.hpp"
 #include "bus/topics.hpp"
@@ -46,10 +47,10 @@ std::string_view fathom::fuzz::target_name() {
   return "cdr";
 }
 
-test::ByteVector fathom::fuzz::target_seed() {
+std::vector<std::uint8_t> fathom::fuzz::target_seed() {
   MonitorStatus sample;
   test::Filler(3, test::Lists::one).fill(sample);
-  test::ByteVector out{kMonitorStatus};
+  std::vector<std::uint8_t> out{kMonitorStatus};
   const auto bytes = bus::to_cdr(sample);
   out.insert(out.end(), bytes.begin(), bytes.end());
   return out;

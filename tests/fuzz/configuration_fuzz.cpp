@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -64,12 +65,12 @@ std::string_view fathom::fuzz::target_name() {
   return "configuration";
 }
 
-fathom::test::ByteVector fathom::fuzz::target_seed() {
+std::vector<std::uint8_t> fathom::fuzz::target_seed() {
   const auto kinds = config::config_kinds();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i].name != "monitor") continue;
     std::ifstream in(FATHOM_SOURCE_DIR "/deploy/config/monitor.json", std::ios::binary);
-    test::ByteVector out{static_cast<std::uint8_t>(i)};
+    std::vector<std::uint8_t> out{static_cast<std::uint8_t>(i)};
     out.insert(out.end(), std::istreambuf_iterator<char>(in), {});
     return out;
   }

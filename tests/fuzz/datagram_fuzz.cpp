@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include "bus/detail/datagram_check.hpp"
 #include "driver.hpp"
@@ -14,7 +15,7 @@ std::string_view fathom::fuzz::target_name() {
   return "datagram";
 }
 
-fathom::test::ByteVector fathom::fuzz::target_seed() {
+std::vector<std::uint8_t> fathom::fuzz::target_seed() {
   namespace rtps = test::rtps;
   const auto key = rtps::parameter(0x0070, 16);
   const auto status = rtps::parameter(0x0071, 4);

@@ -141,7 +141,7 @@ TEST_F(Standby, AForgedStateIsRefusedCountedAndInNobodysWay) {
     return ear->state_count() > 300 && is("fusion", ReplicaPhase::in_step, true);
   })) << fusion->err();
   // Somebody else on the network bears the leader's name and sends what is no state, all the time.
-  bus::Participant stranger = presence(187, "stranger");
+  bus::Participant stranger(presence(187, "stranger"));
   bus::Writer<EngineStatePart> forger(stranger);
   std::uint64_t refused = 0;
   bus::Reader<ServiceStatus> lives(vehicle->participant(),
