@@ -174,13 +174,18 @@ struct HttpServer::Impl {
 
   /// False: the connection ends with it.
   bool deliver(const Request& request, const std::string& peer, Connection& connection) const {
-    const Answer answer = serve(request, peer);
-    std::string text = head_of(answer, request.keep_alive, options.tls.has_value());
-    if (request.method != "HEAD") text += answer.content();
-    if (!connection.write(text, kReadPatience)) return false;
-    if (!answer.stream) return request.keep_alive;
-    while (!answer.stream->closed()) {
-      const Event event = answer.stream->wait(kEventPatience);
+    std::shared_ptr<FanOut::Client> stream;
+    {
+      // A snapshot is large: it is let go before its stream begins.
+      const Answer answer = serve(request, peer);
+      std::string text = head_of(answer, request.keep_alive, options.tls.has_value());
+      if (request.method != "HEAD") text += answer.content();
+      if (!connection.write(text, kReadPatience)) return false;
+      stream = answer.stream;
+    }
+    if (!stream) return request.keep_alive;
+    while (!stream->closed()) {
+      const Event event = stream->wait(kEventPatience);
       if (event && !connection.write(*event, kReadPatience)) return false;
     }
     return false;
