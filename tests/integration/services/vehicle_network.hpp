@@ -79,6 +79,7 @@ class VehicleNetwork {
   void monitor(bool healthy) {
     MonitorStatus status;
     status.header = header("monitor");
+    status.known = true;
     status.healthy = healthy;
     status.mode = NavMode::gps_aided;
     status.gps_outage_s = 0.0;

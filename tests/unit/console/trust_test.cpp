@@ -21,6 +21,7 @@ cli::StatusView under_way() {
   nav.dvl_outage_s = 0.2;
   nav.gps_outage_s = 0.4;
   view.monitor = cli::Heard<MonitorStatus>{{}, 0.1};
+  view.monitor->sample.known = true;
   view.monitor->sample.healthy = true;
   view.monitor->sample.gps_outage_s = 0.0;
   return view;
@@ -127,6 +128,7 @@ TEST(Trust, EveryDoubtLowersIt) {
        [](cli::StatusView& v) { v.nav->sample.alignment = AlignmentPhase::coarse; }},
       {TrustLevel::caution, "the monitor is silent", [](cli::StatusView& v) { v.monitor.reset(); }},
       {TrustLevel::caution, "the monitor is silent", [](cli::StatusView& v) { v.monitor->age_s = 10.0; }},
+      {TrustLevel::caution, "does not know yet", [](cli::StatusView& v) { v.monitor->sample.known = false; }},
       {TrustLevel::caution, "GPS", [](cli::StatusView& v) { v.monitor->sample.healthy = false; }},
   };
   for (const Case& item : cases) {

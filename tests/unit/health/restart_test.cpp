@@ -125,6 +125,9 @@ TEST(MonitorRestart, OutagesGoOnAtFortyInstantsOfTwentySeeds) {
         const bool settled = t > kill_s + down_s + kLimit_s + 0.2;
         if (!settled) return;
         ASSERT_TRUE(!world.fusion_alive || status.known) << where(t);
+        // Where fusion is dead as well nobody can tell an outage that ended soon after the restart from none.
+        const bool unheard = !world.fusion_alive && status.gps_outage_count + 1 == before.gps_outage_count;
+        if (unheard) return;
         ASSERT_EQ(status.gps_outage_active, before.gps_outage_active) << where(t);
         // Where fusion is dead as well nobody heard the fixes of the pause.
         const double unheard_s = world.fusion_alive ? 0.0 : down_s;

@@ -120,7 +120,7 @@ TEST_F(AlarmJournalTest, APowerCutAnywhereInTheLastLineCostsThatLineOnly) {
   }
 }
 
-TEST_F(AlarmJournalTest, KnowsWhatNobodyAcknowledged) {
+TEST_F(AlarmJournalTest, KnowsWhatWasActiveAndWhatNobodyAcknowledged) {
   {
     AlarmJournal journal(path);
     ASSERT_TRUE(journal.open(kNow));
@@ -141,8 +141,10 @@ TEST_F(AlarmJournalTest, KnowsWhatNobodyAcknowledged) {
   }
   AlarmJournal journal(path);
   ASSERT_TRUE(journal.open(kNow));
-  ASSERT_EQ(journal.latched().size(), 1U);
-  const Alarm& left = journal.latched().front();
+  ASSERT_EQ(journal.latched().size(), 2U);
+  EXPECT_TRUE(journal.latched().front().active);
+  EXPECT_TRUE(journal.latched().front().acknowledged);
+  const Alarm& left = journal.latched().back();
   EXPECT_EQ(left.alarm, Name("sensor_missing:dvl"));
   EXPECT_EQ(left.header.vehicle, Name("auv"));
   EXPECT_EQ(left.severity, Severity::critical);

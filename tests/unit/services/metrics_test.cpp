@@ -21,6 +21,7 @@ MetricsSnapshot snapshot() {
   MetricsSnapshot out;
   MonitorStatus& status = out.status;
   status.header.vehicle = "auv";
+  status.known = true;
   status.healthy = true;
   status.mode = NavMode::dead_reckoning;
   status.alignment = AlignmentPhase::aligned;

@@ -24,6 +24,7 @@ StatusView healthy_view() {
   view.nav_rate_hz = 100.0;
   view.monitor = Heard<MonitorStatus>{{}, 0.1};
   MonitorStatus& monitor = view.monitor->sample;
+  monitor.known = true;
   monitor.healthy = true;
   monitor.gps_outage_s = 0.0;
   monitor.sensors = {{"imu", Presence::present, 0.01, 100.0}, {"dvl", Presence::missing, 12.0, 0.0}};
@@ -60,6 +61,8 @@ TEST(StatusView, ConditionsAndTheirReasons) {
       {Condition::degraded, [](StatusView& v) { v.monitor.reset(); }},
       {Condition::degraded, [](StatusView& v) { v.monitor->age_s = 10.0; }},
       {Condition::degraded, [](StatusView& v) { v.monitor->sample.healthy = false; }},
+      {Condition::degraded,
+       [](StatusView& v) { v.monitor->sample.known = v.monitor->sample.healthy = false; }},
       {Condition::degraded, [](StatusView& v) { v.services["fusion"].age_s = 10.0; }},
       {Condition::degraded,
        [](StatusView& v) { v.services["fusion"].sample.state = ServiceState::degraded; }},
