@@ -91,6 +91,10 @@ TEST(Scenarios, SurveyKeepsItsTimetable) {
   EXPECT_LT(seen.gps_outages[0].second, 70.0);
   EXPECT_NEAR(seen.deepest_m, 15.0, 1.5);
   EXPECT_NEAR(seen.dvl_silent_s, 25.0, 1.0);
+  // A run of 90 s shows an outage of each as well.
+  const Timeline short_run = timeline_of(scenario, 90.0);
+  EXPECT_EQ(short_run.gps_outages.size(), 1U);
+  EXPECT_NEAR(short_run.dvl_silent_s, 8.0, 1.0);
   EXPECT_GT(seen.samples.at("usbl"), 50);
   EXPECT_GE(static_cast<int>(seen.gps_outages.size()), scenario.limits.gps_outages_at_least);
 }
