@@ -64,7 +64,8 @@ class Nmea0183 final : public Framer {
                      Sink& sink) {
     GpsReport report;
     if (const auto reason = parse_gps(type, sentence, report)) return Outcome::refused(*reason);
-    epochs_.add(report, offset, length, deliver_to(sink));
+    if (!epochs_.add(report, offset, length, deliver_to(sink)))
+      return Outcome::refused(RejectReason::structure);
     return Outcome::used();
   }
 

@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fathom::codec {
 namespace {
 
 constexpr DurationNs kHalfDay = kNsPerSecond * 3600 * 12;
 constexpr DurationNs kDay = 2 * kHalfDay;
+
+constexpr double kEarth_m = 6.371e6;
+constexpr double kRounding_m = 185.0;  // a tenth of a minute: what the coarsest sentences resolve
+constexpr double kSigmas = 5.0;
 
 /// The fix of the epoch: the sentence that grades it best decides, RMC may only take away.
 GpsFix joint_fix(const GpsReport* fixed, const GpsReport* rmc) {
@@ -45,7 +50,7 @@ std::uint8_t GpsEpochs::Epoch::mask() const {
   return bits;
 }
 
-void GpsEpochs::add(const GpsReport& report, std::uint64_t offset, std::uint64_t length,
+bool GpsEpochs::add(const GpsReport& report, std::uint64_t offset, std::uint64_t length,
                     const Deliver& deliver) {
   if (report.midnight && report.time_of_day) {
     midnight_ = report.midnight;
@@ -53,20 +58,22 @@ void GpsEpochs::add(const GpsReport& report, std::uint64_t offset, std::uint64_t
   }
   if (report.type == GpsSentence::zda) {
     date_epoch(report);
-    return;
+    return true;
   }
   if (epoch_ && belongs(report)) {
+    if (contradicts(report)) return false;
     join(report, offset, length);
   } else if (report.type == GpsSentence::vtg) {
     waiting_vtg_ = Waiting{report, offset, length};
-    return;
+    return true;
   } else if (report.type == GpsSentence::gst) {
     waiting_gst_ = Waiting{report, offset, length};
-    return;
+    return true;
   } else {
     open_next(report, offset, length, deliver);
   }
   if (!epoch_->delivered && cycle_complete()) deliver_open(deliver);
+  return true;
 }
 
 void GpsEpochs::finish(const Deliver& deliver) {
@@ -90,6 +97,20 @@ bool GpsEpochs::belongs(const GpsReport& report) const {
   if (report.type == GpsSentence::vtg || same_time) return true;
   if (report.type == GpsSentence::gst) return false;
   return !epoch_->delivered && (!report.time_of_day || !epoch_->time_of_day);
+}
+
+bool GpsEpochs::contradicts(const GpsReport& report) const {
+  if (!known(report.latitude_rad) || !known(report.longitude_rad)) return false;
+  const GpsReport* gst = epoch_->find(GpsSentence::gst);
+  const double sigma_m = gst == nullptr ? kUnknown : std::hypot(gst->sigma_N_m[0], gst->sigma_N_m[1]);
+  const double apart_m = kRounding_m + (known(sigma_m) ? kSigmas * sigma_m : 0.0);
+  return std::any_of(epoch_->part.begin(), epoch_->part.end(), [&](const std::optional<GpsReport>& part) {
+    if (!part || !known(part->latitude_rad) || !known(part->longitude_rad)) return false;
+    const double north_m = kEarth_m * (report.latitude_rad - part->latitude_rad);
+    const double east_m = kEarth_m * std::cos(report.latitude_rad) *
+                          std::remainder(report.longitude_rad - part->longitude_rad, 2.0 * std::numbers::pi);
+    return std::hypot(north_m, east_m) > apart_m;
+  });
 }
 
 void GpsEpochs::join(const GpsReport& report, std::uint64_t offset, std::uint64_t length) {

@@ -18,6 +18,9 @@ namespace fathom::codec {
 /// once it has everything that any of the last epochs had: a receiver's cycle is learned from the first two.
 /// Nothing is ever delivered twice, and nothing depends on how the bytes arrived.
 ///
+/// Two sentences of one time whose positions lie apart further than rounding and the receiver's own sigma
+/// allow are not one fix: the later one is refused.
+///
 /// The date comes from RMC or ZDA and is carried over midnight; before one was seen only the time of day is
 /// given. Without a valid fix the sample has `fix` none and unknown position and velocity, so that a receiver
 /// without sky is still seen alive.
@@ -26,7 +29,9 @@ class GpsEpochs {
   using Deliver = std::function<void(const GpsSample& sample, const DeviceTime& time, std::uint64_t offset,
                                      std::uint64_t length)>;
 
-  void add(const GpsReport& report, std::uint64_t offset, std::uint64_t length, const Deliver& deliver);
+  /// False when the report contradicts what the epoch has already; it then changes nothing.
+  [[nodiscard]] bool add(const GpsReport& report, std::uint64_t offset, std::uint64_t length,
+                         const Deliver& deliver);
   /// The stream has ended: what is open is delivered.
   void finish(const Deliver& deliver);
 
@@ -53,6 +58,7 @@ class GpsEpochs {
 
   void date_epoch(const GpsReport& report);
   [[nodiscard]] bool belongs(const GpsReport& report) const;
+  [[nodiscard]] bool contradicts(const GpsReport& report) const;
   void join(const GpsReport& report, std::uint64_t offset, std::uint64_t length);
   void open_next(const GpsReport& report, std::uint64_t offset, std::uint64_t length, const Deliver& deliver);
   void close(const Deliver& deliver);

@@ -107,14 +107,16 @@ void read_date(FieldReader& fields, std::size_t index, GpsReport& report) {
 }
 
 bool parse_gga(const Sentence& sentence, FieldReader& fields, GpsReport& report) {
-  if (!fields_between(sentence, 14, 15)) return false;
+  // Some receivers leave the last field, the reference station, out together with its comma. Units where they
+  // belong show that nothing else is missing.
+  if (!fields_between(sentence, 13, 15)) return false;
   report.time_of_day = fields.time_of_day(0);
   read_position(fields, 1, report);
   report.fix = fix_of_quality(fields.letter(kQuality, "0123456789"));
   read_count_and_height(fields, 10, report);
-  (void)fields.letter(9, "M");
-  (void)fields.letter(11, "M");
-  return true;
+  const char altitude_unit = fields.letter(9, "M");
+  const char separation_unit = fields.letter(11, "M");
+  return sentence.fields > 13 || (altitude_unit == 'M' && separation_unit == 'M');
 }
 
 bool parse_gns(const Sentence& sentence, FieldReader& fields, GpsReport& report) {

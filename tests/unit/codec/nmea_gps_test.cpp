@@ -177,6 +177,40 @@ TEST(NmeaGps, QualityOfGga) {
   EXPECT_EQ(decode_text("nmea0183", gga("120000", "x")).rejected.at(0).reason, RejectReason::field);
 }
 
+TEST(NmeaGps, AGgaWithoutItsStationIsOneAndKeepsItsDifferentialFix) {
+  const std::string head = "GPGGA,120000,4807.038,N,01131.000,E,2,08,0.9,545.4,";
+  const DecodeRun run =
+      decode_text("nmea0183", sentence(head + "M,46.9,M,3.0") + rmc("120000", "010120", ",,"));
+  ASSERT_EQ(run.samples.size(), 1U);
+  EXPECT_TRUE(run.rejected.empty());
+  EXPECT_EQ(fixes(run)[0].fix, GpsFix::differential);
+  EXPECT_DOUBLE_EQ(fixes(run)[0].altitude_msl_m, 545.4);
+  // One field less without the units where they belong: something else is missing.
+  for (const char* tail : {"M,46.9,,3.0", ",46.9,M,3.0", "M,46.9,M"}) {
+    const DecodeRun cut = decode_text("nmea0183", sentence(head + tail));
+    ASSERT_EQ(cut.rejected.size(), 1U) << tail;
+    EXPECT_EQ(cut.rejected[0].reason, RejectReason::structure) << tail;
+  }
+}
+
+TEST(NmeaGps, SentencesOfOneSecondAtTwoPlacesAreNotOneFix) {
+  const auto rmc_at = [](const std::string& longitude) {
+    return sentence("GPRMC,120000,A,4807.038,N," + longitude + ",W,010.0,090.0,010120,,,A");
+  };
+  const std::string gga_at = sentence("GPGGA,120000,4807.038,N,10200.000,W,1,08,0.9,545.4,M,46.9,M,,");
+  const DecodeRun two = decode_text("nmea0183", gga_at + rmc_at("00200.000"));
+  ASSERT_EQ(two.rejected.size(), 1U);
+  EXPECT_EQ(two.rejected[0].reason, RejectReason::structure);
+  ASSERT_EQ(two.samples.size(), 1U);
+  EXPECT_NEAR(fixes(two)[0].longitude_rad, -102.0 * kDegree, 1e-9);
+  EXPECT_TRUE(std::isnan(fixes(two)[0].velocity_N_m_s[0])) << "nothing of the other one";
+  // What rounding leaves is one fix.
+  const DecodeRun one = decode_text("nmea0183", gga_at + rmc_at("10200.04"));
+  EXPECT_TRUE(one.rejected.empty());
+  ASSERT_EQ(one.samples.size(), 1U);
+  EXPECT_FALSE(std::isnan(fixes(one)[0].velocity_N_m_s[0]));
+}
+
 TEST(NmeaGps, GnsTakesTheBestConstellation) {
   const std::string gns = "GNGNS,103607.00,5327.03942,N,00214.42462,W,";
   EXPECT_EQ(fixes(decode_text("nmea0183", sentence(gns + "ANNN,06,5.88,56.0,48.5,,,V")))[0].fix,
