@@ -53,7 +53,17 @@ constexpr auto kGuidanceReads =
 constexpr auto kSimulatorWrites = list("fathom/v1/truth", "fathom/v1/service_status");
 constexpr auto kLifeSign = list("fathom/v1/service_status");
 constexpr auto kCommand = list("fathom/v1/command");
-constexpr auto kEverything = list("fathom/v1/*");
+// A black box: all that was measured, said and ordered. The engine's state is for those who may take over.
+constexpr auto kRecorderReads =
+    list("fathom/v1/imu", "fathom/v1/gps", "fathom/v1/dvl", "fathom/v1/depth", "fathom/v1/heading",
+         "fathom/v1/usbl", "fathom/v1/airspeed", "fathom/v1/propulsion", "fathom/v1/fins",
+         "fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
+         "fathom/v1/forecast", "fathom/v1/alarm", "fathom/v1/monitor_status", "fathom/v1/service_status",
+         "fathom/v1/replica_status", "fathom/v1/command", "fathom/v1/route", "fathom/v1/truth");
+// What status shows and what a run is judged by; who exists at all doctor learns from discovery.
+constexpr auto kCliReads = list("fathom/v1/nav_state", "fathom/v1/verdict", "fathom/v1/alignment",
+                                "fathom/v1/forecast", "fathom/v1/alarm", "fathom/v1/monitor_status",
+                                "fathom/v1/service_status", "fathom/v1/gps", "fathom/v1/truth");
 constexpr std::array<std::string_view, 0> kNothing{};
 
 constexpr std::array kRoles{
@@ -70,9 +80,9 @@ constexpr std::array kRoles{
     Role{"guidance", kGuidanceWrites, kGuidanceReads},
     Role{"guidance_example", kGuidanceWrites, kGuidanceReads},
     Role{"discovery", kLifeSign, kNothing},
-    Role{"recorder", kLifeSign, kEverything},
+    Role{"recorder", kLifeSign, kRecorderReads},
     Role{"simulator", kSimulatorWrites, kNothing},
-    Role{"cli", kCommand, kEverything},  // status, doctor and what else a person runs
+    Role{"cli", kCommand, kCliReads},  // status, doctor, and the referee of a demonstration
 };
 
 }  // namespace

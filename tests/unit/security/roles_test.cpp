@@ -32,7 +32,7 @@ TEST(Roles, NameOnlyTopicsThatThereAre) {
   for (const Role& role : roles()) {
     for (const auto topic : role.publishes) EXPECT_TRUE(known.contains(topic)) << role.name << " " << topic;
     for (const auto topic : role.subscribes) {
-      EXPECT_TRUE(topic == "fathom/v1/*" || known.contains(topic)) << role.name << " " << topic;
+      EXPECT_TRUE(known.contains(topic)) << role.name << " " << topic;
     }
   }
 }
@@ -74,10 +74,22 @@ TEST(Roles, EveryTopicWithOneKindOfWriterHasOnlyThat) {
   }
 }
 
-TEST(Roles, WriteNoTopicByPattern) {
+TEST(Roles, WriteAndReadNoTopicByPattern) {
   for (const Role& role : roles()) {
     for (const auto topic : role.publishes) EXPECT_EQ(topic.find('*'), std::string_view::npos) << role.name;
+    for (const auto topic : role.subscribes) EXPECT_EQ(topic.find('*'), std::string_view::npos) << role.name;
   }
+}
+
+TEST(Roles, TheStateOfTheEngineIsForFusionAndOrdersForThoseWhoFollowOrKeepThem) {
+  const auto readers = [](std::string_view topic) {
+    std::set<std::string_view> found;
+    for (const Role& role : roles())
+      if (in(role.subscribes, topic)) found.insert(role.name);
+    return found;
+  };
+  EXPECT_EQ(readers("fathom/v1/engine_state"), (std::set<std::string_view>{"fusion"}));
+  EXPECT_EQ(readers("fathom/v1/command"), (std::set<std::string_view>{"fusion", "monitor", "recorder"}));
 }
 
 }  // namespace
