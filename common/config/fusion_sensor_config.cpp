@@ -97,6 +97,13 @@ void describe(Schema<SensorConfig>& s) {
   s.field("reacquire_s", &C::reacquire_s, "consistent rejections for this long are believed")
       .unit("s")
       .range(0, 1e6);
+  s.field(
+       "dispute_s", &C::dispute_s,
+       "GPS: fixes that agree with each other and with the motion, but lie further off than the estimate's "
+       "uncertainty can explain, are believed after this time at the latest; 0: never, a person has to "
+       "decide")
+      .unit("s")
+      .range(0, 1e6);
   s.field("reacquire_step_m", &C::reacquire_step_m,
           "GPS: behind an outage a fix further off than this has to agree with the motion for reacquire_s "
           "first, "

@@ -201,6 +201,14 @@ class Core {
   /// Refused fixes agree with each other and with the motion for long enough.
   bool believe_fix(Sensor::Candidate& candidate, const SensorConfig& config,
                    const Observation& observation) const;
+  /// For so long fixes have to agree with each other and with the motion; infinite: a person has to decide.
+  [[nodiscard]] double agreement_needed_s(const SensorConfig& config, const Observation& observation) const;
+  /// Fixes of this receiver were refused for so long that a person should know.
+  [[nodiscard]] bool disputed(const Sensor& sensor, const SensorConfig& config) const;
+  /// The estimate was put where it is by a step, and so may have to go back.
+  [[nodiscard]] bool stepped_lately(const SensorConfig& config) const;
+  /// Of the position, from before to after; by a fix, or null.
+  void note_step(const Eigen::Vector3d& step_N_m, const Observation* fix);
   /// Weighs the fix down until the position moves no further than allowed; whether it had to.
   bool bound_step(const SensorConfig& config, Observation& observation,
                   InnovationStatistics& statistics) const;
@@ -285,6 +293,9 @@ class Core {
   TimeNs velocity_used_ns_ = 0;
   std::uint32_t reset_counter_ = 0;
   Eigen::Vector3d last_reset_N_m_ = Eigen::Vector3d::Zero();
+  TimeNs stepped_ns_ = 0;     ///< last step of the position, 0: none
+  double stepped_m_ = 0.0;    ///< how far it and those shortly before went, horizontally
+  double stepped_m_s_ = 0.0;  ///< and by how much the velocity of the fix differed, at most
   TimeNs rest_until_ns_ = 0;
   TimeNs next_zero_velocity_ns_ = 0;
   hydro::WaterVelocity water_;

@@ -168,7 +168,9 @@ Judgement Core::judge(const Measurement& measurement) {
       observation = whole;
       result = gate(filter_, rules, limits, observation, statistics);
     }
-    out.kind = result.pass ? VerdictKind::used : VerdictKind::rejected;
+    out.kind = result.pass                       ? VerdictKind::used
+               : fix && disputed(sensor, config) ? VerdictKind::disputed
+                                                 : VerdictKind::rejected;
     stepped = result.pass && believed != 0 && with_position;
     if (result.pass && fix) stepped = bound_step(config, observation, statistics) || stepped;
   }
@@ -193,8 +195,7 @@ Judgement Core::judge(const Measurement& measurement) {
   if (!measures_position(measurement.source) && filter_(8, 8) > kDoubtfulHeading_rad * kDoubtfulHeading_rad)
     filter_.turn_with_attitude(velocity_of_log() - before);
   if (stepped) {
-    ++reset_counter_;
-    last_reset_N_m_ = -Vector3d(x[0], x[1], x[2]);
+    note_step(-Vector3d(x[0], x[1], x[2]), &whole);
   }
   sensor.used_ns = now_ns_;
   sensor.candidate = {};
@@ -289,8 +290,7 @@ void Core::order(const Command& command) {
       }
       wanted = geo::moved_by(wanted, -(state.C_NB * geo::vec(setup_->config.output_lever_B_m)));
       if (!known(command.depth_m)) wanted.altitude_m = state_.nav.position.altitude_m;
-      last_reset_N_m_ = geo::difference_N(state_.nav.position, wanted);
-      ++reset_counter_;
+      note_step(geo::difference_N(state_.nav.position, wanted), nullptr);
       state_.nav.position = wanted;
       const int axes = known(command.depth_m) ? 3 : 2;
       for (int i = 0; i < axes; ++i) filter_.forget(i, command.sigma_m);

@@ -2,6 +2,7 @@
 // the room to follow (GATE-3). Fixes of a position have to agree with the motion, too (GATE-4).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/Cholesky>
@@ -14,11 +15,17 @@ namespace {
 constexpr int kRejectionsToBelieve = 3;
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kLeastUnheard_s = 1.0;
+constexpr double kLeastDispute_s = 5.0;
 constexpr double kDeviations = 4.0;
 /// However sure of its velocity the filter is.
 constexpr double kLeastSpeed_m_s = 1.0;
-/// Of reacquire_s, after which disagreement with the motion counts half.
+/// Of reacquire_s, after which disagreement with the motion counts half, and how far that goes.
 constexpr double kPatience = 3.0;
+constexpr double kMostHalvings = 2.0;
+/// A fix further off than so many of the estimate's own sigmas needs longer to be believed.
+constexpr double kConceivable = 10.0;
+/// Steps within it are one correction, spread over several fixes.
+constexpr double kStepsTogether_s = 60.0;
 constexpr double kStepsAtOnce = 2.0;
 constexpr double kWeighDown = 1.4;
 constexpr int kHalvings = 60;
@@ -89,12 +96,18 @@ bool Core::believe_fix(Sensor::Candidate& candidate, const SensorConfig& config,
   };
   Eigen::Vector2d off = way_less_fixes();
   if (candidate.refused_since_ns == 0) candidate.refused_since_ns = now_ns_;
-  const double speed = std::max(kDeviations * std::sqrt(filter_(3, 3) + filter_(4, 4)), kLeastSpeed_m_s);
+  double speed = std::max(kDeviations * std::sqrt(filter_(3, 3) + filter_(4, 4)), kLeastSpeed_m_s);
   // What never agrees is the motion's fault, not for ever that of the fix.
-  const double patience = config.reacquire_s > 0.0
-                              ? std::exp2(std::floor(to_seconds(now_ns_ - candidate.refused_since_ns) /
-                                                     (kPatience * config.reacquire_s)))
-                              : 1.0;
+  double halvings =
+      config.reacquire_s > 0.0
+          ? std::floor(to_seconds(now_ns_ - candidate.refused_since_ns) / (kPatience * config.reacquire_s))
+          : 0.0;
+  if (stepped_lately(config)) {
+    speed += stepped_m_s_;
+  } else {
+    halvings = std::min(halvings, kMostHalvings);
+  }
+  const double patience = std::exp2(halvings);
   const double noise =
       kDeviations * std::numbers::sqrt2 * std::max(observation.sigma[0], observation.sigma[1]);
   const auto agrees = [&](const Eigen::Vector2d& before, TimeNs stamp_ns) {
@@ -111,8 +124,52 @@ bool Core::believe_fix(Sensor::Candidate& candidate, const SensorConfig& config,
   candidate.last_ns = now_ns_;
   candidate.last_N_m = off;
   ++candidate.count;
-  return config.reacquire_s > 0.0 && candidate.count >= kRejectionsToBelieve &&
-         to_seconds(now_ns_ - candidate.since_ns) >= config.reacquire_s;
+  const double agreed_s = to_seconds(now_ns_ - candidate.since_ns);
+  return candidate.count >= kRejectionsToBelieve && agreed_s >= agreement_needed_s(config, observation);
+}
+
+double Core::agreement_needed_s(const SensorConfig& config, const Observation& observation) const {
+  // (GATE-5)
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (config.reacquire_s <= 0.0) return kNever;
+  const Eigen::Vector2d innovation(observation.innovation[0], observation.innovation[1]);
+  Eigen::Matrix2d s;
+  s << filter_(0, 0), filter_(0, 1), filter_(1, 0), filter_(1, 1);
+  for (int i = 0; i < 2; ++i)
+    s(i, i) +=
+        observation.sigma[static_cast<std::size_t>(i)] * observation.sigma[static_cast<std::size_t>(i)];
+  if (stepped_lately(config)) s.diagonal().array() += stepped_m_ * stepped_m_;
+  const double off = innovation.dot(s.llt().solve(innovation)) / (kConceivable * kConceivable);
+  const double most_s = config.dispute_s > 0.0 ? std::max(config.dispute_s, config.reacquire_s) : kNever;
+  return std::min(config.reacquire_s * std::max(1.0, off), most_s);
+}
+
+bool Core::stepped_lately(const SensorConfig& config) const {
+  return stepped_ns_ != 0 && since(stepped_ns_) <= std::max(config.dispute_s, config.reacquire_s);
+}
+
+void Core::note_step(const Eigen::Vector3d& step_N_m, const Observation* fix) {
+  ++reset_counter_;
+  last_reset_N_m_ = step_N_m;
+  if (stepped_ns_ == 0 || since(stepped_ns_) > kStepsTogether_s) {
+    stepped_m_ = 0.0;
+    stepped_m_s_ = 0.0;
+  }
+  stepped_ns_ = now_ns_;
+  stepped_m_ += step_N_m.head<2>().norm();
+  if (fix == nullptr) return;
+  double squared = 0.0;
+  for (int row = 0; row < fix->rows; ++row) {
+    const double z = fix->innovation[static_cast<std::size_t>(row)];
+    if (!measures(*fix, row, 0) && measures(*fix, row, 3)) squared += z * z;
+  }
+  stepped_m_s_ = std::max(stepped_m_s_, std::sqrt(squared));
+}
+
+bool Core::disputed(const Sensor& sensor, const SensorConfig& config) const {
+  if (sensor.candidate.refused_since_ns == 0) return false;
+  const double refused_s = to_seconds(now_ns_ - sensor.candidate.refused_since_ns);
+  return refused_s > std::max(config.reacquire_s, kLeastDispute_s);
 }
 
 bool Core::bound_step(const SensorConfig& config, Observation& observation,

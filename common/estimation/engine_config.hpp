@@ -148,6 +148,9 @@ struct SensorConfig {
   double robust_parameter = 5.0;      ///< student_t: degrees of freedom; huber: threshold in sigmas
   double robust_reject_ratio = 25.0;  ///< robust weighting ends where the plain test ratio exceeds this
   double reacquire_s = 10.0;          ///< consistent rejections for this long are believed
+  /// GPS: fixes that the estimate's own uncertainty cannot explain are believed after this much agreement; 0:
+  /// never, a person has to decide.
+  double dispute_s = 600.0;
   /// GPS: behind an outage a fix further off than this is on probation for reacquire_s though the gate would
   /// pass it, and no fix moves the position by more than twice this at once; m.
   double reacquire_step_m = 50.0;

@@ -14,9 +14,10 @@ constexpr std::size_t kMaxReceivers = 16;  // names come from the network: bound
 constexpr std::size_t kMostUnjudged = 64;
 
 bool is_refusal(VerdictKind kind) {
-  return kind == VerdictKind::rejected || kind == VerdictKind::frozen || kind == VerdictKind::out_of_range ||
-         kind == VerdictKind::unknown_frame || kind == VerdictKind::from_the_future ||
-         kind == VerdictKind::late || kind == VerdictKind::source_disabled;
+  return kind == VerdictKind::rejected || kind == VerdictKind::disputed || kind == VerdictKind::frozen ||
+         kind == VerdictKind::out_of_range || kind == VerdictKind::unknown_frame ||
+         kind == VerdictKind::from_the_future || kind == VerdictKind::late ||
+         kind == VerdictKind::source_disabled;
 }
 
 }  // namespace

@@ -12,8 +12,10 @@ namespace {
 constexpr std::size_t kMaxSources = 64;  // names come from the network: bounded
 
 bool is_disagreement(VerdictKind kind) {
-  return kind == VerdictKind::rejected || kind == VerdictKind::frozen || kind == VerdictKind::unknown_frame ||
-         kind == VerdictKind::from_the_future || kind == VerdictKind::late;
+  // A disputed receiver has an alarm of its own, DisputeWatch's; it is refused all the same.
+  return kind == VerdictKind::rejected || kind == VerdictKind::disputed || kind == VerdictKind::frozen ||
+         kind == VerdictKind::unknown_frame || kind == VerdictKind::from_the_future ||
+         kind == VerdictKind::late;
 }
 
 }  // namespace

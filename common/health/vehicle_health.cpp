@@ -90,6 +90,7 @@ void VehicleHealth::add(const Verdict& verdict, const Instant& now) {
   gps_.add(verdict);
   fixes_.add(verdict);
   refusal_.add(verdict, now);
+  disputes_.add(verdict, now);
 }
 
 void VehicleHealth::add(const Forecast& forecast, const Instant& now) {
@@ -109,6 +110,7 @@ void VehicleHealth::evaluate(const Instant& now) {
   gps_.report(book_, now);
   fixes_.report(book_, now);
   interference_.report(book_, now);
+  disputes_.report(book_, now);
   stamps_.report(book_, now);
   writers_.report(book_, now, describe_);
   nav_.report(book_, now);

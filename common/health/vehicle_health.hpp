@@ -7,6 +7,7 @@
 #include "health/alarm_book.hpp"
 #include "health/alignment_watch.hpp"
 #include "health/clock_watch.hpp"
+#include "health/dispute_watch.hpp"
 #include "health/fix_watch.hpp"
 #include "health/gps_outage.hpp"
 #include "health/instant.hpp"
@@ -92,6 +93,7 @@ class VehicleHealth {
   GpsOutage gps_;
   FixWatch fixes_;
   InterferenceWatch interference_;
+  DisputeWatch disputes_;
   StampWatch stamps_;
   WriterWatch writers_;
   NavWatch nav_;

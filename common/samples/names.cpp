@@ -19,7 +19,7 @@ std::string_view pick(const std::array<std::string_view, N>& words, Enum value) 
 std::string_view to_string(VerdictKind kind) {
   static constexpr std::array<std::string_view, kVerdictKinds> kWords{
       "used",        "rejected",        "late",          "duplicate",       "frozen", "out_of_range",
-      "not_aligned", "source_disabled", "unknown_frame", "from_the_future", "no_fix"};
+      "not_aligned", "source_disabled", "unknown_frame", "from_the_future", "no_fix", "disputed"};
   return pick(kWords, kind);
 }
 

@@ -22,8 +22,11 @@ enum class VerdictKind : std::uint8_t {
   unknown_frame = 8,
   from_the_future = 9,  ///< stamped further ahead of the newest inertial sample than clocks can differ
   no_fix = 10,          ///< a satellite receiver says itself that it has no fix of the quality asked for
+  /// Rejected as well, for so long that either the receiver or navigation is far wrong: a person has to
+  /// decide.
+  disputed = 11,
 };
-inline constexpr std::size_t kVerdictKinds = 11;
+inline constexpr std::size_t kVerdictKinds = 12;
 
 /// The word used on the command line and in reports, e.g. "not_aligned".
 [[nodiscard]] std::string_view to_string(VerdictKind kind);

@@ -16,14 +16,14 @@ struct Mapping<Verdict> {
     copy_enum<SourceKind::fins, v1::SourceKind::SOURCE_FINS>(copy, plain.source, wire.source());
     copy(plain.model, wire.model());
     copy(plain.writer, wire.writer());
-    copy_enum<VerdictKind::no_fix, v1::VerdictKind::VERDICT_NO_FIX>(copy, plain.kind, wire.kind());
+    copy_enum<VerdictKind::disputed, v1::VerdictKind::VERDICT_DISPUTED>(copy, plain.kind, wire.kind());
     copy(plain.dimensions, wire.dimensions());
     copy(plain.innovation, wire.innovation());
     copy(plain.innovation_sigma, wire.innovation_sigma());
     copy(plain.test_ratio, wire.test_ratio());
     copy(plain.limit, wire.limit());
     copy(plain.revision, wire.revision());
-    copy_enum<VerdictKind::no_fix, v1::VerdictKind::VERDICT_NO_FIX>(copy, plain.previous, wire.previous());
+    copy_enum<VerdictKind::disputed, v1::VerdictKind::VERDICT_DISPUTED>(copy, plain.previous, wire.previous());
     copy(plain.is_final, wire.is_final());
   }
 

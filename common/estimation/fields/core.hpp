@@ -88,6 +88,9 @@ void Core::fields(Archive& archive, Self& self) {
   archive("velocity_used_ns", self.velocity_used_ns_, fathom::archive::kInstant);
   archive("reset_counter", self.reset_counter_, fathom::archive::kAnyWhole);
   archive("last_reset_N_m", self.last_reset_N_m_, fathom::archive::finite());
+  archive("stepped_ns", self.stepped_ns_, fathom::archive::kInstant);
+  archive("stepped_m", self.stepped_m_, fathom::archive::at_least_zero());
+  archive("stepped_m_s", self.stepped_m_s_, fathom::archive::at_least_zero());
   archive("rest_until_ns", self.rest_until_ns_, fathom::archive::kInstant);
   archive("next_zero_velocity_ns", self.next_zero_velocity_ns_, fathom::archive::kInstant);
   archive("water", self.water_);

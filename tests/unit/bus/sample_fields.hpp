@@ -201,7 +201,7 @@ constexpr unsigned last_of<AlignmentPhase>() {
 }
 template <>
 constexpr unsigned last_of<VerdictKind>() {
-  return static_cast<unsigned>(VerdictKind::no_fix);
+  return static_cast<unsigned>(VerdictKind::disputed);
 }
 template <>
 constexpr unsigned last_of<SourceKind>() {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "health/alignment_watch.hpp"
+#include "health/dispute_watch.hpp"
 #include "health/nav_watch.hpp"
 #include "health/refusal_watch.hpp"
 #include "health/sensor_watch.hpp"

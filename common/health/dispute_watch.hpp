@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+
+#include "health/alarm_book.hpp"
+#include "health/instant.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::health {
+
+/// Receivers that fusion has refused for so long that either they or navigation are far wrong:
+/// "gps_disputed:<receiver>", critical. Nobody on board can tell which; the alarm asks a person.
+class DisputeWatch {
+ public:
+  void add(const Verdict& verdict, const Instant& now);
+  void report(AlarmBook& book, const Instant& now) const;
+
+ private:
+  struct Receiver {
+    bool disputed = false;
+    TimeNs since_ns = 0;  ///< monotonic; of the first refusal in a row
+    TimeNs last_ns = 0;
+    int refused = 0;            ///< in a row
+    double apart_m = kUnknown;  ///< horizontally, fix and estimate
+    double sigma_m = kUnknown;  ///< of that
+  };
+  std::map<Name, Receiver> receivers_;
+};
+
+}  // namespace fathom::health
