@@ -23,7 +23,8 @@ struct Mapping<Verdict> {
     copy(plain.test_ratio, wire.test_ratio());
     copy(plain.limit, wire.limit());
     copy(plain.revision, wire.revision());
-    copy_enum<VerdictKind::disputed, v1::VerdictKind::VERDICT_DISPUTED>(copy, plain.previous, wire.previous());
+    copy_enum<VerdictKind::disputed, v1::VerdictKind::VERDICT_DISPUTED>(copy, plain.previous,
+                                                                        wire.previous());
     copy(plain.is_final, wire.is_final());
   }
 
