@@ -76,6 +76,9 @@ struct MonitorStatus {
 enum class ServiceState : std::uint8_t { starting = 0, healthy = 1, degraded = 2, stopping = 3 };
 [[nodiscard]] std::string_view to_string(ServiceState state);
 
+/// How many counters one life sign carries at most (ServiceStatus in idl/health.idl).
+inline constexpr std::size_t kMostCounters = 64;
+
 /// A counter that a service publishes, e.g. {"frames_good", 1234}.
 struct ServiceCounter {
   Name name;
@@ -100,7 +103,7 @@ struct ServiceStatus {
   DurationNs utc_offset_ns = 0;    ///< UTC of its host minus the time in its stamps: the host's clock was set
   std::string text;                ///< why it is not healthy
   std::vector<ServiceRate> rates;  ///< at most 16
-  std::vector<ServiceCounter> counters;  ///< at most 32
+  std::vector<ServiceCounter> counters;  ///< at most kMostCounters
 
   /// 0 when there is none of that name: services leave out what never happened.
   [[nodiscard]] std::uint64_t counter(std::string_view name) const;

@@ -17,7 +17,6 @@ namespace fathom::host {
 namespace {
 
 constexpr DurationNs kLifeSignPeriod = kNsPerSecond;
-constexpr std::size_t kMostCounters = 32;
 
 std::unique_ptr<Clock> make_clock(const config::ClockConfig& config, const runtime::ClockAnchor& anchor) {
   if (config.epoch_ns == 0) return std::make_unique<AnchoredClock>(anchor.utc_minus_monotonic_ns());
@@ -50,7 +49,8 @@ std::string event_text(const bus::BusEvent& event) {
          (event.detail.empty() ? "" : ": " + event.detail);
 }
 
-void append_bus_counters(const bus::BusCounters& counters, ServiceStatus& status) {
+/// Returns how many of the service's own counters found no room.
+std::size_t append_bus_counters(const bus::BusCounters& counters, ServiceStatus& status) {
   const std::pair<const char*, std::uint64_t> all[] = {
       {"bus_incompatible_qos", counters.incompatible_qos},
       {"bus_deadline_missed", counters.deadline_missed},
@@ -63,8 +63,11 @@ void append_bus_counters(const bus::BusCounters& counters, ServiceStatus& status
       {"bus_permission_refused", counters.permission_refused},
       {"bus_malformed_datagram", counters.malformed_datagram}};
   // The bus's counters are the same for every service and must not be crowded out.
-  status.counters.resize(std::min(status.counters.size(), kMostCounters - std::size(all)));
+  const std::size_t own = status.counters.size();
+  status.counters.resize(std::min(own, kMostCounters - std::size(all)));
+  const std::size_t left_out = own - status.counters.size();
   for (const auto& [name, value] : all) status.counters.push_back({name, value});
+  return left_out;
 }
 
 }  // namespace
@@ -97,6 +100,7 @@ struct ServiceHost::Impl {
   bus::Writer<ServiceStatus> status_writer;
   TimeNs started_ns;
   std::uint64_t sequence = 0;
+  bool counters_left_out = false;
   std::function<void(ServiceStatus&)> fill;
   std::function<void()> tick;
   DurationNs tick_period_ns = 0;
@@ -155,7 +159,12 @@ void ServiceHost::Impl::publish(ServiceState state) {
   for (const std::string& warning : realtime_warnings) {
     status.text += (status.text.empty() ? "" : "; ") + warning;
   }
-  append_bus_counters(participant.counters(), status);
+  const std::size_t left_out = append_bus_counters(participant.counters(), status);
+  if (left_out > 0 && !std::exchange(counters_left_out, true)) {
+    log.error(std::to_string(left_out) +
+              " counters of this service do not fit into its life sign, which carries " +
+              std::to_string(kMostCounters));
+  }
   status_writer.write(status);
   std::string text(to_string(status.state));
   if (!status.text.empty()) text += ": " + status.text;

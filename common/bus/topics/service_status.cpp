@@ -31,7 +31,7 @@ struct Mapping<ServiceStatus> {
       each(rate.name, w.name());
       each(rate.hz, w.hz());
     });
-    copy.sequence(plain.counters, wire.counters(), 32, [](auto& each, auto& counter, auto& w) {
+    copy.sequence(plain.counters, wire.counters(), kMostCounters, [](auto& each, auto& counter, auto& w) {
       each(counter.name, w.name());
       each(counter.value, w.value());
     });

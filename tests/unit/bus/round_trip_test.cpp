@@ -168,11 +168,11 @@ TEST(Bounds, ARouteHasSoManyWaypoints) {
 TEST(Bounds, LongListsAreCut) {
   ServiceStatus status;
   status.rates.resize(17);
-  status.counters.resize(33);
+  status.counters.resize(kMostCounters + 1);
   const auto back = bus::from_cdr<ServiceStatus>(bus::to_cdr(status));
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ(back->rates.size(), 16U);
-  EXPECT_EQ(back->counters.size(), 32U);
+  EXPECT_EQ(back->counters.size(), kMostCounters);
 }
 
 }  // namespace
