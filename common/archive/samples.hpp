@@ -132,6 +132,7 @@ void fields(Archive& archive, Self& self) {
   archive("airspeed_m_s", self.airspeed_m_s, kAny);
   archive("baro_altitude_m", self.baro_altitude_m, kAny);
   archive("sigma_m_s", self.sigma_m_s, kAny);
+  archive("true_airspeed_m_s", self.true_airspeed_m_s, kAny);
 }
 
 template <class Archive, class Self>

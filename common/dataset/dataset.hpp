@@ -30,8 +30,9 @@
 /// (bottom or water) | | depth.csv | t_s, depth_m | sigma_m | | heading.csv | t_s, heading_deg | sigma_deg,
 /// north (true or magnetic) | | usbl.csv | t_s, lat_deg, lon_deg, depth_m, sigma_m | frame and what goes with
 /// it, see below | | airspeed.csv | t_s,
-/// airspeed_m_s | baro_alt_m | | propulsion.csv | t_s, rpm | | | fins.csv | t_s, rudder_rad, stern_rad | | |
-/// reference.csv | t_s, lat_deg, lon_deg, alt_m, v{n,e,d}_m_s, {roll,pitch,yaw}_deg | |
+/// airspeed_m_s | baro_alt_m, true_airspeed_m_s | | propulsion.csv | t_s, rpm | | | fins.csv | t_s,
+/// rudder_rad, stern_rad | | | reference.csv | t_s, lat_deg, lon_deg, alt_m, v{n,e,d}_m_s,
+/// {roll,pitch,yaw}_deg | |
 ///
 /// usbl.csv with the column frame: geodetic (or blank), ned, vessel or vehicle. A row that is not geodetic
 /// has {x,y,z}_m from the station along that frame (vehicle: from the vehicle to the station), or range_m,

@@ -267,11 +267,13 @@ void read_rows(SensorFile& file, std::vector<UsblSample>& out) {
 void read_rows(SensorFile& file, std::vector<AirspeedSample>& out) {
   const Column airspeed = file.csv.column("airspeed_m_s");
   const Optional altitude = file.csv.optional_column("baro_alt_m");
+  const Optional true_airspeed = file.csv.optional_column("true_airspeed_m_s");
   while (file.next()) {
     AirspeedSample& sample = out.emplace_back();
     sample.header = file.header;
     sample.airspeed_m_s = file.csv.number(airspeed);
     sample.baro_altitude_m = file.csv.number(altitude);
+    sample.true_airspeed_m_s = file.csv.number(true_airspeed);
   }
 }
 

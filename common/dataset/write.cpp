@@ -147,11 +147,15 @@ void write_usbl(const std::filesystem::path& directory, const WriteOptions& opti
 void write_airspeed(const std::filesystem::path& directory, const WriteOptions& options,
                     const std::vector<AirspeedSample>& stream) {
   const bool altitude = any(stream, [](const AirspeedSample& s) { return known(s.baro_altitude_m); });
-  write_stream(directory, "airspeed", options, stream, altitude ? "airspeed_m_s,baro_alt_m" : "airspeed_m_s",
-               [&](CsvWriter& csv, const AirspeedSample& s) {
-                 csv.number(s.airspeed_m_s);
-                 if (altitude) csv.number(s.baro_altitude_m);
-               });
+  const bool is_true = any(stream, [](const AirspeedSample& s) { return known(s.true_airspeed_m_s); });
+  std::string columns = "airspeed_m_s";
+  if (altitude) columns += ",baro_alt_m";
+  if (is_true) columns += ",true_airspeed_m_s";
+  write_stream(directory, "airspeed", options, stream, columns, [&](CsvWriter& csv, const AirspeedSample& s) {
+    csv.number(s.airspeed_m_s);
+    if (altitude) csv.number(s.baro_altitude_m);
+    if (is_true) csv.number(s.true_airspeed_m_s);
+  });
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct Mapping<AirspeedSample> {
     copy(plain.airspeed_m_s, wire.airspeed_m_s());
     copy(plain.baro_altitude_m, wire.baro_altitude_m());
     copy(plain.sigma_m_s, wire.sigma_m_s());
+    copy(plain.true_airspeed_m_s, wire.true_airspeed_m_s());
   }
 
   static std::string key_text(const AirspeedSample& sample) { return vehicle_and_sensor(sample); }

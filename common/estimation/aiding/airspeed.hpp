@@ -24,8 +24,9 @@ namespace fathom::estimation {
 /// Slower than this the direction of the flow is not known well enough to linearise.
 inline constexpr double kLeastAirspeed_m_s = 3.0;
 
-/// Indicated airspeed (AID-AIR-1..2): the speed through the air, its scale, the standard atmosphere's density
-/// at the estimated altitude, and a bias.
+/// Airspeed (AID-AIR-1..2): the speed through the air, its scale and a bias. An indicated one is less by the
+/// standard atmosphere's density at the estimated altitude; a true one (AID-AIR-4) knows the air's own and is
+/// taken where the sample has both.
 class Airspeed {
  public:
   static constexpr const char* kName = "airspeed";
@@ -36,16 +37,18 @@ class Airspeed {
       : s_(s),
         sensor_(sensor),
         sample_(sample),
+        is_true_(known(sample.true_airspeed_m_s)),
         lasting_(lasting_gust(sensor, unused_s)),
         through_N_(velocity_through_air_N(s)) {}
 
   [[nodiscard]] static Usable usable(const AidingState& s, const AirspeedSample& sample) {
-    if (!(sample.airspeed_m_s > 0.0 && sample.airspeed_m_s < 700.0)) return Usable::out_of_range;
+    const double airspeed_m_s = measured_m_s(sample);
+    if (!(airspeed_m_s > 0.0 && airspeed_m_s < 700.0)) return Usable::out_of_range;
     if (!s.index.has(Group::current)) return Usable::not_estimated;
     return velocity_through_air_N(s).norm() > kLeastAirspeed_m_s ? Usable::yes : Usable::out_of_range;
   }
   [[nodiscard]] int dimension() const { return 1; }
-  [[nodiscard]] Vector3 measured() const { return {sample_.airspeed_m_s, 0.0, 0.0}; }
+  [[nodiscard]] Vector3 measured() const { return {measured_m_s(sample_), 0.0, 0.0}; }
   [[nodiscard]] Vector3 predicted() const {
     return {indicated_per_true() * through_N_.norm() + s_.value(Group::airspeed_bias, 0), 0.0, 0.0};
   }
@@ -55,12 +58,13 @@ class Airspeed {
     for (int i = 0; i < 3; ++i) h.set(0, Group::velocity, i, along(i));
     for (int i = 0; i < 2; ++i) h.set(0, Group::current, i, along(i));
     const double speed = through_N_.norm();
-    h.set(0, Group::position, 2, kDensityExponent * kLapse_1_m / base() * indicated_per_true() * speed);
+    if (!is_true_)
+      h.set(0, Group::position, 2, kDensityExponent * kLapse_1_m / base() * indicated_per_true() * speed);
     h.set(0, Group::airspeed_scale, 0, -density_ratio_root() * speed);
     h.set(0, Group::airspeed_bias, 0, -1.0);
   }
   [[nodiscard]] Vector3 noise() const {
-    const double own = std::hypot(sensor_.sigma[0], sensor_.proportional_sigma * sample_.airspeed_m_s);
+    const double own = std::hypot(sensor_.sigma[0], sensor_.proportional_sigma * measured_m_s(sample_));
     return {lasting_ * sigma_of(own, sample_.sigma_m_s, sensor_.use_sample_sigma), 0.0, 0.0};
   }
 
@@ -68,11 +72,16 @@ class Airspeed {
   // The ISA troposphere: density is a power of this.
   static constexpr double kLapse_1_m = 2.25577e-5;
   static constexpr double kDensityExponent = 2.12794;  ///< half the density's own, for the square root
+  [[nodiscard]] static double measured_m_s(const AirspeedSample& sample) {
+    return known(sample.true_airspeed_m_s) ? sample.true_airspeed_m_s : sample.airspeed_m_s;
+  }
   [[nodiscard]] double base() const {
     const double value = 1.0 - kLapse_1_m * s_.state.nav.position.altitude_m;
     return value > 0.3 ? value : 0.3;
   }
-  [[nodiscard]] double density_ratio_root() const { return std::pow(base(), kDensityExponent); }
+  [[nodiscard]] double density_ratio_root() const {
+    return is_true_ ? 1.0 : std::pow(base(), kDensityExponent);
+  }
   [[nodiscard]] double indicated_per_true() const {
     return (1.0 + s_.value(Group::airspeed_scale, 0)) * density_ratio_root();
   }
@@ -80,6 +89,7 @@ class Airspeed {
   const AidingState& s_;
   const SensorConfig& sensor_;
   const AirspeedSample& sample_;
+  bool is_true_;
   double lasting_;
   Vector3 through_N_;
 };

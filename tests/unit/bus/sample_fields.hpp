@@ -64,8 +64,8 @@ void fields(Is<UsblSample> auto& s, auto visit) {
   visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
 }
 void fields(Is<AirspeedSample> auto& s, auto visit) {
-  auto& [header, a, b, c] = s;
-  visit(header, a, b, c);
+  auto& [header, a, b, c, d] = s;
+  visit(header, a, b, c, d);
 }
 void fields(Is<PropulsionSample> auto& s, auto visit) {
   auto& [header, a] = s;

@@ -90,7 +90,7 @@ Dataset sample_data() {
       usbl.station_depth_m = 4.0;
       usbl.station_rpy_rad = {0.01, -0.02, 1.3};
     }
-    data.airspeed.push_back({header(stamp), 20.0, 300.0, kUnknown});
+    data.airspeed.push_back({header(stamp), 20.0, 300.0, kUnknown, 20.3});
     data.propulsion.push_back({header(stamp), 1500.0 + i});
     data.fins.push_back({header(stamp), 0.01 * i, -0.01 * i});
     Truth& truth = data.reference.emplace_back();
@@ -161,6 +161,7 @@ void expect_round_trip(bool gzip) {
     expect_same(back.usbl[i].station_depth_m, data.usbl[i].station_depth_m);
     expect_same(back.usbl[i].station_rpy_rad, data.usbl[i].station_rpy_rad);
     expect_same(back.airspeed.at(i).baro_altitude_m, data.airspeed[i].baro_altitude_m);
+    expect_same(back.airspeed.at(i).true_airspeed_m_s, data.airspeed[i].true_airspeed_m_s);
     expect_same(back.propulsion.at(i).rpm, data.propulsion[i].rpm);
     expect_same(back.fins.at(i).stern_rad, data.fins[i].stern_rad);
     expect_same(back.reference[i].velocity_N_m_s, data.reference[i].velocity_N_m_s);

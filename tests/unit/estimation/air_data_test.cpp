@@ -96,5 +96,16 @@ TEST_F(AirData, ThinAirIndicatesLess) {
   EXPECT_NEAR(rows().innovation[0] + 18.7, std::sqrt(0.7421) * std::hypot(20.0, 5.0), 5e-3);
 }
 
+TEST_F(AirData, ATrueAirspeedIsTakenAsItIsAndBeforeTheIndicatedOne) {
+  state_.nav.position.altitude_m = 3000.0;
+  sample_.true_airspeed_m_s = 21.5;
+  const Observation out = rows();
+  EXPECT_NEAR(out.innovation[0], std::hypot(20.0, 5.0) - 21.5, 1e-12);
+  sample_.airspeed_m_s = kUnknown;
+  EXPECT_EQ(rows().innovation[0], out.innovation[0]);
+  sample_.true_airspeed_m_s = 800.0;
+  EXPECT_EQ(rows().rows, 1);  // the height alone
+}
+
 }  // namespace
 }  // namespace fathom::estimation

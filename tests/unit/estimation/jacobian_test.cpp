@@ -115,6 +115,7 @@ AnySample sample_of(const AidingEntry& entry, const FilterState& state, Normal& 
       AirspeedSample s;
       s.airspeed_m_s = 25.0;
       s.baro_altitude_m = 300.0;
+      if (normal(1.0) > 0.0) s.true_airspeed_m_s = 26.0;
       return s;
     }
     default: {
