@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/aiding/flow_angles.hpp"
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/usbl_range_bearing.hpp"
 #include "estimation/core.hpp"
@@ -50,7 +51,8 @@ std::array<double, 3> reading_of(const AnySample& any) {
     if (UsblRangeBearing::present(*usbl)) return {usbl->range_m, usbl->bearing_rad, usbl->depression_rad};
     return usbl->relative_m;
   }
-  if (const auto* air = std::get_if<AirspeedSample>(&any)) return {air->airspeed_m_s, 0.0, 0.0};
+  if (const auto* air = std::get_if<AirspeedSample>(&any))
+    return {air->airspeed_m_s, air->true_airspeed_m_s, 0.0};
   return {kUnknown, kUnknown, kUnknown};
 }
 
@@ -66,6 +68,11 @@ bool same(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 
 bool measures_position(SourceKind source) {
   return source == SourceKind::gps || source == SourceKind::usbl;
+}
+
+/// An airspeed has no direction; flow angles beside it have.
+bool is_speed_alone(SourceKind source, const SensorConfig& config) {
+  return source == SourceKind::airspeed && !FlowAngles::wanted(config);
 }
 
 }  // namespace
@@ -192,7 +199,9 @@ Judgement Core::judge(const Measurement& measurement) {
   const Vector3d before = velocity_of_log();
   remove_error(x, setup_->index.size(), state_);
   // (KF-5)
-  if (!measures_position(measurement.source) && filter_(8, 8) > kDoubtfulHeading_rad * kDoubtfulHeading_rad)
+  const bool along_body =
+      !measures_position(measurement.source) && !is_speed_alone(measurement.source, config);
+  if (along_body && filter_(8, 8) > kDoubtfulHeading_rad * kDoubtfulHeading_rad)
     filter_.turn_with_attitude(velocity_of_log() - before);
   if (stepped) {
     note_step(-Vector3d(x[0], x[1], x[2]), &whole);

@@ -1,4 +1,6 @@
 // Heading from GPS velocity alone: found without help, and never surer than it is right.
+#include <optional>
+
 #include <gtest/gtest.h>
 
 #include "estimation/core.hpp"
@@ -20,8 +22,18 @@ struct Course {
   double last_sigma_rad = 0.0;
 };
 
-/// How the published heading goes with that of the wheels.
-Course follow(const EngineConfig& config, const RoadRun& run) {
+/// What an anemometer on the vehicle reads in a wind.
+AirspeedSample airspeed(const Truth& truth, const Vector3d& wind_N_m_s) {
+  AirspeedSample out;
+  out.header = truth.header;
+  out.header.sensor = "air0";
+  out.true_airspeed_m_s = (geo::vec(truth.velocity_N_m_s) - wind_N_m_s).norm();
+  return out;
+}
+
+/// How the published heading goes with that of the wheels, in a wind with an airspeed.
+Course follow(const EngineConfig& config, const RoadRun& run,
+              const std::optional<Vector3d>& wind_N_m_s = std::nullopt) {
   FusionEngine engine(config);
   Course out;
   std::size_t at = 0;
@@ -29,6 +41,7 @@ Course follow(const EngineConfig& config, const RoadRun& run) {
     test::feed(engine, sample);
     if (!std::holds_alternative<ImuSample>(sample)) continue;
     const Truth& truth = run.truth[at++];
+    if (wind_N_m_s && at % 5 == 0) engine.add(airspeed(truth, *wind_N_m_s));
     const NavState& nav = engine.nav_state();
     if (nav.header.stamp_ns != truth.header.stamp_ns || !known(nav.latitude_rad)) continue;
     const double t = to_seconds(truth.header.stamp_ns - RoadRun::kEpochNs);
@@ -49,6 +62,24 @@ TEST(CourseHeading, IsFoundInMotionAndAsGoodAsItSays) {
     EXPECT_LT(course.aligned_at_s, 60.0) << "seed " << seed;
     EXPECT_LT(course.worst_sigma, 3.0) << "seed " << seed;
     EXPECT_LT(course.last_sigma_rad, 0.5 * kDeg) << "seed " << seed;
+  }
+}
+
+/// (KF-5) A speed without direction moves the wind, which says nothing of where the vehicle points.
+TEST(CourseHeading, AnAirspeedInAnUnknownWindTellsNothingOfIt) {
+  EngineConfig config = RoadRun::config();
+  config.alignment.in_motion_heading_sigma_rad = 20.0 * kDeg;
+  config.groups.current = true;
+  config.states.current_sigma_m_s = 8.0;
+  config.sensors.push_back(default_sensor(SourceKind::airspeed, "air0"));
+  config.sensors.back().sigma = {0.3, 0.3, 0.3};
+  const Vector3d wind_N_m_s(6.0, -8.0, 0.0);
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const RoadRun straight({.duration_s = 11.0, .seed = seed});
+    const Course with = follow(config, straight, wind_N_m_s);
+    const Course without = follow(config, straight);
+    EXPECT_GT(with.last_sigma_rad, 0.95 * without.last_sigma_rad) << "seed " << seed;
+    EXPECT_LT(follow(config, RoadRun({.seed = seed}), wind_N_m_s).worst_sigma, 3.0) << "seed " << seed;
   }
 }
 
