@@ -18,6 +18,8 @@ std::string_view to_string(RejectReason reason) {
       return "no_checksum";
     case RejectReason::truncated:
       return "truncated";
+    case RejectReason::incomplete:
+      return "incomplete";
   }
   return "unknown";
 }

@@ -8,6 +8,7 @@
 
 #include "base/device_time.hpp"
 #include "samples/actuator.hpp"
+#include "samples/airspeed.hpp"
 #include "samples/depth.hpp"
 #include "samples/dvl.hpp"
 #include "samples/gps.hpp"
@@ -18,7 +19,7 @@
 namespace fathom::codec {
 
 using AnySample = std::variant<ImuSample, DvlSample, GpsSample, DepthSample, HeadingSample, UsblSample,
-                               PropulsionSample, FinsSample>;
+                               PropulsionSample, FinsSample, AirspeedSample>;
 
 /// The bridge turns it into stamp_ns (runtime/device_time.hpp); codecs leave the stamps of the header at 0.
 using DeviceTime = fathom::DeviceTime;
@@ -32,6 +33,7 @@ enum class RejectReason : std::uint8_t {
   out_of_range = 4,  ///< a number that no instrument of this kind can mean
   no_checksum = 5,   ///< the protocol wants one and the configuration insists
   truncated = 6,     ///< the stream ended inside the frame
+  incomplete = 7,    ///< good values, but one is missing without which they mean nothing
 };
 [[nodiscard]] std::string_view to_string(RejectReason reason);
 

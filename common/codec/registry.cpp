@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "codec/ascii_air_data.hpp"
 #include "codec/ascii_depth.hpp"
 #include "codec/nmea.hpp"
+#include "codec/nmea_air_data.hpp"
 #include "codec/paroscientific.hpp"
 #include "codec/pd0.hpp"
 #include "codec/ubx.hpp"
@@ -41,8 +43,11 @@ constexpr std::array<std::string_view, 4> kParoscientificAliases{"pressure", "di
                                                                  "pressure_paroscientific"};
 constexpr std::array<std::string_view, 3> kAsciiDepthAliases{"ascii", "depth_line", "ascii_line"};
 constexpr std::array<std::string_view, 4> kPsimssbAliases{"usbl", "kongsberg", "kongsberg_psimssb", "hipap"};
+constexpr std::array<std::string_view, 2> kAsciiAirDataAliases{"air_data", "air_data_line"};
+constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "openvario",
+                                                              "nmea0183_air_data"};
 
-const std::array<Protocol, 8> kProtocols{{
+const std::array<Protocol, 10> kProtocols{{
     {"nmea0183", kNmeaAliases,
      "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, PSIMSSB; any talker", make_nmea0183},
     {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx},
@@ -53,6 +58,10 @@ const std::array<Protocol, 8> kProtocols{{
     {"ascii_depth", kAsciiDepthAliases, "one depth or pressure a line, prefix, scale and offset configurable",
      make_ascii_depth},
     {"psimssb", kPsimssbAliases, "Kongsberg $PSIMSSB acoustic positions", make_psimssb},
+    {"ascii_air_data", kAsciiAirDataAliases, "air data a line, columns and units configurable",
+     make_ascii_air_data},
+    {"nmea_air_data", kNmeaAirDataAliases, "air data as NMEA 0183 XDR, MWV, VWR or OpenVario $POV",
+     make_nmea_air_data},
 }};
 
 char folded(char c) {

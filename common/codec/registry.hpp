@@ -4,13 +4,14 @@
 #include <span>
 #include <string_view>
 
+#include "codec/air_report.hpp"
 #include "codec/codec.hpp"
 
 namespace fathom::codec {
 
 /// What a codec needs to be told because the bytes do not say it. Each protocol reads the fields it knows.
 struct CodecOptions {
-  bool require_checksum = true;         ///< NMEA 0183
+  bool require_checksum = true;         ///< NMEA 0183, ASCII air data
   double latitude_rad = 0.0;            ///< pressure to depth
   double atmosphere_Pa = 101'325.0;     ///< pressure to depth
   double pressure_unit_Pa = 6'894.757;  ///< of one unit of a Paroscientific value (psi)
@@ -22,6 +23,7 @@ struct CodecOptions {
   /// Rotation of the recorded instrument axes about down onto the vehicle, for DVLs in instrument axes.
   double dvl_heading_alignment_rad = 0.0;
   double usbl_sigma_floor_m = 0.0;
+  AirDataOptions air_data;
 };
 
 /// One protocol that this build decodes.

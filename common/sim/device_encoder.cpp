@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "codec/registry.hpp"
+#include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/pd0.hpp"
@@ -28,7 +29,7 @@ std::string_view canonical(std::string_view protocol) {
   return found == nullptr ? std::string_view{} : found->name;
 }
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOutputs{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kOutputs{{
     {"imu", "vectornav"},
     {"gps", "nmea0183"},
     {"gps", "ubx"},
@@ -40,6 +41,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kOutputs
     {"usbl", "psimssb"},
     {"propulsion", "nmea0183"},
     {"fins", "nmea0183"},
+    {"airspeed", "ascii_air_data"},
+    {"airspeed", "nmea_air_data"},
 }};
 
 }  // namespace
@@ -118,6 +121,12 @@ Bytes DeviceEncoder::encode(const Measurement& measurement) {
   if (const auto* fins = std::get_if<FinsSample>(&measurement);
       fins != nullptr && !sensors.fins.protocol.empty()) {
     return bytes_of(encode::nmea_fins(*fins));
+  }
+  if (const auto* air = std::get_if<AirspeedSample>(&measurement);
+      air != nullptr && !sensors.airspeed.protocol.empty()) {
+    if (canonical(sensors.airspeed.protocol) == "nmea_air_data")
+      return bytes_of(encode::nmea_air_data(*air, {}));
+    return bytes_of(encode::ascii_air_data(*air, {}));
   }
   return {};
 }

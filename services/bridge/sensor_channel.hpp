@@ -21,7 +21,7 @@
 namespace fathom::bridge {
 
 inline constexpr std::size_t kSampleKinds = std::variant_size_v<codec::AnySample>;
-inline constexpr std::size_t kRejectReasons = 7;
+inline constexpr std::size_t kRejectReasons = 8;
 
 /// Where a channel's samples go: the topics of the bridge.
 class Outlet {

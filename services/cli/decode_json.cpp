@@ -149,6 +149,12 @@ void add(Json& line, const FinsSample& s) {
   line["stern_rad"] = s.stern_rad;
 }
 
+void add(Json& line, const AirspeedSample& s) {
+  line["airspeed_m_s"] = s.airspeed_m_s;
+  line["true_airspeed_m_s"] = s.true_airspeed_m_s;
+  line["baro_alt_m"] = s.baro_altitude_m;
+}
+
 /// Names come from the device: bytes that are not UTF-8 are replaced.
 std::string text(const Json& line) {
   return line.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -166,6 +172,7 @@ std::string_view kind_of(const codec::AnySample& sample) {
     std::string_view operator()(const UsblSample& /*s*/) const { return "usbl"; }
     std::string_view operator()(const PropulsionSample& /*s*/) const { return "propulsion"; }
     std::string_view operator()(const FinsSample& /*s*/) const { return "fins"; }
+    std::string_view operator()(const AirspeedSample& /*s*/) const { return "airspeed"; }
   };
   return std::visit(Kind{}, sample);
 }

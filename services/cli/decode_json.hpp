@@ -9,7 +9,7 @@
 
 namespace fathom::cli {
 
-/// "gps", "dvl", "imu", "depth", "heading", "usbl", "propulsion" or "fins".
+/// "gps", "dvl", "imu", "depth", "heading", "usbl", "propulsion", "fins" or "airspeed".
 [[nodiscard]] std::string_view kind_of(const codec::AnySample& sample);
 
 /// UTC of validity as far as the bytes alone say it: UTC given by the device, else a calendar clock of the

@@ -80,6 +80,10 @@ void describe(Line& line, const FinsSample& s) {
   line.word("fins").real(s.rudder_rad).real(s.stern_rad);
 }
 
+void describe(Line& line, const AirspeedSample& s) {
+  line.word("airspeed").real(s.airspeed_m_s).real(s.true_airspeed_m_s).real(s.baro_altitude_m);
+}
+
 std::unique_ptr<codec::Codec> make(std::string_view protocol, const codec::CodecOptions& options) {
   const codec::Protocol* found = codec::find_protocol(protocol);
   if (found == nullptr) throw std::invalid_argument("no such protocol: " + std::string(protocol));

@@ -5,6 +5,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/pd0.hpp"
@@ -102,6 +103,24 @@ ByteVector imu(int frame) {
   return sim::encode::vectornav(sample, (frame + 1) * kNsPerSecond / 100, utc);
 }
 
+AirspeedSample air(int frame) {
+  AirspeedSample sample;
+  sample.airspeed_m_s = 45.0 + frame;
+  sample.true_airspeed_m_s = 49.0 + frame;
+  sample.baro_altitude_m = 900.0 + 10.0 * frame;
+  return sample;
+}
+
+void air_data_sentences(ByteVector& stream, int frame) {
+  append(stream, sim::encode::nmea_air_data(air(frame), {}));
+  if (frame < 2) return;
+  append(stream, sim::encode::nmea_sentence("POV,P,951.78,T,12.5"));
+  append(stream, sim::encode::nmea_sentence("POV,Q,1" + std::to_string(frame) + "00.5,E,2.15"));
+  if (frame < 4) return;
+  append(stream, sim::encode::nmea_sentence("WIMWV,2.0,R,9" + std::to_string(frame) + ".4,N,A"));
+  append(stream, sim::encode::nmea_sentence("IIVWR,2.0,L,97.2,N,50.0,M,180.0,K"));
+}
+
 void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
   DepthSample depth;
   depth.depth_m = 12.5 + frame;
@@ -128,6 +147,10 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
                        dvl(frame), {instant(frame), instant(frame) + 190 * kNsPerMillisecond, 250.0}));
   } else if (protocol == "vectornav") {
     append(stream, imu(frame));
+  } else if (protocol == "ascii_air_data") {
+    append(stream, sim::encode::ascii_air_data(air(frame), seed_options(protocol)));
+  } else if (protocol == "nmea_air_data") {
+    air_data_sentences(stream, frame);
   } else {
     throw std::invalid_argument("no seed stream for protocol " + std::string(protocol));
   }

@@ -48,6 +48,9 @@ class Writer {
   }
   void operator()(const PropulsionSample& s) { put("propulsion", s.rpm); }
   void operator()(const FinsSample& s) { put("fins", s.rudder_rad, s.stern_rad); }
+  void operator()(const AirspeedSample& s) {
+    put("airspeed", s.airspeed_m_s, s.true_airspeed_m_s, s.baro_altitude_m);
+  }
 
   template <class... T>
   void put(const T&... values) {

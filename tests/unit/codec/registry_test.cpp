@@ -39,8 +39,8 @@ TEST(Registry, CaseAndDashesDoNotMatter) {
 }
 
 TEST(Registry, EveryInstrumentOfTheVehicleIsThere) {
-  for (const char* name :
-       {"nmea0183", "ubx", "pd0", "waterlinked", "vectornav", "paroscientific", "ascii_depth", "psimssb"}) {
+  for (const char* name : {"nmea0183", "ubx", "pd0", "waterlinked", "vectornav", "paroscientific",
+                           "ascii_depth", "psimssb", "ascii_air_data", "nmea_air_data"}) {
     EXPECT_NE(find_protocol(name), nullptr) << name;
   }
 }

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "geo/so3.hpp"
+#include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/ubx.hpp"
@@ -269,6 +270,36 @@ TEST(EncodeDepth, MetresAndTheAsciiLine) {
       only<DepthSample>(decode_whole("ascii_depth", bytes_of(ascii_depth(sent, options)), options)).depth_m,
       33.25, 1e-5);
   EXPECT_TRUE(ascii_depth({}, options).empty());
+}
+
+AirspeedSample air_at(double altitude_m, double indicated_m_s, double true_m_s) {
+  AirspeedSample sample;
+  sample.airspeed_m_s = indicated_m_s;
+  sample.true_airspeed_m_s = true_m_s;
+  sample.baro_altitude_m = altitude_m;
+  return sample;
+}
+
+TEST(EncodeAirData, BothSpeedsAndTheHeightSurviveInEitherProtocol) {
+  for (const auto& sent : {air_at(30.0, 12.0, 12.4), air_at(900.0, 48.0, 51.5), air_at(4000.0, 70.0, 88.0)}) {
+    for (const char* protocol : {"ascii_air_data", "nmea_air_data"}) {
+      const std::string text = std::string(protocol) == "nmea_air_data" ? encode::nmea_air_data(sent, {})
+                                                                        : encode::ascii_air_data(sent, {});
+      const auto got = decode_whole(protocol, bytes_of(text), {}).all<AirspeedSample>();
+      ASSERT_EQ(got.size(), 1U) << text;
+      EXPECT_NEAR(got[0].airspeed_m_s, sent.airspeed_m_s, 5e-4) << text;
+      EXPECT_NEAR(got[0].true_airspeed_m_s, sent.true_airspeed_m_s, 2e-3) << text;
+      EXPECT_NEAR(got[0].baro_altitude_m, sent.baro_altitude_m, 0.02) << text;
+    }
+  }
+}
+
+TEST(EncodeAirData, WhatIsUnknownIsBlankAndRefusedAsIncomplete) {
+  for (const auto& sent : {air_at(kUnknown, 48.0, 51.5), air_at(900.0, kUnknown, 51.5)}) {
+    const auto run = decode_whole("ascii_air_data", bytes_of(encode::ascii_air_data(sent, {})), {});
+    ASSERT_EQ(run.rejected.size(), 1U);
+    EXPECT_EQ(run.rejected[0].reason, codec::RejectReason::incomplete);
+  }
 }
 
 }  // namespace
