@@ -34,6 +34,9 @@ void describe(Schema<sim::EnvironmentConfig>& s) {
   s.field("current_from_s", &C::current_from_s, "sheltered water before").unit("s").range(0, 1e6);
   s.field("current_ramp_s", &C::current_ramp_s, "the current grows over this time").unit("s").range(0.1, 1e6);
   s.field("wind_N_m_s", &C::wind_N_m_s, "velocity of the air: north, east").unit("m/s").range(-60, 60);
+  s.field("air_temperature_offset_K", &C::air_temperature_offset_K, "warmer than the standard atmosphere")
+      .unit("K")
+      .range(-60, 40);
   s.field("turbulence_m_s", &C::turbulence_m_s, "1 sigma of the cross flow").unit("m/s").range(0, 20);
   s.field("turbulence_tau_s", &C::turbulence_tau_s, "its correlation time").unit("s").range(0.01, 1000);
   s.field("wave_height_m", &C::wave_height_m, "amplitude of the heave of the surface").unit("m").range(0, 5);
@@ -151,7 +154,8 @@ void describe(Schema<sim::Scenario>& s) {
               {"depth", "depth"},
               {"heading", "heading"},
               {"usbl", "usbl"},
-              {"actuator", "actuator"}});
+              {"actuator", "actuator"},
+              {"air_data", "air_data"}});
   s.field("services", &C::services,
           "overrides of the services' configurations: service, key, value as after --set");
   s.field("limits", &C::limits, "what a run has to reach").required();

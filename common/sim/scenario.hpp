@@ -21,6 +21,7 @@ struct EnvironmentConfig {
   double current_from_s = 0.0;                    ///< sheltered water before: the current grows from zero ...
   double current_ramp_s = 5.0;                    ///< ... over this time
   std::array<double, 2> wind_N_m_s{0.0, 0.0};     ///< velocity of the air: north, east
+  double air_temperature_offset_K = 0.0;          ///< warmer than the standard atmosphere
   double turbulence_m_s = 0.0;  ///< 1 sigma, lateral and vertical, of the flow around the vehicle
   double turbulence_tau_s = 1.0;
   double wave_height_m = 0.0;  ///< amplitude of the heave of the surface

@@ -162,11 +162,12 @@ class FinsModel {
 
 class AirspeedModel {
  public:
-  AirspeedModel(const AirspeedConfig& config, std::uint64_t seed);
+  AirspeedModel(const AirspeedConfig& config, const EnvironmentConfig& environment, std::uint64_t seed);
   AirspeedSample sample(const TruthPoint& point);
 
  private:
   AirspeedConfig config_;
+  double air_warmer_K_;
   Random random_;
   double scale_;
   double baro_bias_m_;

@@ -75,7 +75,7 @@ struct Simulation::Impl {
         usbl(sensors.usbl, s, o.seed),
         propulsion(sensors.propulsion, o.seed),
         fins(sensors.fins, o.seed),
-        airspeed(sensors.airspeed, o.seed),
+        airspeed(sensors.airspeed, s.environment, o.seed),
         imu_schedule(sensors.imu, "imu", o.seed),
         gps_schedule(sensors.gps, "gps", o.seed),
         dvl_schedule(sensors.dvl, "dvl", o.seed),

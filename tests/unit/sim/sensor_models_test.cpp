@@ -301,5 +301,22 @@ TEST(DepthModel, ReadsZeroInTheAir) {
   EXPECT_TRUE(DepthModel(switched, 1).sample(at).has_value());
 }
 
+TEST(AirspeedModel, IndicatesLessInThinAndWarmAirAndKnowsTheTrueSpeed) {
+  AirspeedConfig config;
+  config.sigma_m_s = config.baro_sigma_m = config.baro_bias_sigma_m = 0.0;
+  EnvironmentConfig environment;
+  TruthPoint point;
+  point.altitude_m = 3000.0;
+  point.V_B_m_s = {60.0, 0.0, 2.0};
+  const AirspeedSample standard = AirspeedModel(config, environment, 1).sample(point);
+  // Density at 3000 m over that at sea level, U.S. Standard Atmosphere 1976; compression adds 0.1 m/s.
+  EXPECT_NEAR(standard.airspeed_m_s, std::sqrt(0.74225) * 60.0, 0.15);
+  EXPECT_NEAR(standard.true_airspeed_m_s, 60.0, 1e-9);
+  environment.air_temperature_offset_K = 20.0;
+  const AirspeedSample warm = AirspeedModel(config, environment, 1).sample(point);
+  EXPECT_NEAR(warm.airspeed_m_s, std::sqrt(0.74225 * 268.65 / 288.65) * 60.0, 0.15);
+  EXPECT_NEAR(warm.true_airspeed_m_s, 60.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace fathom::sim

@@ -35,6 +35,7 @@ Scenario instrumented() {
   use(s.usbl, "psimssb", 0.2, 0.6);
   use(s.propulsion, "nmea0183", 5.0, 0.02);
   use(s.fins, "nmea0183", 5.0, 0.02);
+  use(s.airspeed, "ascii_air_data", 5.0, 0.02);
   s.gps.lever_B_m = {0.0, 0.0, -0.4};
   s.usbl.minimum_depth_m = -1.0;
   s.imu.gyro.random_walk = 3e-5;
@@ -175,7 +176,7 @@ TEST(DeviceEncoder, TheCodecsReadWhatTheDevicesSay) {
     streams[name].insert(streams[name].end(), bytes.begin(), bytes.end());
     ++sent[name];
   }
-  EXPECT_EQ(streams.size(), 8U);
+  EXPECT_EQ(streams.size(), 9U);
   for (const auto& [name, bytes] : streams) {
     codec::CodecOptions codec_options;
     codec_options.latitude_rad = scenario.start.latitude_rad;
@@ -204,6 +205,7 @@ TEST(DeviceEncoder, KnowsWhatItCanSay) {
   EXPECT_TRUE(can_encode("gps", "nmea"));
   EXPECT_TRUE(can_encode("gps", "u-blox"));
   EXPECT_TRUE(can_encode("dvl", "teledyne_pd0"));
+  EXPECT_TRUE(can_encode("airspeed", "openvario"));
   EXPECT_FALSE(can_encode("dvl", "nmea0183"));
   EXPECT_FALSE(can_encode("imu", "no_such_protocol"));
   EXPECT_EQ(find_sensor(SensorSuite{}, "sonar"), nullptr);
