@@ -5,6 +5,7 @@
 #include <set>
 
 #include "config/byte_source_config.hpp"
+#include "config/sensor_schema.hpp"
 #include "config/service_schema.hpp"
 
 namespace fathom::config {
@@ -209,6 +210,7 @@ template LoadedConfig<DepthBridgeConfig> load_service_config(const LoadRequest& 
 template LoadedConfig<HeadingBridgeConfig> load_service_config(const LoadRequest& request);
 template LoadedConfig<UsblBridgeConfig> load_service_config(const LoadRequest& request);
 template LoadedConfig<ActuatorBridgeConfig> load_service_config(const LoadRequest& request);
+template LoadedConfig<AirDataBridgeConfig> load_service_config(const LoadRequest& request);
 
 ConfigKind imu_bridge_kind() {
   return make_kind<ImuBridgeConfig>("imu_bridge");
@@ -230,6 +232,9 @@ ConfigKind usbl_bridge_kind() {
 }
 ConfigKind actuator_bridge_kind() {
   return make_kind<ActuatorBridgeConfig>("actuator_bridge");
+}
+ConfigKind air_data_bridge_kind() {
+  return make_kind<AirDataBridgeConfig>("air_data_bridge");
 }
 
 }  // namespace fathom::config

@@ -80,6 +80,41 @@ struct DepthSensorConfig {
   double max_depth_m = 11'000.0;
 };
 
+/// A column of an ASCII air-data line.
+struct AirColumnConfig {
+  codec::AirQuantity quantity = codec::AirQuantity::ignored;
+  codec::AirUnit unit = codec::AirUnit::none;
+};
+
+/// Air data as a line of text: prefix, columns, separator.
+struct AirLineConfig {
+  std::string prefix;
+  std::string separator = ",";
+  std::vector<AirColumnConfig> columns{
+      {codec::AirQuantity::indicated_airspeed, codec::AirUnit::kn},
+      {codec::AirQuantity::pressure_altitude, codec::AirUnit::ft},
+      {codec::AirQuantity::static_temperature, codec::AirUnit::degC},
+  };
+};
+
+/// The names by which NMEA XDR calls what an air-data instrument measures.
+struct AirTransducers {
+  std::string indicated_airspeed = "IAS";
+  std::string true_airspeed = "TAS";
+  std::string impact_pressure = "QC";
+  std::string total_pressure = "PT";
+  std::string static_pressure = "PS";
+  std::string pressure_altitude = "ALT";
+  std::string static_temperature = "OAT";
+  std::string total_temperature = "TAT";
+
+  /// By codec::AirQuantity.
+  [[nodiscard]] std::array<std::string, codec::kAirQuantities> list() const {
+    return {indicated_airspeed, true_airspeed,     impact_pressure,    total_pressure,
+            static_pressure,    pressure_altitude, static_temperature, total_temperature};
+  }
+};
+
 struct HeadingSensorConfig {
   SensorConfig sensor;
   bool require_checksum = true;
@@ -100,6 +135,15 @@ struct ActuatorSensorConfig {
   double max_fin_rad = 1.6;
 };
 
+struct AirDataSensorConfig {
+  SensorConfig sensor;
+  bool require_checksum = true;
+  codec::AirspeedWanted wanted = codec::AirspeedWanted::true_airspeed;
+  AirLineConfig line;
+  AirTransducers transducers;
+  double max_airspeed_m_s = 150.0;
+};
+
 /// The file of a bridge: the common sections and its instruments.
 template <class Sensor>
 struct BridgeConfig {
@@ -113,6 +157,7 @@ using DepthBridgeConfig = BridgeConfig<DepthSensorConfig>;
 using HeadingBridgeConfig = BridgeConfig<HeadingSensorConfig>;
 using UsblBridgeConfig = BridgeConfig<UsblSensorConfig>;
 using ActuatorBridgeConfig = BridgeConfig<ActuatorSensorConfig>;
+using AirDataBridgeConfig = BridgeConfig<AirDataSensorConfig>;
 
 [[nodiscard]] ConfigKind imu_bridge_kind();
 [[nodiscard]] ConfigKind dvl_bridge_kind();
@@ -121,6 +166,7 @@ using ActuatorBridgeConfig = BridgeConfig<ActuatorSensorConfig>;
 [[nodiscard]] ConfigKind heading_bridge_kind();
 [[nodiscard]] ConfigKind usbl_bridge_kind();
 [[nodiscard]] ConfigKind actuator_bridge_kind();
+[[nodiscard]] ConfigKind air_data_bridge_kind();
 
 /// What no working instrument of its kind can mean. Values beyond are refused.
 struct SampleLimits {
@@ -132,6 +178,7 @@ struct SampleLimits {
   double usbl_range_m = 20'000.0;
   double rpm = 10'000.0;
   double fin_rad = 1.6;
+  double airspeed_m_s = 150.0;
 };
 
 /// One instrument of any kind, as the bridge runtime needs it.
@@ -152,6 +199,7 @@ struct SensorPlan {
 [[nodiscard]] SensorPlan sensor_plan(const HeadingSensorConfig& config);
 [[nodiscard]] SensorPlan sensor_plan(const UsblSensorConfig& config);
 [[nodiscard]] SensorPlan sensor_plan(const ActuatorSensorConfig& config);
+[[nodiscard]] SensorPlan sensor_plan(const AirDataSensorConfig& config);
 
 template <class Sensor>
 [[nodiscard]] std::vector<SensorPlan> sensor_plans(const BridgeConfig<Sensor>& config) {

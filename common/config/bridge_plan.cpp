@@ -129,4 +129,20 @@ SensorPlan sensor_plan(const ActuatorSensorConfig& config) {
   return out;
 }
 
+SensorPlan sensor_plan(const AirDataSensorConfig& config) {
+  SensorPlan out = plan_of(config.sensor);
+  out.options.require_checksum = config.require_checksum;
+  codec::AirDataOptions& air = out.options.air_data;
+  air.wanted = config.wanted;
+  air.prefix = std::string_view(config.line.prefix);
+  air.separator = config.line.separator.front();
+  air.count = config.line.columns.size();
+  for (std::size_t i = 0; i < air.count; ++i)
+    air.columns[i] = {config.line.columns[i].quantity, config.line.columns[i].unit};
+  const auto names = config.transducers.list();
+  for (std::size_t i = 0; i < names.size(); ++i) air.transducer[i] = std::string_view(names[i]);
+  out.limits.airspeed_m_s = config.max_airspeed_m_s;
+  return out;
+}
+
 }  // namespace fathom::config

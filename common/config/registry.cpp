@@ -15,11 +15,11 @@
 namespace fathom::config {
 
 std::span<const ConfigKind> config_kinds() {
-  static const std::array kKinds{imu_bridge_kind(),      dvl_bridge_kind(),     gps_bridge_kind(),
-                                 depth_bridge_kind(),    heading_bridge_kind(), usbl_bridge_kind(),
-                                 actuator_bridge_kind(), fusion_kind(),         hydro_kind(),
-                                 monitor_kind(),         guidance_kind(),       simulator_kind(),
-                                 scenario_kind(),        console_kind(),        discovery_kind()};
+  static const std::array kKinds{
+      imu_bridge_kind(),     dvl_bridge_kind(),  gps_bridge_kind(),      depth_bridge_kind(),
+      heading_bridge_kind(), usbl_bridge_kind(), actuator_bridge_kind(), air_data_bridge_kind(),
+      fusion_kind(),         hydro_kind(),       monitor_kind(),         guidance_kind(),
+      simulator_kind(),      scenario_kind(),    console_kind(),         discovery_kind()};
   return kKinds;
 }
 

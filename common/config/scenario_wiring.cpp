@@ -43,13 +43,14 @@ json time_of(const sim::SensorCommon& sensor) {
 
 std::map<std::string, std::vector<std::string>> service_overrides(const sim::Scenario& scenario,
                                                                   const Wiring& wiring) {
-  constexpr std::array<std::pair<const char*, const char*>, 7> kBridges{{{"imu", "imu_bridge"},
+  constexpr std::array<std::pair<const char*, const char*>, 8> kBridges{{{"imu", "imu_bridge"},
                                                                          {"gps", "gps_bridge"},
                                                                          {"dvl", "dvl_bridge"},
                                                                          {"depth", "depth_bridge"},
                                                                          {"heading", "heading_bridge"},
                                                                          {"usbl", "usbl_bridge"},
-                                                                         {"propulsion", "actuator_bridge"}}};
+                                                                         {"propulsion", "actuator_bridge"},
+                                                                         {"airspeed", "air_data_bridge"}}};
   std::map<std::string, std::vector<std::string>> out;
   for (const auto& [kind, bridge] : kBridges) {
     const sim::SensorCommon& sensor = *sim::find_sensor(scenario.sensors, kind);

@@ -21,6 +21,7 @@ constexpr auto kDepth = list("fathom/v1/depth", "fathom/v1/service_status");
 constexpr auto kHeading = list("fathom/v1/heading", "fathom/v1/service_status");
 constexpr auto kUsbl = list("fathom/v1/usbl", "fathom/v1/service_status");
 constexpr auto kActuator = list("fathom/v1/propulsion", "fathom/v1/fins", "fathom/v1/service_status");
+constexpr auto kAirData = list("fathom/v1/airspeed", "fathom/v1/service_status");
 
 constexpr auto kFusionWrites = list("fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict",
                                     "fathom/v1/alignment", "fathom/v1/forecast", "fathom/v1/replica_status",
@@ -74,6 +75,7 @@ constexpr std::array kRoles{
     Role{"heading_bridge", kHeading, kNothing},
     Role{"usbl_bridge", kUsbl, kNothing},
     Role{"actuator_bridge", kActuator, kNothing},
+    Role{"air_data_bridge", kAirData, kNothing},
     Role{"fusion", kFusionWrites, kFusionReads},
     Role{"monitor", kMonitorWrites, kMonitorReads},
     Role{"console", kConsoleWrites, kConsoleReads},

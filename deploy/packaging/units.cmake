@@ -32,6 +32,7 @@ fathom_unit(fathom-depth-bridge depth_bridge "depth sensor onto the vehicle netw
 fathom_unit(fathom-heading-bridge heading_bridge "compass onto the vehicle network" SERIAL)
 fathom_unit(fathom-usbl-bridge usbl_bridge "acoustic positioning onto the vehicle network" SERIAL)
 fathom_unit(fathom-actuator-bridge actuator_bridge "propulsor and fins onto the vehicle network" SERIAL)
+fathom_unit(fathom-air-data-bridge air_data_bridge "air data onto the vehicle network" SERIAL)
 fathom_unit(fathom-fusion fusion "navigation state" MEMORY 256M)
 fathom_unit(fathom-monitor monitor "alarms and health")
 fathom_unit(fathom-discovery discovery "introduces services of several machines to each other")

@@ -156,5 +156,6 @@ template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan
 template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<UsblSample>);
 template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&,
                         Kinds<PropulsionSample, FinsSample>);
+template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<AirspeedSample>);
 
 }  // namespace fathom::bridge

@@ -131,6 +131,14 @@ Verdict judge(const FinsSample& s, const Limits& limits) {
   return std::nullopt;
 }
 
+Verdict judge(const AirspeedSample& s, const Limits& limits) {
+  const std::array speeds{s.airspeed_m_s, s.true_airspeed_m_s};
+  if (any_infinite(speeds) || (!known(speeds[0]) && !known(speeds[1])) || std::isinf(s.baro_altitude_m))
+    return Refusal::not_finite;
+  if (any_beyond(speeds, limits.airspeed_m_s) || s.sigma_m_s < 0.0) return Refusal::impossible;
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string_view to_string(Refusal refusal) {

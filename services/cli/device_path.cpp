@@ -20,10 +20,14 @@ config::SensorPlan plan_of(const std::string& file, const std::vector<std::strin
   return config::sensor_plans(loaded.value).front();
 }
 
+std::string bridge_of(std::string_view kind) {
+  if (kind == "propulsion" || kind == "fins") return "actuator";
+  return kind == "airspeed" ? "air_data" : std::string(kind);
+}
+
 config::SensorPlan plan_of(std::string_view kind, const std::string& directory,
                            const std::map<std::string, std::vector<std::string>>& overrides) {
-  const std::string service =
-      (kind == "propulsion" || kind == "fins" ? std::string("actuator") : std::string(kind)) + "_bridge";
+  const std::string service = bridge_of(kind) + "_bridge";
   const auto found = overrides.find(service);
   const std::vector<std::string> sets = found == overrides.end() ? std::vector<std::string>() : found->second;
   const std::string file = directory + "/" + service + ".json";
@@ -33,6 +37,7 @@ config::SensorPlan plan_of(std::string_view kind, const std::string& directory,
   if (kind == "depth") return plan_of<config::DepthBridgeConfig>(file, sets);
   if (kind == "heading") return plan_of<config::HeadingBridgeConfig>(file, sets);
   if (kind == "usbl") return plan_of<config::UsblBridgeConfig>(file, sets);
+  if (kind == "airspeed") return plan_of<config::AirDataBridgeConfig>(file, sets);
   return plan_of<config::ActuatorBridgeConfig>(file, sets);
 }
 
@@ -79,7 +84,8 @@ struct DevicePath::Channel : codec::Sink {
 DevicePath::DevicePath(const sim::Scenario& scenario, const std::string& config_directory, TimeNs power_on_ns)
     : encoder_(scenario, power_on_ns) {
   const auto overrides = config::service_overrides(scenario, {});
-  for (const char* kind : {"imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins"}) {
+  for (const char* kind :
+       {"imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins", "airspeed"}) {
     const sim::SensorCommon& sensor = *sim::find_sensor(scenario.sensors, kind);
     if (!sensor.enabled || sensor.protocol.empty() || !sim::can_encode(kind, sensor.protocol)) continue;
     channels_[kind] = std::make_unique<Channel>(plan_of(kind, config_directory, overrides));

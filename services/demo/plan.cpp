@@ -163,9 +163,10 @@ class Builder {
 Sets monitor_sets(const Plan& plan, const sim::Scenario& scenario, const std::vector<std::string>& bridges,
                   const Sets& scenario_sets) {
   json sensors = json::array();
-  for (const char* kind : {"imu", "dvl", "gps", "depth", "heading"}) {
+  for (const char* kind : {"imu", "dvl", "gps", "depth", "heading", "airspeed"}) {
     const sim::SensorCommon& sensor = *sim::find_sensor(scenario.sensors, kind);
-    if (std::find(bridges.begin(), bridges.end(), kind) == bridges.end() || !sensor.enabled) continue;
+    const std::string_view bridge = std::string_view(kind) == "airspeed" ? "air_data" : kind;
+    if (std::find(bridges.begin(), bridges.end(), bridge) == bridges.end() || !sensor.enabled) continue;
     json entry = {{"name", kind}, {"kind", kind}, {"rate_hz", sensor.rate_hz}};
     if (std::string_view(kind) == "imu") entry["severity"] = "critical";
     sensors.push_back(std::move(entry));

@@ -8,8 +8,8 @@
 namespace fathom::simulator {
 namespace {
 
-constexpr std::array<const char*, 8> kKinds{"imu",     "gps",  "dvl",        "depth",
-                                            "heading", "usbl", "propulsion", "fins"};
+constexpr std::array<const char*, 9> kKinds{"imu",  "gps",        "dvl",  "depth",   "heading",
+                                            "usbl", "propulsion", "fins", "airspeed"};
 // The source is asked this far ahead of the clock, so that computing does not delay sending; host time.
 constexpr double kAhead_s = 0.03;
 // Longest sleep: how long stopping and new connections may have to wait, host time.

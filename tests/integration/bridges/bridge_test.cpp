@@ -1,5 +1,6 @@
 // Each bridge as a process of its own: device bytes in, samples on the bus out.
 
+#include <algorithm>
 #include <csignal>
 #include <memory>
 #include <numbers>
@@ -9,12 +10,14 @@
 #include <unistd.h>
 
 #include "samples/actuator.hpp"
+#include "samples/airspeed.hpp"
 #include "samples/depth.hpp"
 #include "samples/dvl.hpp"
 #include "samples/gps.hpp"
 #include "samples/heading.hpp"
 #include "samples/imu.hpp"
 #include "samples/usbl.hpp"
+#include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/pd0.hpp"
@@ -323,6 +326,64 @@ TEST(ActuatorBridge, PropulsorAndFinsOfOneStreamOthersIgnored) {
   EXPECT_NEAR(stern_rad, fin.stern_rad, 0.002);
 }
 
+TEST(AirDataBridge, ColumnsBecomeTrueAirspeedAndDamageIsCounted) {
+  constexpr int kDomain = 149;
+  const TemporaryFolder folder;
+  bus::Participant participant(test_participant(kDomain));
+  const Collector<AirspeedSample> air(participant);
+  const Collector<ServiceStatus> status(participant);
+  const SerialDevice device(folder / "air_data");
+  const Process bridge("fathom-air-data-bridge",
+                       bridge_arguments("air_data", kDomain, {serial(folder / "air_data")}), folder / "log");
+  ASSERT_TRUE(eventually([&] { return air.matched() && status.matched(); })) << bridge.output();
+  AirspeedSample sent;
+  sent.airspeed_m_s = 48.0;
+  sent.true_airspeed_m_s = 51.5;
+  sent.baro_altitude_m = 900.0;
+  const std::string good = encode::ascii_air_data(sent, {});
+  std::string damaged = good;
+  damaged[0] = damaged[0] == '9' ? '8' : '9';
+  ASSERT_TRUE(eventually([&] {
+    // No temperature in the last one: no true airspeed can be had of it. 310 kn are beyond what is
+    // configured.
+    device.send(bytes_of(good + damaged + "93.30,2952.7,*32\r\n" + "310.0,2952.7,8.5*1A\r\n"));
+    return air.count() > 5 && counter(status, "rejected_checksum") > 3 &&
+           counter(status, "rejected_incomplete") > 3 && counter(status, "refused_impossible") > 3;
+  })) << bridge.output();
+  for (const auto& each : air.all()) {
+    EXPECT_EQ(each.header.sensor, "airspeed");
+    EXPECT_EQ(each.header.stamp_ns, each.header.received_ns - 50 * kNsPerMillisecond);
+    EXPECT_NEAR(each.airspeed_m_s, 48.0, 1e-3);
+    EXPECT_NEAR(each.true_airspeed_m_s, 51.5, 5e-3);
+    EXPECT_NEAR(each.baro_altitude_m, 900.0, 0.1);
+  }
+}
+
+TEST(AirDataBridge, APitotTubeSpeaksXdrOrOpenVario) {
+  constexpr int kDomain = 149;
+  const TemporaryFolder folder;
+  bus::Participant participant(test_participant(kDomain));
+  const Collector<AirspeedSample> air(participant);
+  const int port = free_port(SOCK_DGRAM);
+  const Process bridge("fathom-air-data-bridge",
+                       bridge_arguments("air_data", kDomain, {udp(port), "sensors.0.protocol=nmea_air_data"}),
+                       folder / "log");
+  ASSERT_TRUE(eventually([&] { return air.matched(); })) << bridge.output();
+  AirspeedSample sent;
+  sent.airspeed_m_s = 48.0;
+  sent.true_airspeed_m_s = 51.5;
+  sent.baro_altitude_m = 900.0;
+  // 130 km/h are 36.1 m/s.
+  const std::string vario = encode::nmea_sentence("POV,S,130.0");
+  ASSERT_TRUE(eventually([&] {
+    send_udp(port, bytes_of(air.count() < 4 ? encode::nmea_air_data(sent, {}) : vario));
+    return air.count() > 8;
+  })) << bridge.output();
+  EXPECT_NEAR(air.all().front().true_airspeed_m_s, 51.5, 5e-3);
+  EXPECT_NEAR(air.all().back().true_airspeed_m_s, 130.0 / 3.6, 1e-9);
+  EXPECT_NEAR(air.all().back().baro_altitude_m, 900.0, 0.1);
+}
+
 TEST(BridgeProcess, BadConfigurationEndsWithOneLineBeforeAnythingStarts) {
   const TemporaryFolder folder;
   Process bridge("fathom-imu-bridge", bridge_arguments("imu", 147, {"sensors.0.rate_hz=-1"}), folder / "log");
@@ -338,10 +399,11 @@ TEST(BridgeProcess, BadConfigurationEndsWithOneLineBeforeAnythingStarts) {
 
 TEST(BridgeProcess, CheckAndVersionEndAtOnce) {
   const TemporaryFolder folder;
-  for (const char* kind : {"imu", "dvl", "gps", "depth", "heading", "usbl", "actuator"}) {
+  for (const char* kind : {"imu", "dvl", "gps", "depth", "heading", "usbl", "actuator", "air_data"}) {
     auto arguments = bridge_arguments(kind, 147, {});
     arguments.emplace_back("--check");
-    const std::string name = std::string("fathom-") + kind + "-bridge";
+    std::string name = std::string("fathom-") + kind + "-bridge";
+    std::replace(name.begin(), name.end(), '_', '-');
     Process check(name, arguments, folder / kind);
     EXPECT_EQ(check.wait(), 0) << check.output();
     Process version(name, {"--version"}, folder / (std::string(kind) + "_version"));

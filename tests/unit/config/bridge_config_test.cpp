@@ -92,6 +92,31 @@ TEST(BridgeConfig, UnitAndLatitudeOfAPressureMustBeGiven) {
             std::string::npos);
 }
 
+TEST(BridgeConfig, AnAirDataLineMustGiveTheAirspeedThatIsWanted) {
+  const auto columns = [](const std::string& list) {
+    return refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.line.columns=[" + list + "]"});
+  };
+  const std::string speed = R"({"quantity":"indicated_airspeed","unit":"kn"})";
+  const std::string height = R"({"quantity":"pressure_altitude","unit":"ft"})";
+  const std::string warmth = R"({"quantity":"total_temperature","unit":"degC"})";
+  EXPECT_EQ(columns(speed + "," + height + "," + warmth), "accepted");
+  EXPECT_EQ(columns(R"({"quantity":"true_airspeed","unit":"m/s"})"), "accepted");
+  EXPECT_NE(columns(speed + "," + height).find("with a temperature; or airspeed indicated"),
+            std::string::npos);
+  EXPECT_EQ(refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.line.columns=[" + speed + "]",
+                                                             "sensors.0.airspeed=indicated"}),
+            "accepted");
+  EXPECT_NE(columns(R"({"quantity":"indicated_airspeed","unit":"hPa"})").find("columns.0.unit"),
+            std::string::npos);
+  EXPECT_NE(columns(R"({"quantity":"indicated_airspeed"})").find("columns.0.unit"), std::string::npos);
+  EXPECT_NE(columns(speed + "," + speed).find("each quantity once"), std::string::npos);
+  EXPECT_NE(refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.line.separator=."}).find("separator"),
+            std::string::npos);
+  EXPECT_NE(refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.transducers.impact_pressure=IAS"})
+                .find("comes twice"),
+            std::string::npos);
+}
+
 TEST(BridgeConfig, TwoInstrumentsNeedTwoNames) {
   const std::string sensor =
       R"({"name":"gps","source":{"type":"serial","path":"/dev/x"},"protocol":"ubx","time":{"mode":"device_utc"},"rate_hz":5})";
@@ -107,6 +132,22 @@ TEST(BridgeConfig, DepthUnitsBecomePascal) {
   EXPECT_DOUBLE_EQ(plan.at(0).options.ascii_scale, 1e3);
   EXPECT_DOUBLE_EQ(plan.at(0).options.ascii_offset, -2e4);
   EXPECT_FALSE(plan.at(0).options.value_is_depth);
+}
+
+TEST(BridgeConfig, AirColumnsAndNamesReachTheCodec) {
+  const auto plan = sensor_plans(shipped<AirDataBridgeConfig>(
+      "air_data_bridge",
+      {R"(sensors.0.line={"prefix":"$A,","separator":";","columns":[{"quantity":"ignored"},)"
+       R"({"quantity":"true_airspeed","unit":"mph"}]})",
+       "sensors.0.transducers.true_airspeed=SPD", "sensors.0.require_checksum=false"}));
+  const codec::AirDataOptions& air = plan.at(0).options.air_data;
+  EXPECT_FALSE(plan.at(0).options.require_checksum);
+  EXPECT_EQ(air.prefix.view(), "$A,");
+  EXPECT_EQ(air.separator, ';');
+  ASSERT_EQ(air.count, 2U);
+  EXPECT_EQ(air.columns[1].quantity, codec::AirQuantity::true_airspeed);
+  EXPECT_EQ(air.columns[1].unit, codec::AirUnit::mph);
+  EXPECT_EQ(air.transducer[1].view(), "SPD");
 }
 
 TEST(BridgeConfig, HashFollowsTheEffectiveConfiguration) {

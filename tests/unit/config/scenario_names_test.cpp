@@ -40,6 +40,8 @@ std::map<SourceKind, std::set<std::string>> published(const sim::Scenario& scena
     if (bridge == "usbl") out[SourceKind::usbl] = names<UsblBridgeConfig>("usbl_bridge", overrides);
     if (bridge == "actuator")
       out[SourceKind::propulsion] = names<ActuatorBridgeConfig>("actuator_bridge", overrides);
+    if (bridge == "air_data")
+      out[SourceKind::airspeed] = names<AirDataBridgeConfig>("air_data_bridge", overrides);
   }
   return out;
 }

@@ -71,12 +71,14 @@ TEST(Scenarios, EachLoadsSpeaksItsProtocolsAndNamesItsBridges) {
     const sim::Scenario scenario = shipped(name);
     EXPECT_EQ(scenario.name, name);
     EXPECT_FALSE(scenario.mission.empty()) << name;
-    for (const char* kind : {"imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins"}) {
+    for (const char* kind :
+         {"imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins", "airspeed"}) {
       const auto* sensor = sim::find_sensor(scenario.sensors, kind);
       if (!sensor->enabled) continue;
       EXPECT_TRUE(sim::can_encode(kind, sensor->protocol)) << name << " " << kind;
-      const std::string bridge =
-          std::string(kind) == "propulsion" || std::string(kind) == "fins" ? "actuator" : kind;
+      std::string bridge = kind;
+      if (bridge == "propulsion" || bridge == "fins") bridge = "actuator";
+      if (bridge == "airspeed") bridge = "air_data";
       EXPECT_NE(std::find(scenario.bridges.begin(), scenario.bridges.end(), bridge), scenario.bridges.end())
           << name << " " << kind;
     }
