@@ -111,14 +111,14 @@ AirspeedSample air(int frame) {
   return sample;
 }
 
+/// The true airspeed first: the codec follows the best quantity that it has heard.
 void air_data_sentences(ByteVector& stream, int frame) {
-  append(stream, sim::encode::nmea_air_data(air(frame), {}));
-  if (frame < 2) return;
-  append(stream, sim::encode::nmea_sentence("POV,P,951.78,T,12.5"));
-  append(stream, sim::encode::nmea_sentence("POV,Q,1" + std::to_string(frame) + "00.5,E,2.15"));
-  if (frame < 4) return;
   append(stream, sim::encode::nmea_sentence("WIMWV,2.0,R,9" + std::to_string(frame) + ".4,N,A"));
+  append(stream, sim::encode::nmea_air_data(air(frame), {}));
+  append(stream,
+         sim::encode::nmea_sentence("POV,P,951.78,T,12.5,Q,1" + std::to_string(frame) + "00.5,E,2.15"));
   append(stream, sim::encode::nmea_sentence("IIVWR,2.0,L,97.2,N,50.0,M,180.0,K"));
+  append(stream, sim::encode::nmea_sentence("IIXDR,G,100.0,N,TAS"));
 }
 
 void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
