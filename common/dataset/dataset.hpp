@@ -20,31 +20,8 @@
 #include "samples/usbl.hpp"
 #include "samples/verdict.hpp"
 
-/// A recorded or simulated vehicle as a folder of CSV files, one per sensor, each plain or .gz.
-///
-/// | file | required columns | optional columns |
-/// |---|---|---|
-/// | imu.csv | t_s, g{x,y,z}_rad_s, a{x,y,z}_m_s2 | |
-/// | gps.csv | t_s, lat_deg, lon_deg, alt_m, sigma_{n,e,d}_m, v{n,e,d}_m_s, fix | sigma_v{n,e,d}_m_s,
-/// satellites | | dvl.csv | t_s, v{x,y,z}_m_s | b1..b4_m_s, valid (0 or 1), sigma_m_s, altitude_m, mode
-/// (bottom or water) | | depth.csv | t_s, depth_m | sigma_m | | heading.csv | t_s, heading_deg | sigma_deg,
-/// north (true or magnetic) | | usbl.csv | t_s, lat_deg, lon_deg, depth_m, sigma_m | frame and what goes with
-/// it, see below | | airspeed.csv | t_s,
-/// airspeed_m_s | baro_alt_m, true_airspeed_m_s | | propulsion.csv | t_s, rpm | | | fins.csv | t_s,
-/// rudder_rad, stern_rad | | | reference.csv | t_s, lat_deg, lon_deg, alt_m, v{n,e,d}_m_s,
-/// {roll,pitch,yaw}_deg | |
-///
-/// usbl.csv with the column frame: geodetic (or blank), ned, vessel or vehicle. A row that is not geodetic
-/// has {x,y,z}_m from the station along that frame (vehicle: from the vehicle to the station), or range_m,
-/// bearing_deg, depression_deg and their sigma_deg; station_{lat_deg,lon_deg,depth_m} of the ship's
-/// transceiver or of the beacon, and for vessel station_{roll,pitch,yaw}_deg. lat_deg, lon_deg, depth_m may
-/// then be missing.
-///
-/// Any file may have t_received_s, the instant of arrival; without it a measurement arrives when it is valid.
-/// A missing file is a missing sensor. Other columns are ignored. A blank field or "nan" is unknown, except
-/// in t_s. Rows are sorted by t_s, or by t_received_s where that column exists; equal times are allowed (they
-/// are duplicates for the estimator to judge). `fix`: 0 none, 1 RTK fixed, 2 RTK float,
-/// 3 or 4 differential, 5 and above an ordinary fix.
+/// A recorded or simulated vehicle as a folder of CSV files, one per sensor, each plain or .gz. README.md
+/// beside this header has the files, their columns and what a row means.
 namespace fathom::dataset {
 
 /// The folder or a file in it cannot be used. what() is "FILE:LINE: what is wrong, what was expected", or

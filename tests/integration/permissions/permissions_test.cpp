@@ -2,15 +2,18 @@
 // writes all that its row names, so that no row allows more than is used, and none is refused anything.
 
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <set>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "bus/network_map.hpp"
 #include "integration/bus/support.hpp"
 #include "security/roles.hpp"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fathom::test {
 namespace {
@@ -54,11 +57,28 @@ Uses table() {
   return out;
 }
 
+nlohmann::json shipped(const std::string& scenario) {
+  return nlohmann::json::parse(
+      std::ifstream(FATHOM_SOURCE_DIR "/deploy/config/scenarios/" + scenario + ".json"));
+}
+
+/// A vehicle with every instrument: the survey's, and the pitot tube of the aircraft.
+std::string scenario_of_everything(const std::filesystem::path& folder) {
+  nlohmann::json scenario = shipped("survey");
+  scenario.erase("$schema");
+  scenario["sensors"]["airspeed"] = shipped("flight")["sensors"]["airspeed"];
+  scenario["bridges"].push_back("air_data");
+  const std::string file = folder / "everything.json";
+  std::ofstream(file) << scenario.dump(2);
+  return file;
+}
+
 TEST(Permissions, AreWhatTheServicesUseAndNoMore) {
   setenv("FATHOM_DDS_DIR", FATHOM_SOURCE_DIR "/deploy/dds", 1);
   setenv("FATHOM_SCENARIO_DIR", FATHOM_SOURCE_DIR "/deploy/config/scenarios", 1);
-  Process demo("fathom-demo",
-               {"--secure", "--standby", "--domain", std::to_string(kDomain), "--duration", "300"});
+  const TemporaryFolder folder;
+  Process demo("fathom-demo", {"--secure", "--standby", "--domain", std::to_string(kDomain), "--duration",
+                               "300", "--scenario", scenario_of_everything(folder.path())});
   const std::string sign = "FATHOM_SECURITY_DIR=";
   ASSERT_TRUE(wait_until([&] { return demo.out().find(sign) != std::string::npos; }, 240.0)) << demo.err();
   const std::string said = demo.out().substr(demo.out().find(sign) + sign.size());
