@@ -36,6 +36,7 @@ void fields(Archive& archive, Self& self) {
   archive("depth_m", self.depth_m, kAny);
   archive("sigma_m", self.sigma_m, kAny);
   archive("value_s", self.value_s, kAny);
+  if (archive.since(2)) archive("confirmed", self.confirmed);
 }
 
 template <class Archive, class Self>

@@ -99,9 +99,10 @@ void describe(Schema<FusionConfig>& s) {
   s.field("instance", &FusionConfig::instance,
           "name of this service; of several fusion services on one vehicle each has its own")
       .name();
-  s.field("imu_sensor", &FusionConfig::imu_sensor,
-          "name of the inertial unit that is listened to; empty: the first one heard")
-      .optional_name();
+  s.field(
+       "imu_sensor", &FusionConfig::imu_sensor,
+       "name of the inertial unit that is listened to; samples of others are refused, for they lie elsewhere")
+      .name();
   s.field("ownership_strength", &FusionConfig::ownership_strength,
           "of the navigation state: the strongest living fusion is heard")
       .range(0, 1'000'000);

@@ -59,7 +59,7 @@ struct StandbyConfig {
 struct FusionConfig {
   CommonConfig common;
   std::string instance = "fusion";      ///< its name among the services, and in NavState
-  std::string imu_sensor;               ///< the inertial unit that is listened to; empty: the first one heard
+  std::string imu_sensor = "imu";       ///< the inertial unit that is listened to, and no other
   std::int32_t ownership_strength = 0;  ///< of NavState: the strongest living fusion is heard
   StartConfig start;
   CheckpointConfig checkpoint;

@@ -101,7 +101,7 @@ bool Core::remembers_the_past_only() const {
   const auto hold = [&](TimeNs stamp_ns) { past = past && (stamp_ns == 0 || stamp_ns <= now_ns_); };
   for (const TimeNs stamp : {gps_used_ns_, usbl_used_ns_, dvl_used_ns_, velocity_used_ns_, stepped_ns_,
                              phase_since_ns_, waiting_since_ns_, began_ns_, hold_since_ns_, gps_seen_ns_,
-                             under_way_.heading_ns, under_way_.dvl_ns, under_way_.usbl_ns})
+                             held_ns_, under_way_.heading_ns, under_way_.dvl_ns, under_way_.usbl_ns})
     hold(stamp);
   for (const Sensor& sensor : sensors_) {
     hold(sensor.stamp_ns);
@@ -239,7 +239,7 @@ void Core::rebase(TimeNs now_ns, double unobserved_s) {
   for (TimeNs* stamp :
        {&gps_used_ns_, &usbl_used_ns_, &dvl_used_ns_, &velocity_used_ns_, &stepped_ns_, &rest_until_ns_,
         &next_zero_velocity_ns_, &phase_since_ns_, &waiting_since_ns_, &began_ns_, &hold_since_ns_,
-        &gps_seen_ns_, &under_way_.heading_ns, &under_way_.dvl_ns, &under_way_.usbl_ns})
+        &gps_seen_ns_, &held_ns_, &under_way_.heading_ns, &under_way_.dvl_ns, &under_way_.usbl_ns})
     move(*stamp);
   for (Sensor& sensor : sensors_) {
     move(sensor.used_ns);

@@ -127,7 +127,9 @@ class Core {
   void finish(const ImuStep& step);
   /// Applies one event at the present instant.
   Judgement apply(const Measurement& measurement);
-  void order(const Command& command);
+  /// `used` when it is done. `rejected` when it is a position that is held until it is confirmed; innovation
+  /// is the way to it (m, north and east), `limit` how long that may be, test_ratio its length over that.
+  Judgement order(const Command& command);
   /// Starts at `now_ns` from a given state.
   void start(const InitialState& initial, TimeNs now_ns);
   /// Another estimate for the present instant, as the smoother has it.
@@ -189,6 +191,9 @@ class Core {
 
   // core_judge.cpp
   Judgement judge(const Measurement& measurement);
+  Judgement place(const Command& command);
+  /// The same position was held, and this order confirms it.
+  [[nodiscard]] bool is_confirmed(const Command& command, const geo::Geodetic& ordered) const;
   bool frozen(const Measurement& measurement, const SensorConfig& config, Sensor& sensor,
               const Observation& observation) const;
 
@@ -329,6 +334,8 @@ class Core {
   bool position_set_ = false;  ///< by an order
   geo::Geodetic set_position_;
   double set_sigma_m_ = 0.0;
+  TimeNs held_ns_ = 0;           ///< of an ordered position that waits for its confirmation; 0: none
+  geo::Geodetic held_position_;  ///< without altitude
 };
 
 }  // namespace fathom::estimation

@@ -6,6 +6,7 @@
 #include "estimation/aiding/usbl_range_bearing.hpp"
 #include "estimation/core.hpp"
 #include "estimation/sigma_range.hpp"
+#include "samples/departure.hpp"
 #include "samples/gps_quality.hpp"
 
 namespace fathom::estimation {
@@ -78,11 +79,7 @@ bool is_speed_alone(SourceKind source, const SensorConfig& config) {
 }  // namespace
 
 Judgement Core::apply(const Measurement& measurement) {
-  if (measurement.command) {
-    order(std::get<Command>(measurement.sample));
-    return {};
-  }
-  return judge(measurement);
+  return measurement.command ? order(std::get<Command>(measurement.sample)) : judge(measurement);
 }
 
 Judgement Core::judge(const Measurement& measurement) {
@@ -261,8 +258,10 @@ void Core::mark_used(const Measurement& measurement, bool with_position) {
   }
 }
 
-void Core::order(const Command& command) {
+Judgement Core::order(const Command& command) {
   const auto& sensors = setup_->config.sensors;
+  Judgement done;
+  done.kind = VerdictKind::used;
   switch (command.kind) {
     case CommandKind::enable_source:
     case CommandKind::disable_source:
@@ -283,32 +282,61 @@ void Core::order(const Command& command) {
       lose_attitude();
       enter(AlignmentPhase::waiting);
       break;
-    case CommandKind::set_position: {
-      geo::Geodetic wanted = state_.nav.position;
-      wanted.latitude_rad = command.latitude_rad;
-      wanted.longitude_rad = command.longitude_rad;
-      const AidingState state = aiding_state();
-      const double surface =
-          state.value(Group::surface_altitude, 0, setup_->config.states.surface_altitude_m);
-      if (known(command.depth_m)) wanted.altitude_m = surface - command.depth_m;
-      if (!navigating_) {
-        position_set_ = true;
-        set_position_ = wanted;
-        set_sigma_m_ = command.sigma_m;
-        break;
-      }
-      wanted = geo::moved_by(wanted, -(state.C_NB * geo::vec(setup_->config.output_lever_B_m)));
-      if (!known(command.depth_m)) wanted.altitude_m = state_.nav.position.altitude_m;
-      note_step(geo::difference_N(state_.nav.position, wanted), nullptr);
-      state_.nav.position = wanted;
-      const int axes = known(command.depth_m) ? 3 : 2;
-      for (int i = 0; i < axes; ++i) filter_.forget(i, command.sigma_m);
-      if (dropping_) place_drop(axes, command.sigma_m);
-      break;
-    }
+    case CommandKind::set_position:
+      return place(command);
     case CommandKind::acknowledge_alarm:
       break;
   }
+  return done;
+}
+
+Judgement Core::place(const Command& command) {
+  Judgement out;
+  out.kind = VerdictKind::used;
+  geo::Geodetic wanted = state_.nav.position;
+  wanted.latitude_rad = command.latitude_rad;
+  wanted.longitude_rad = command.longitude_rad;
+  const AidingState state = aiding_state();
+  const double surface = state.value(Group::surface_altitude, 0, setup_->config.states.surface_altitude_m);
+  if (known(command.depth_m)) wanted.altitude_m = surface - command.depth_m;
+  if (!navigating_) {
+    position_set_ = true;
+    set_position_ = wanted;
+    set_sigma_m_ = command.sigma_m;
+    return out;
+  }
+  wanted = geo::moved_by(wanted, -(state.C_NB * geo::vec(setup_->config.output_lever_B_m)));
+  if (!known(command.depth_m)) wanted.altitude_m = state_.nav.position.altitude_m;
+  const Eigen::Vector3d step_N_m = geo::difference_N(state_.nav.position, wanted);
+  out.dimensions = 2;
+  out.limit = allowed_departure_m(filter_(0, 0), filter_(1, 1), command.sigma_m);
+  for (int i = 0; i < 2; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    out.innovation[axis] = step_N_m[i];
+    out.innovation_sigma[axis] = std::sqrt(filter_(i, i) + command.sigma_m * command.sigma_m);
+  }
+  out.test_ratio = step_N_m.head<2>().norm() / out.limit;
+  const geo::Geodetic ordered{command.latitude_rad, command.longitude_rad, 0.0};
+  if (out.test_ratio > 1.0 && !is_confirmed(command, ordered)) {
+    held_ns_ = now_ns_;
+    held_position_ = ordered;
+    out.kind = VerdictKind::rejected;
+    return out;
+  }
+  held_ns_ = 0;
+  note_step(step_N_m, nullptr);
+  state_.nav.position = wanted;
+  const int axes = known(command.depth_m) ? 3 : 2;
+  for (int i = 0; i < axes; ++i) filter_.forget(i, command.sigma_m);
+  if (dropping_) place_drop(axes, command.sigma_m);
+  return out;
+}
+
+bool Core::is_confirmed(const Command& command, const geo::Geodetic& ordered) const {
+  constexpr double kTimeToConfirm_s = 60.0;
+  constexpr double kSamePlace_m = 1.0;  // written with fewer digits
+  return command.confirmed && held_ns_ != 0 && since(held_ns_) <= kTimeToConfirm_s &&
+         geo::difference_N(held_position_, ordered).head<2>().norm() <= kSamePlace_m;
 }
 
 }  // namespace fathom::estimation

@@ -1,7 +1,9 @@
 #include "estimation/fusion_engine.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -130,8 +132,9 @@ class FusionEngine::Impl final : public VerdictSink {
     return objection_to(command);
   }
 
-  bool apply(const Command& command) {
-    if (!objection(command).empty()) return false;
+  std::string apply(const Command& command) {
+    if (std::string why = objection(command); !why.empty()) return why;
+    if (!sound_stamp(command.header.stamp_ns)) return "its stamp is no instant of this age";
     Measurement& one = incoming_;
     one.command = true;
     one.judged = one.settled = false;
@@ -139,10 +142,22 @@ class FusionEngine::Impl final : public VerdictSink {
     one.writer = {};
     one.source = SourceKind::imu;
     one.sensor = -1;
-    one.sequence = ++commands_;
-    one.stamp_ns = history_.core().now_ns() + 1;
+    one.sequence = order_number(command);
+    one.stamp_ns = command.header.stamp_ns;
     one.sample = command;
-    return history_.insert(one, *this) == History::Placing::taken;
+    switch (history_.insert(one, *this)) {
+      case History::Placing::taken:
+        break;
+      case History::Placing::late:
+        return too_far(command, "before");
+      case History::Placing::from_the_future:
+        return too_far(command, "after");
+      case History::Placing::duplicate:
+        return "it was given before";
+      case History::Placing::not_started:
+        return "navigation has not begun";
+    }
+    return {};
   }
 
   void start_from(const InitialState& state) {
@@ -161,7 +176,7 @@ class FusionEngine::Impl final : public VerdictSink {
     if (!history_.started() || pending_start_) return false;
     archive::Writer image(out, kStateVersion);
     const SampleHeader& newest = nav_.header;
-    const StateHead head{StateHead::kMagic, kStateVersion,   layout(kStateVersion), commands_,
+    const StateHead head{StateHead::kMagic, kStateVersion,   layout(kStateVersion),
                          newest.sequence,   newest.stamp_ns, newest.received_ns};
     image("head", head);
     image("intake", intake_);
@@ -182,7 +197,6 @@ class FusionEngine::Impl final : public VerdictSink {
     image.expect(intake.newest_ns() == head.stamp_ns, "intake.last_ns", "the stamp of the state");
     if (std::string why = history_.read(image, head.stamp_ns, *this); !why.empty()) return why;
     intake_ = intake;
-    commands_ = head.commands;
     nav_.header.stamp_ns = head.stamp_ns;
     nav_.header.received_ns = head.received_ns;
     nav_.header.sequence = head.sequence;
@@ -195,10 +209,19 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   void judged(const Measurement& measurement, const Judgement& judgement, VerdictKind previous) override {
+    if (measurement.command) return ordered(std::get<Command>(measurement.sample), judgement, measurement);
     Verdict& verdict = push(measurement.header(), measurement.source, measurement.writer, judgement);
     verdict.revision = measurement.revision;
     verdict.previous = previous;
     verdict.is_final = measurement.settled;
+  }
+
+  bool next_outcome(OrderOutcome& outcome) {
+    if (outcome_count_ == 0) return false;
+    outcome = outcomes_[first_outcome_];
+    first_outcome_ = (first_outcome_ + 1) % outcomes_.size();
+    --outcome_count_;
+    return true;
   }
 
   bool next_verdict(Verdict& verdict) {
@@ -265,6 +288,32 @@ class FusionEngine::Impl final : public VerdictSink {
     return -1;
   }
 
+  [[nodiscard]] std::string too_far(const Command& command, const char* side) const {
+    const double apart_s = std::abs(to_seconds(command.header.stamp_ns - history_.core().now_ns()));
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "its stamp is %.3f s %s the newest inertial sample, expected no more than %g s", apart_s,
+                  side, setup_.config.horizon_s);
+    return text.data();
+  }
+
+  void ordered(const Command& command, const Judgement& judgement, const Measurement& measurement) {
+    if (outcome_count_ == outcomes_.size()) {
+      first_outcome_ = (first_outcome_ + 1) % outcomes_.size();
+      --outcome_count_;
+    }
+    OrderOutcome& out = outcomes_[(first_outcome_ + outcome_count_++) % outcomes_.size()];
+    out = {};
+    out.order = command;
+    out.fate = judgement.kind == VerdictKind::used       ? OrderFate::done
+               : judgement.kind == VerdictKind::rejected ? OrderFate::held
+                                                         : OrderFate::not_done;
+    out.again = measurement.revision > 0;
+    if (judgement.dimensions == 0) return;
+    out.apart_m = std::hypot(judgement.innovation[0], judgement.innovation[1]);
+    out.allowed_m = judgement.limit;
+  }
+
   void stamp(SampleHeader& header) const {
     header.vehicle = nav_.header.vehicle;
     header.sensor = nav_.header.sensor;
@@ -298,7 +347,9 @@ class FusionEngine::Impl final : public VerdictSink {
   mutable NavState nav_;          ///< filled when asked for
   mutable bool filled_ = true;
   Measurement incoming_;
-  std::uint64_t commands_ = 0;
+  std::array<OrderOutcome, 64> outcomes_;
+  std::size_t first_outcome_ = 0;
+  std::size_t outcome_count_ = 0;
   std::vector<Name> names_;
   std::vector<Verdict> verdicts_;
   std::size_t first_verdict_ = 0;
@@ -342,8 +393,11 @@ void FusionEngine::add(const FinsSample& sample, const Name& writer) {
 std::string FusionEngine::objection(const Command& command) const {
   return impl_->objection(command);
 }
-bool FusionEngine::apply(const Command& command) {
+std::string FusionEngine::apply(const Command& command) {
   return impl_->apply(command);
+}
+bool FusionEngine::next_outcome(OrderOutcome& outcome) {
+  return impl_->next_outcome(outcome);
 }
 void FusionEngine::start_from(const InitialState& state) {
   impl_->start_from(state);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "estimation/engine_config.hpp"
+#include "estimation/order.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
 #include "samples/alignment_status.hpp"
@@ -41,7 +42,7 @@ namespace fathom::estimation {
 /// measurement that asks for no more than `replay_steps_per_sample` repeated steps, and never later than
 /// 32 inertial samples after the first one that asks for more; finish() waits for neither. It is made of the
 /// measurements that were taken in: more than `measurement_capacity` of them within the horizon shorten it,
-/// what is older gets the verdict late, and orders act at the instant at which they came. Of two samples of
+/// what is older gets the verdict late. Orders act at their stamps, like measurements. Of two samples of
 /// one sensor with the same stamp the one with the lower sequence number counts, and of two with the same
 /// number as well the one that came first.
 ///
@@ -83,9 +84,11 @@ class FusionEngine {
 
   /// Why a command is none that this engine follows, in words; empty when it is one.
   [[nodiscard]] std::string objection(const Command& command) const;
-  /// set_position, realign, enable_source, disable_source, mark_at_rest; others are ignored. Takes effect
-  /// with the next inertial sample. False when there is an objection.
-  bool apply(const Command& command);
+  /// set_position, realign, enable_source, disable_source, mark_at_rest: takes effect at its stamp, which may
+  /// be `horizon_s` before or after the newest inertial sample. Empty when it is taken; else why not.
+  [[nodiscard]] std::string apply(const Command& command);
+  /// What became of an order, oldest first; the last 64 are kept.
+  bool next_outcome(OrderOutcome& outcome);
 
   /// Forgets everything and starts from a given state with the first inertial sample at or after its stamp.
   void start_from(const InitialState& state);

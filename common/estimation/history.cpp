@@ -55,7 +55,7 @@ History::Placing History::insert(const Measurement& measurement, VerdictSink& si
   if (!started_) return Placing::not_started;
   const TimeNs newest = core_.now_ns();
   const TimeNs stamp = measurement.stamp_ns;
-  if (stamp > newest + from_seconds(setup_->config.future_tolerance_s)) return Placing::from_the_future;
+  if (stamp > newest + future_tolerance_ns(measurement)) return Placing::from_the_future;
   const TimeNs horizon = newest - from_seconds(setup_->config.horizon_s);
   if (stamp < horizon || stamp <= marks_[0].now_ns) return Placing::late;
   if (event_count_ == order_.size()) {
@@ -190,13 +190,19 @@ void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
   thin_snapshots(newest_ns);
 }
 
+DurationNs History::future_tolerance_ns(const Measurement& measurement) const {
+  // An order waits for its instant.
+  const EngineConfig& config = setup_->config;
+  return from_seconds(measurement.command ? config.horizon_s : config.future_tolerance_s);
+}
+
 void History::run(Core& core, const ImuStep& step, VerdictSink& sink) {
   for (std::size_t rank = first_after(step.from_ns); rank < event_count_; ++rank) {
     Measurement& one = event(rank);
     if (one.stamp_ns > step.to_ns) break;
     core.advance(step, one.stamp_ns);
     const Judgement judgement = core.apply(one);
-    if (one.command || one.settled) continue;
+    if (one.settled) continue;
     judgements_[order_[rank]] = judgement;
     if (!one.judged || judgement.kind != one.said) say(one, judgement, false, sink);
   }
@@ -266,7 +272,9 @@ void History::settle_first(std::size_t count, VerdictKind unjudged, VerdictSink&
   none.kind = unjudged;
   for (; settled_count_ < count; ++settled_count_) {
     Measurement& one = event(settled_count_);
-    if (!one.command && !one.settled) say(one, one.judged ? judgement(settled_count_) : none, true, sink);
+    // What became of an order is said when it acts; it has no final verdict.
+    if (one.settled || (one.command && one.judged)) continue;
+    say(one, one.judged ? judgement(settled_count_) : none, true, sink);
   }
 }
 

@@ -138,12 +138,12 @@ void History::read_events(archive::Reader& archive, Candidate& out) const {
   archive("events", count);
   archive.expect(count <= order_.size(), "events", "at most " + std::to_string(order_.size()));
   const TimeNs newest_ns = out.steps.empty() ? out.core.now_ns() : out.steps.back().to_ns;
-  const TimeNs latest_ns = newest_ns + from_seconds(setup_->config.future_tolerance_s);
   for (std::uint64_t i = 0; i < count && archive.good(); ++i) {
     Measurement event;
     archive.element("events", i, event);
     if (!archive.good()) return;
     archive.open("events", i);
+    const TimeNs latest_ns = newest_ns + future_tolerance_ns(event);
     archive.expect(event.stamp_ns > out.core.now_ns() && event.stamp_ns <= latest_ns, "stamp_ns",
                    "an instant within the horizon");
     archive.expect(out.events.empty() || out.events.back().key() < event.key(), "stamp_ns",

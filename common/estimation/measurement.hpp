@@ -21,7 +21,7 @@ using AnySample = std::variant<Command, GpsSample, DvlSample, DepthSample, Headi
 /// Something that happens to the filter at an instant: a measurement or an order.
 struct Measurement {
   TimeNs stamp_ns = 0;                   ///< validity, latency taken off
-  bool command = false;                  ///< an order: no verdict
+  bool command = false;                  ///< an order: no verdict, but an outcome
   bool judged = false;                   ///< its first verdict has been given
   bool settled = false;                  ///< its final verdict has been given
   VerdictKind said = VerdictKind::used;  ///< of the verdict given last

@@ -53,4 +53,12 @@ std::string objection_to(const Command& order) {
   return "it is no order to navigation";
 }
 
+std::uint64_t order_number(const Command& order) {
+  // FNV-1a of the name.
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : order.header.sensor.view())
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return hash + order.header.sequence;
+}
+
 }  // namespace fathom::estimation

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "estimation/filter_log.hpp"
+#include "estimation/order.hpp"
 #include "estimation/output.hpp"
 
 namespace fathom::estimation {
@@ -107,9 +108,10 @@ void Smoother::add(const Command& command) {
   Event& event = events_.emplace_back();
   event.axis = axis_;
   Measurement& one = event.measurement;
-  one.stamp_ns = ticks_.empty() ? 0 : ticks_.back().stamp_ns + 1;
+  one.stamp_ns = command.header.stamp_ns;
   one.command = true;
-  one.sequence = ++commands_;
+  one.source = SourceKind::imu;
+  one.sequence = order_number(command);
   one.sample = command;
 }
 

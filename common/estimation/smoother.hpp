@@ -41,7 +41,7 @@ class Smoother {
   void add(const AirspeedSample& sample);
   void add(const PropulsionSample& sample);
   void add(const FinsSample& sample);
-  /// An order, at the newest inertial sample.
+  /// An order, at its stamp.
   void add(const Command& command);
 
   struct Output {
@@ -95,7 +95,6 @@ class Smoother {
   ImuIntake intake_;
   std::optional<InitialState> start_;
   std::uint32_t axis_ = 0;
-  std::uint64_t commands_ = 0;
   std::vector<Tick> ticks_;
   std::vector<Event> events_;
   std::vector<Verdict> refused_;   ///< before the first pass: not configured, or refused inertial samples

@@ -17,6 +17,13 @@ std::vector<std::pair<SourceKind, Name>> names_of(const std::vector<ExpectedSens
   return names;
 }
 
+std::vector<Name> names_of(const std::vector<ExpectedService>& services) {
+  std::vector<Name> names;
+  names.reserve(services.size());
+  for (const ExpectedService& service : services) names.push_back(service.name);
+  return names;
+}
+
 GpsOutageConfig gps_config(const HealthConfig& config) {
   GpsOutageConfig gps = config.gps;
   for (const ExpectedSensor& sensor : config.sensors)
@@ -35,6 +42,7 @@ VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start, D
       fixes_(config.fixes),
       stamps_(config.stamps),
       writers_(names_of(config.sensors)),
+      changes_(names_of(config.services)),
       nav_(config.nav, config.startup_s, start),
       alignment_(config.alignment),
       refusal_(config.refusal),
@@ -47,6 +55,7 @@ void VehicleHealth::heard(SourceKind kind, const SampleHeader& header, const Ins
   sensors_.heard(kind, header.sensor, now);
   stamps_.heard(kind, header, now);
   writers_.heard(kind, header.sensor, writer, now);
+  if (kind == SourceKind::imu) changes_.heard_imu(header.sensor, writer, now);
 }
 
 void VehicleHealth::add(const GpsSample& sample, const Instant& now, const WriterId& writer) {
@@ -65,8 +74,10 @@ void VehicleHealth::add(const DvlSample& sample, const Instant& now, const Write
   fixes_.add(sample, now);
 }
 
-void VehicleHealth::add(const NavState& state, const Instant& now) {
+void VehicleHealth::add(const NavState& state, const Instant& now, const WriterId& writer) {
   if (!ours(state.header)) return;
+  changes_.heard(state, writer, now);
+  orders_.add(state);
   nav_.add(state, now);
   gps_.add(state, now);
   fixes_.add(state, now);
@@ -98,7 +109,9 @@ void VehicleHealth::add(const Forecast& forecast, const Instant& now) {
 }
 
 int VehicleHealth::apply(const Command& command, const Instant& now) {
-  if (!ours(command.header) || command.kind != CommandKind::acknowledge_alarm) return 0;
+  if (!ours(command.header)) return 0;
+  orders_.apply(command, book_, now);
+  if (command.kind != CommandKind::acknowledge_alarm) return 0;
   return book_.acknowledge(command.target.view(), now);
 }
 
@@ -113,6 +126,7 @@ void VehicleHealth::evaluate(const Instant& now) {
   disputes_.report(book_, now);
   stamps_.report(book_, now);
   writers_.report(book_, now, describe_);
+  changes_.report(book_, now, describe_);
   nav_.report(book_, now);
   alignment_.report(book_, now);
   refusal_.report(book_, now);

@@ -14,10 +14,12 @@
 #include "health/interference_watch.hpp"
 #include "health/intruder_watch.hpp"
 #include "health/nav_watch.hpp"
+#include "health/order_watch.hpp"
 #include "health/refusal_watch.hpp"
 #include "health/sensor_watch.hpp"
 #include "health/service_watch.hpp"
 #include "health/stamp_watch.hpp"
+#include "health/writer_change.hpp"
 #include "health/writer_watch.hpp"
 #include "samples/command.hpp"
 
@@ -51,7 +53,7 @@ class VehicleHealth {
   /// heard() is included.
   void add(const GpsSample& sample, const Instant& now, const WriterId& writer = {});
   void add(const DvlSample& sample, const Instant& now, const WriterId& writer = {});
-  void add(const NavState& state, const Instant& now);
+  void add(const NavState& state, const Instant& now, const WriterId& writer = {});
   void add(const AlignmentStatus& status, const Instant& now);
   void add(const ServiceStatus& status, const Instant& now);
   void add(const Verdict& verdict, const Instant& now);
@@ -60,7 +62,8 @@ class VehicleHealth {
   void strangers(std::vector<std::string> present, const Instant& now) {
     intruders_.strangers(std::move(present), now);
   }
-  /// Acknowledgements; other commands are not for the monitor. Returns how many alarms were acknowledged.
+  /// Acknowledgements, and positions far from where navigation is; other orders are not for the monitor.
+  /// Returns how many alarms were acknowledged.
   int apply(const Command& command, const Instant& now);
   /// See AlarmBook::restore(). What was active stays so for the time that sensors and services have to be
   /// heard.
@@ -96,6 +99,8 @@ class VehicleHealth {
   DisputeWatch disputes_;
   StampWatch stamps_;
   WriterWatch writers_;
+  WriterChange changes_;
+  OrderWatch orders_;
   NavWatch nav_;
   AlignmentWatch alignment_;
   RefusalWatch refusal_;

@@ -18,7 +18,7 @@ enum class CommandKind : std::uint8_t {
 };
 [[nodiscard]] std::string_view to_string(CommandKind kind);
 
-/// An order from an operator. header.sensor says who gives it.
+/// An order from an operator. header.sensor says who gives it; it takes effect at header.stamp_ns.
 struct Command {
   SampleHeader header;
   CommandKind kind = CommandKind::acknowledge_alarm;
@@ -28,6 +28,8 @@ struct Command {
   double depth_m = kUnknown;
   double sigma_m = kUnknown;
   double value_s = kUnknown;
+  /// Of a position far from where navigation is: it was ordered before, and is meant.
+  bool confirmed = false;
 };
 
 }  // namespace fathom

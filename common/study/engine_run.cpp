@@ -43,9 +43,10 @@ void EngineRun::take(const sim::Measurement& measurement) {
           engine_.add(summed);
           if (at_rest_s_ > 0.0) {
             Command command;
+            command.header.stamp_ns = summed.header.stamp_ns + 1;
             command.kind = CommandKind::mark_at_rest;
             command.value_s = at_rest_s_;
-            engine_.apply(command);
+            (void)engine_.apply(command);
             at_rest_s_ = 0.0;
           }
         } else {

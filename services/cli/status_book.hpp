@@ -25,6 +25,8 @@ class StatusBook {
   bool add(const Alarm& alarm, TimeNs monotonic_ns);
   bool add(const Verdict& verdict, TimeNs monotonic_ns);
 
+  /// The newest navigation state, however old; null: none was heard.
+  [[nodiscard]] const NavState* navigation() const { return nav_ ? &nav_->sample : nullptr; }
   /// How long navigation state and monitor have both been heard: 0 until they are.
   [[nodiscard]] DurationNs heard_for_ns(TimeNs monotonic_ns) const;
   /// Everything but utc_ns, domain and window_s.

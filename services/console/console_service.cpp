@@ -18,6 +18,7 @@
 #include "console/precautions.hpp"
 #include "console/refusal_log.hpp"
 #include "console/site.hpp"
+#include "health/text.hpp"
 
 namespace fathom::console {
 namespace {
@@ -166,6 +167,11 @@ struct ConsoleService::Impl {
     return snapshot_json(taken);
   }
 
+  [[nodiscard]] std::optional<health::Departure> departure_of(const Command& order) {
+    const std::lock_guard lock(mutex);
+    return picture.departure_of(order);
+  }
+
   /// Any thread.
   OrderJudgement order(const std::string& body, const Identity& who, const std::string& peer) {
     OrderJudgement judgement = judge_order(body, who, config.access.orders);
@@ -174,8 +180,16 @@ struct ConsoleService::Impl {
       judgement.command->header = host.header();
       judgement.command->header.sensor = std::string_view("console:" + name);
       judgement.command->header.sequence = ++sequence;
-      if (!commands.write(*judgement.command))
+      const auto departure = departure_of(*judgement.command);  // before it is set
+      if (!commands.write(*judgement.command)) {
         judgement = {503, "The vehicle network did not take the order.", {}};
+      } else if (departure && departure->far() && !judgement.command->confirmed) {
+        judgement.confirm = true;
+        judgement.text = health::sentence(
+            "This position lies %.0f m from where navigation is, and %.0f m are expected at most. It is held "
+            "for 60 s, until it is confirmed.",
+            departure->apart_m, departure->allowed_m);
+      }
     }
     // Every order of somebody known leaves a line with who and when, also one that was refused; strangers are
     // counted and said now and then, so that they cannot fill the disk. Tokens are never written.

@@ -25,7 +25,7 @@ struct Form {
 
 const std::vector<Form>& forms() {
   static const std::vector<Form> kForms{
-      {CommandKind::set_position, {"lat_deg", "lon_deg", "depth_m", "sigma_m"}},
+      {CommandKind::set_position, {"lat_deg", "lon_deg", "depth_m", "sigma_m", "confirmed"}},
       {CommandKind::realign, {}},
       {CommandKind::enable_source, {"target"}},
       {CommandKind::disable_source, {"target"}},
@@ -65,6 +65,9 @@ std::string fill_position(const json& order, Command& command) {
   command.longitude_rad = values[1] * kDegree;
   command.depth_m = values[2];
   command.sigma_m = values[3];
+  const json confirmed = order.value("confirmed", json(false));
+  if (!confirmed.is_boolean()) return "confirmed: expected true or false.";
+  command.confirmed = confirmed.get<bool>();
   return {};
 }
 
@@ -120,6 +123,7 @@ std::string describe(const Command& command) {
     out +=
         health::sentence(" %.6f deg N %.6f deg E depth %.1f m sigma %.1f m", command.latitude_rad / kDegree,
                          command.longitude_rad / kDegree, command.depth_m, command.sigma_m);
+    if (command.confirmed) out += ", confirmed";
   }
   return out;
 }

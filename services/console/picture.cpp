@@ -24,6 +24,11 @@ void Picture::add(const NavState& state, const health::Instant& at) {
   history_.add(state);
 }
 
+std::optional<health::Departure> Picture::departure_of(const Command& order) const {
+  const NavState* const state = book_.navigation();
+  return state == nullptr ? std::nullopt : health::departure(order, *state);
+}
+
 void Picture::add(const NavDetail& detail, const health::Instant&) {
   if (detail.header.vehicle.view() != options_.vehicle) return;
   history_.add(detail);

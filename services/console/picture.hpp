@@ -12,6 +12,7 @@
 #include "console/route_book.hpp"
 #include "console/trust.hpp"
 #include "health/instant.hpp"
+#include "health/order_watch.hpp"
 #include "samples/gps.hpp"
 #include "samples/usbl.hpp"
 
@@ -69,6 +70,8 @@ class Picture {
   explicit Picture(Options options);
 
   void add(const NavState& state, const health::Instant& at);
+  /// How far an order would move the vehicle; none where that is not known.
+  [[nodiscard]] std::optional<health::Departure> departure_of(const Command& order) const;
   void add(const NavDetail& detail, const health::Instant& at);
   void add(const Verdict& verdict, const health::Instant& at);
   void add(const AlignmentStatus& status, const health::Instant& at);

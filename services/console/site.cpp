@@ -126,7 +126,7 @@ Answer Site::live(const Asked& asked) const {
 
 Answer Site::order(const Asked& asked) const {
   const OrderJudgement judgement = hooks_.order(asked.request.body, asked.who, asked.peer);
-  return json_answer(judgement.status, {{"text", judgement.text}});
+  return json_answer(judgement.status, {{"text", judgement.text}, {"confirm", judgement.confirm}});
 }
 
 Answer Site::tile(const Asked& asked) const {

@@ -46,8 +46,8 @@ constexpr SourceKind source_of(const FinsSample& /*sample*/) {
 }
 
 /// The samples of the last seconds in the order of their arrival: what an engine that takes up the state of
-/// another one has to be told again. Of orders those to use a source or not: they hold whenever they are
-/// given, and the last one counts. Bounded: the oldest makes room.
+/// another one has to be told again, and the orders: those that are in the state already it knows by their
+/// stamps. Bounded: the oldest makes room.
 class ArrivalLog {
  public:
   using Sample = std::variant<ImuSample, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
@@ -75,7 +75,6 @@ class ArrivalLog {
   }
   void note(const Command& order) {
     if (!on_) return;
-    if (order.kind != CommandKind::enable_source && order.kind != CommandKind::disable_source) return;
     if (orders_.size() == kMostOrders) orders_.pop_front();
     orders_.push_back(order);
   }

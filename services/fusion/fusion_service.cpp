@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
@@ -18,6 +20,7 @@
 #include "fusion/checkpoint.hpp"
 #include "fusion/checkpoint_keeper.hpp"
 #include "fusion/checkpoint_start.hpp"
+#include "fusion/imu_source.hpp"
 #include "fusion/life_sign.hpp"
 #include "fusion/replica_link.hpp"
 #include "fusion/verdict_desk.hpp"
@@ -31,6 +34,26 @@ bus::WriterOptions nav_state_options(const host::ServiceHost& host, const config
   options.ownership_strength = config.ownership_strength;
   options.may_rest = config.standby.enabled;
   return options;
+}
+
+// Longer than the scheduler keeps a bridge that is there, shorter than one takes to start again. Of the host.
+constexpr DurationNs kImuSilence_ns = 200 * kNsPerMillisecond;
+
+std::string in_words(const estimation::OrderOutcome& outcome) {
+  std::array<char, 160> text{};
+  switch (outcome.fate) {
+    case estimation::OrderFate::done:
+      return "done";
+    case estimation::OrderFate::not_done:
+      return "not done: navigation began anew before its instant came";
+    case estimation::OrderFate::held:
+      break;
+  }
+  std::snprintf(text.data(), text.size(),
+                "held: it lies %.0f m from where navigation is, expected %.0f m at most; the same position, "
+                "ordered and confirmed within 60 s, is set",
+                outcome.apart_m, outcome.allowed_m);
+  return text.data();
 }
 
 bus::WriterOptions slow_options(const config::FusionConfig& config) {
@@ -67,7 +90,8 @@ struct FusionService::Impl {
       : host(the_host),
         vehicle(config.common.vehicle),
         label(label_of(the_host)),
-        imu_sensor(config.imu_sensor),
+        imu_source(Name(config.imu_sensor), static_cast<DurationNs>(static_cast<double>(kImuSilence_ns) *
+                                                                    std::max(1.0, the_host.clock().rate()))),
         start(started(the_host, config, label)),
         nav_states(host.participant(), nav_state_options(host, config)),
         details(host.participant(), slow_options(config)),
@@ -145,7 +169,7 @@ struct FusionService::Impl {
     AlignmentStatus alignment;
     bool alignment_changed = false;
     std::uint64_t missed = 0;
-    bool other_unit = false;
+    bool other = false;
     {
       const std::lock_guard lock(mutex);
       if (ended) return;
@@ -153,10 +177,11 @@ struct FusionService::Impl {
         ++counts.other_vehicle;
         return;
       }
-      if (imu_sensor.empty()) imu_sensor = sample.header.sensor;
-      other_unit = sample.header.sensor != imu_sensor;
+      const auto heard = imu_source.hear(sample.header.sensor, info.writer_guid, host.clock().monotonic_ns());
+      other = heard != ImuSource::Hearing::taken;
     }
-    if (other_unit) return refuse_other_unit(sample, info);
+    if (other) return refuse_other(sample, info);
+    std::vector<estimation::OrderOutcome> outcomes;
     {
       const std::lock_guard lock(mutex);
       verdicts.set_imu_writer(info.writer_guid);
@@ -171,7 +196,9 @@ struct FusionService::Impl {
         phase = state.alignment;
         if (alignment_changed) engine.fill(alignment);
       }
+      take(outcomes);
     }
+    say(outcomes);
     if (link && missed > 0) link->missed(missed);
     if (fresh && (!link || link->own(state))) {
       nav_states.write(state);
@@ -185,8 +212,8 @@ struct FusionService::Impl {
     verdicts.publish();
   }
 
-  // A second unit never mixes with the first: its samples are judged, not integrated.
-  void refuse_other_unit(const ImuSample& sample, const bus::SampleInfo& info) {
+  // Another unit, or another writer of this one, never mixes with it: the samples are judged, not integrated.
+  void refuse_other(const ImuSample& sample, const bus::SampleInfo& info) {
     Verdict verdict;
     verdict.header = sample.header;
     verdict.source = SourceKind::imu;
@@ -203,15 +230,31 @@ struct FusionService::Impl {
       const std::lock_guard lock(mutex);
       ++counts.commands;
       log.note(command);
-      objection = engine.objection(command);
-      if (objection.empty() && !engine.apply(command)) objection = "navigation has not begun";
+      objection = engine.apply(command);
+      if (!objection.empty()) ++counts.orders_refused;
     }
-    const std::string text = "command " + std::string(to_string(command.kind)) + " " + command.target.str() +
-                             " from " + command.header.sensor.str();
-    if (objection.empty()) {
-      host.log().info(text + ": applied");
-    } else {
-      host.log().warning(text + ": refused: " + objection);
+    if (!objection.empty()) host.log().warning(in_words(command) + ": refused: " + objection);
+  }
+
+  static std::string in_words(const Command& order) {
+    const std::string target = order.target.empty() ? "" : " " + order.target.str();
+    return "order " + std::string(to_string(order.kind)) + target + " of " + order.header.sensor.str();
+  }
+
+  /// What became of orders since. Mutex held.
+  void take(std::vector<estimation::OrderOutcome>& outcomes) {
+    for (estimation::OrderOutcome one; engine.next_outcome(one);) {
+      if (one.fate == estimation::OrderFate::held) ++counts.orders_held;
+      outcomes.push_back(one);
+    }
+  }
+  void say(const std::vector<estimation::OrderOutcome>& outcomes) {
+    for (const estimation::OrderOutcome& one : outcomes) {
+      const std::string text = in_words(one.order) + ": " + fusion::in_words(one) +
+                               (one.again ? " (judged anew, after a late measurement)" : "");
+      host.log().write(
+          one.fate == estimation::OrderFate::done ? runtime::LogLevel::info : runtime::LogLevel::warning,
+          text);
     }
   }
 
@@ -247,7 +290,9 @@ struct FusionService::Impl {
     {
       const std::lock_guard lock(mutex);
       counts.verdicts = verdicts.figures();
-      moment = {counts, newest_nav_state_ns, phase, imu_sensor, start.resumption.how};
+      counts.imu_changes = imu_source.changes();
+      counts.imu_rivals = imu_source.rivals();
+      moment = {counts, newest_nav_state_ns, phase, imu_source.unit(), start.resumption.how};
     }
     life_sign.fill(moment, host.clock(), status);
     if (link) link->fill(status);
@@ -263,21 +308,20 @@ struct FusionService::Impl {
   // one that saved it.
   ReplicaLink::Restored restore(const SharedState& state) {
     const std::lock_guard lock(mutex);
-    if (imu_sensor != state.imu_sensor) {
-      imu_sensor = state.imu_sensor;
-      return {"", "is of inertial unit " + imu_sensor.str() + ", listened to from now on"};
+    if (imu_source.unit() != state.imu_sensor) {
+      return {"", "is of inertial unit " + state.imu_sensor.str() + ", and this one listens to " +
+                      imu_source.unit().str()};
     }
     if (std::string why = gap_between(state, log); !why.empty())
       return {"", "does not reach this one: " + why};
     if (std::string why = engine.restore(state.image); !why.empty()) return {"", "is none: " + why, true};
-    for (const Command& order : log.orders()) engine.apply(order);
+    for (const Command& order : log.orders()) (void)engine.apply(order);
     gaps.go_on_from(state.last);
     int told_again = 0;
     for (const ArrivalLog::Arrival& arrival : log.arrivals()) {
       std::visit(
           [&]<class T>(const T& one) {
             if constexpr (std::is_same_v<T, ImuSample>) {
-              if (one.header.sensor != imu_sensor) return;
               if (one.header.stamp_ns <= engine.nav_state().header.stamp_ns) return;
               engine.add(one);
             } else {
@@ -288,6 +332,7 @@ struct FusionService::Impl {
           arrival.sample);
       for (Verdict verdict; engine.next_verdict(verdict);) continue;
     }
+    for (estimation::OrderOutcome outcome; engine.next_outcome(outcome);) continue;
     verdicts.begin_anew();
     phase = engine.nav_state().alignment;
     return {"and " + std::to_string(told_again) + " samples since", ""};
@@ -298,7 +343,7 @@ struct FusionService::Impl {
     state.image.clear();
     if (!engine.save(state.image)) return false;
     state.stamp_ns = engine.nav_state().header.stamp_ns;
-    state.imu_sensor = imu_sensor;
+    state.imu_sensor = imu_source.unit();
     state.last = gaps.last();
     return true;
   }
@@ -325,7 +370,7 @@ struct FusionService::Impl {
 
   std::mutex forecast_mutex;  // of the taken forecast; before the other
   std::mutex mutex;           // guards what follows up to the writers
-  Name imu_sensor;            // the one listened to
+  ImuSource imu_source;
   Started start;
   estimation::FusionEngine& engine = start.engine;
   LifeSign::Counts counts;

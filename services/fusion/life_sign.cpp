@@ -51,6 +51,15 @@ void LifeSign::fill(const Moment& now, const Clock& clock, ServiceStatus& status
   }
   status.counters.push_back({"other_vehicle", counts.other_vehicle});
   status.counters.push_back({"commands", counts.commands});
+  status.counters.push_back({"orders_refused", counts.orders_refused});
+  status.counters.push_back({"orders_held", counts.orders_held});
+  status.counters.push_back({"imu_writer_changes", counts.imu_changes});
+  status.counters.push_back({"imu_rival_samples", counts.imu_rivals});
+  if (counts.imu_rivals > last_.imu_rivals) {
+    if (status.state == ServiceState::healthy) status.state = ServiceState::degraded;
+    status.text += (status.text.empty() ? "" : "; ") + std::string("another process writes samples") + from +
+                   " as well, which are left out";
+  }
   last_ = counts;
   last_ns_ = clock_ns;
 }

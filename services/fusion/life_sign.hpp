@@ -26,6 +26,10 @@ class LifeSign {
     std::uint64_t nav_states = 0;  ///< published
     std::uint64_t other_vehicle = 0;
     std::uint64_t commands = 0;
+    std::uint64_t orders_refused = 0;
+    std::uint64_t orders_held = 0;  ///< positions that wait, or waited, for a confirmation
+    std::uint64_t imu_changes = 0;  ///< of the process that writes the inertial samples
+    std::uint64_t imu_rivals = 0;   ///< samples of another one that writes in its name, left out
   };
   struct Moment {
     Counts counts;

@@ -66,7 +66,7 @@ struct MonitorService::Impl {
     resume_outages(now());
     open_outputs(now());
     listen_to_sensors();
-    listen<NavState>();
+    listen_closely<NavState>();
     listen<AlignmentStatus>();
     listen<ServiceStatus>();
     listen<Verdict>([this](const Verdict& verdict) { count(verdict); });
@@ -208,7 +208,7 @@ struct MonitorService::Impl {
     return out;
   }
 
-  /// A sensor whose samples say more than that they came.
+  /// What says more than that it came, and of which it matters who wrote it.
   template <class T>
   void listen_closely() {
     readers.push_back(std::make_shared<bus::Reader<T>>(host.participant(),

@@ -21,6 +21,7 @@ struct Mapping<Command> {
     copy(plain.depth_m, wire.depth_m());
     copy(plain.sigma_m, wire.sigma_m());
     copy(plain.value_s, wire.value_s());
+    copy(plain.confirmed, wire.confirmed());
   }
 
   static std::string key_text(const Command& sample) { return sample.header.vehicle.str(); }

@@ -126,6 +126,10 @@ void Core::fields(Archive& archive, Self& self) {
   archive("position_set", self.position_set_);
   archive("set_position", self.set_position_);
   archive("set_sigma_m", self.set_sigma_m_, fathom::archive::at_least_zero());
+  if (archive.since(2)) {
+    archive("held_ns", self.held_ns_, fathom::archive::kInstant);
+    archive("held_position", self.held_position_);
+  }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

@@ -6,7 +6,7 @@ namespace fathom::estimation {
 
 /// Of what an engine saves: goes up where a release writes other fields than the one before it. What came
 /// with a version stands in `if (archive.since(VERSION))`.
-inline constexpr std::uint32_t kStateVersion = 1;
+inline constexpr std::uint32_t kStateVersion = 2;
 
 /// Begins an engine's state.
 struct StateHead {
@@ -18,16 +18,22 @@ struct StateHead {
     if constexpr (Archive::kReads) archive.expect(self.magic == kMagic, "magic", "the state of an engine");
     archive("version", self.version, fathom::archive::Whole{1, kStateVersion});
     archive("layout", self.layout);
-    archive("commands", self.commands);
+    if (self.version < 2) skip_count_of_orders(archive);
     archive("sequence", self.sequence);
     archive("stamp_ns", self.stamp_ns, fathom::archive::kInstant);
     archive("received_ns", self.received_ns, fathom::archive::kAnyWhole);
   }
 
+  /// Until version 1 orders were told apart by the number in which they came.
+  template <class Archive>
+  static void skip_count_of_orders(Archive& archive) {
+    std::uint64_t commands = 0;
+    archive("commands", commands);
+  }
+
   std::uint64_t magic = kMagic;
   std::uint32_t version = kStateVersion;
-  std::uint64_t layout = 0;    ///< archive::Layout of that version
-  std::uint64_t commands = 0;  ///< orders taken
+  std::uint64_t layout = 0;  ///< archive::Layout of that version
   // Of the newest navigation state.
   std::uint64_t sequence = 0;
   TimeNs stamp_ns = 0;

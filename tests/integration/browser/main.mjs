@@ -246,6 +246,25 @@ async function sourceIsSwitched(page) {
   said("a source is disabled and enabled again, each after a confirmation");
 }
 
+async function farPositionIsHeld(page) {
+  const nav = await store(page, "(s) => s.tick.status.navigation");
+  const resets = nav.reset_counter;
+  await page.click('button:text("Set position …")');
+  await page.fill('dialog[open] input[name="lat_deg"]', String(nav.lat_deg + 1));
+  await page.fill('dialog[open] input[name="sigma_m"]', "1");
+  await page.click('dialog[open] button:text("Set position")');
+  const question = await page.waitForSelector('dialog[open] h2:text("Confirm the position")');
+  const text = await page.textContent("dialog[open] p");
+  check(/^This position lies 11\d{4} m from where navigation is/.test(text), `the distance: ${text}`);
+  check((await question.isVisible()) && resets === (await store(page, "(s) => s.tick.status.navigation.reset_counter")), "held");
+  await page.click('dialog[open] button:text("Cancel")');
+  await until("an alarm that says who ordered it", () =>
+    store(page, '(s) => s.tick.status.alarms?.some((one) => one.alarm === "position_order_held" && /^console:/.test(one.text))'),
+  );
+  await page.evaluate(async () => (await import("/js/orders.js")).order({kind: "acknowledge_alarm", target: "position_order_held"}));
+  said(`a position far away: "${text}"`);
+}
+
 async function manyClients(stage, address) {
   stage.connectionMayFail = true;
   const pages = await Promise.all(Array.from({length: 10}, () => stage.open(address)));
@@ -324,6 +343,7 @@ try {
   await outageClears([page, other]);
   await routeIsShown(page);
   await sourceIsSwitched(page);
+  await farPositionIsHeld(page);
   await worksOverTls(stage);
   await manyClients(stage, demo.plain);
   await killFusion(page);

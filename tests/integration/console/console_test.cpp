@@ -87,6 +87,35 @@ TEST_F(ConsoleTest, ABrowserSeesWhatDdsSays) {
   EXPECT_GE((*history)["fixes"].size(), 1U);
 }
 
+TEST_F(ConsoleTest, APositionFarAwayAsksForItsConfirmation) {
+  start_and_wait(209, {"access.orders=true"});
+  std::mutex mutex;
+  std::vector<Command> heard;
+  const bus::Reader<Command> ear(network->participant(), [&](const Command& command, const bus::SampleInfo&) {
+    const std::lock_guard lock(mutex);
+    heard.push_back(command);
+  });
+  ASSERT_TRUE(wait_until([&] { return ear.matched_writers() > 1; }, kPatienceS));
+  json far = {{"kind", "set_position"}, {"lat_deg", -20}, {"lon_deg", 10}, {"depth_m", 0}, {"sigma_m", 1}};
+  const auto asks = [&] {
+    network->nav();
+    const HttpAnswer answer = order(far, kOperatorToken);
+    EXPECT_EQ(answer.status, 200) << answer.body;
+    return json::parse(answer.body)["confirm"].get<bool>();
+  };
+  ASSERT_TRUE(wait_until(asks, kPatienceS)) << "as soon as the console knows where the vehicle is";
+  far["confirmed"] = true;
+  EXPECT_FALSE(asks()) << "it is confirmed";
+  ASSERT_TRUE(wait_until(
+      [&] {
+        const std::lock_guard lock(mutex);
+        return !heard.empty() && heard.back().confirmed;
+      },
+      kPatienceS));
+  const std::lock_guard lock(mutex);
+  EXPECT_FALSE(heard.front().confirmed);
+}
+
 TEST_F(ConsoleTest, OrdersNeedAnOperatorAndLeaveATrace) {
   start_and_wait(212, {"access.orders=true"});
   std::mutex mutex;

@@ -132,16 +132,77 @@ TEST_F(FusionTest, ObeysCommandsAndPinsItsInertialUnit) {
   position.depth_m = 0.0;
   position.sigma_m = 1.0;
   vehicle->write(position);
+  const auto counter = [&](const char* name) {
+    const auto status = ear->service();
+    return status ? status->counter(name) : 0;
+  };
+  EXPECT_TRUE(wait_until([&] {
+    vehicle->run(20);
+    return counter("orders_held") == 1;
+  }));
+  EXPECT_EQ(ear->last_state().reset_counter, resets) << "far from where navigation is, and not confirmed";
+  EXPECT_NE(fusion->err().find("order set_position of operator: held: it lies 1"), std::string::npos)
+      << fusion->err();
+  position.header = vehicle->header("operator");
+  position.confirmed = true;
+  vehicle->write(position);
   EXPECT_TRUE(wait_until([&] {
     vehicle->run(20);
     return ear->last_state().reset_counter > resets;
   }));
   EXPECT_NEAR(ear->last_state().latitude_rad, kLatitude + 100.0 / 6.36e6, 3.0 / 6.4e6);
 
+  Command old = vehicle->command(CommandKind::enable_source, "gps");
+  old.header.stamp_ns -= 20 * kNsPerSecond;
+  vehicle->write(old);
+  EXPECT_TRUE(wait_until([&] {
+    vehicle->run(20);
+    return counter("orders_refused") == 1;
+  }));
+  EXPECT_NE(fusion->err().find("before the newest inertial sample"), std::string::npos) << fusion->err();
+
   ImuSample second = vehicle->imu("imu_spare");
   second.header.sequence = 200'001;
   vehicle->write(second);
   EXPECT_EQ(verdict_on(SourceKind::imu, 200'001), VerdictKind::source_disabled);
+}
+
+TEST_F(FusionTest, ASecondWriterOfItsUnitIsNotMixedInAndFollowsOneThatFellSilent) {
+  start(175);
+  vehicle->run(300);
+  ASSERT_TRUE(wait_until([&] { return ear->state_count() >= 300; }));
+  const auto counter = [&](const char* name) {
+    const auto status = ear->service();
+    return status ? status->counter(name) : 0;
+  };
+  auto rogue = std::make_unique<bus::Participant>(presence(175, "rogue"));
+  bus::Writer<ImuSample> wrong(*rogue);
+  ASSERT_TRUE(wait_until([&] { return wrong.matched_readers() > 0; }));
+  // A unit that turns on its head, between the samples of the one that lies still.
+  for (int i = 0; i < 100; ++i) {
+    ImuSample sample = vehicle->imu();
+    sample.header.stamp_ns += kPeriod_ns / 2;
+    sample.header.sequence = 300'000 + static_cast<std::uint64_t>(i);
+    sample.angular_rate_B_rad_s = {3.0, 0.0, 0.0};
+    wrong.write(sample);
+    vehicle->run(1);
+  }
+  EXPECT_TRUE(wait_until([&] {
+    vehicle->run(20);
+    return counter("imu_rival_samples") == 100;
+  })) << counter("imu_rival_samples");
+  EXPECT_EQ(counter("imu_writer_changes"), 0U);
+  EXPECT_EQ(verdict_on(SourceKind::imu, 300'050), VerdictKind::source_disabled);
+  EXPECT_EQ(ear->writers(SourceKind::imu), std::set<std::string>{"rogue"});
+  EXPECT_LT(std::abs(ear->last_state().rpy_rad[0]), 0.02);
+
+  // The first one falls silent: as if its bridge had been started anew.
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));
+  ImuSample next = vehicle->imu();
+  next.header.stamp_ns += 45 * kPeriod_ns;
+  wrong.write(next);
+  EXPECT_TRUE(wait_until([&] { return counter("imu_writer_changes") == 1; }));
+  EXPECT_TRUE(wait_until([&] { return ear->last_state().header.stamp_ns == next.header.stamp_ns; }));
 }
 
 TEST_F(FusionTest, SaysThatInertialSamplesAreMissing) {

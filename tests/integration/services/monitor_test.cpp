@@ -273,6 +273,69 @@ TEST_F(MonitorTest, ASecondWriterIsNamedByServiceProcessAndHost) {
   EXPECT_NE(text.find("rogue " + process), std::string::npos) << text;
 }
 
+TEST_F(MonitorTest, AnotherFusionThatIsHeardInsteadIsNamedWithTheOneBefore) {
+  start(187, {R"(services=[{"name":"fusion"}])"}, clock);
+  network->life_sign("fusion");
+  ASSERT_TRUE(drive(
+      [&] {
+        network->nav();
+        network->life_sign("fusion");
+      },
+      [&] { return ear->status() && ear->status()->mode == NavMode::gps_aided; }));
+  bus::Participant rogue(presence(187, "fusion_b"));
+  bus::WriterOptions stronger;
+  stronger.ownership_strength = 1000;
+  bus::Writer<NavState> rival(rogue, stronger);
+  NavState state;
+  state.mode = NavMode::gps_aided;
+  ASSERT_TRUE(drive(
+      [&] {
+        network->nav();
+        network->life_sign("fusion");
+        state.header.vehicle = "auv";
+        state.header.sensor = "fusion_b";
+        state.header.stamp_ns = clock.utc_ns();
+        rival.write(state);
+      },
+      [&] { return ear->active("nav_writer_unexpected") && ear->alarm("nav_writer_changed"); }));
+  const std::string text = ear->alarm("nav_writer_changed")->text;
+  const std::string process = " (process " + std::to_string(getpid()) + " on host ";
+  EXPECT_EQ(text.find("The navigation state comes from fusion_b" + process), 0U) << text;
+  EXPECT_NE(text.find("before it came from test_vehicle" + process), std::string::npos) << text;
+  EXPECT_FALSE(ear->status()->healthy);
+}
+
+TEST_F(MonitorTest, APositionOrderedFarAwayIsAnAlarmThatNamesWhoOrderedIt) {
+  start(188, {"services=[]"}, clock);
+  ASSERT_TRUE(drive([&] { network->nav(); },
+                    [&] { return ear->status() && ear->status()->mode == NavMode::gps_aided; }));
+  bus::Participant rogue(presence(188, "anybody"));
+  bus::Writer<Command> orders(rogue);
+  ASSERT_TRUE(wait_until([&] { return orders.matched_readers() > 0; }));
+  Command order;
+  order.kind = CommandKind::set_position;
+  order.latitude_rad = -0.6;
+  order.longitude_rad = -1.0;
+  order.sigma_m = 0.1;
+  const auto give = [&](bool confirmed) {
+    order.header.vehicle = "auv";
+    order.header.sensor = "anybody";
+    order.header.stamp_ns = clock.utc_ns();
+    order.confirmed = confirmed;
+    orders.write(order);
+  };
+  give(false);
+  ASSERT_TRUE(drive([&] { network->nav(); }, [&] { return ear->alarm("position_order_held").has_value(); }));
+  EXPECT_FALSE(ear->alarm("position_order_far"));
+  give(true);
+  ASSERT_TRUE(drive([&] { network->nav(); }, [&] { return ear->alarm("position_order_far").has_value(); }));
+  const Alarm alarm = *ear->alarm("position_order_far");
+  EXPECT_EQ(alarm.severity, Severity::critical);
+  EXPECT_FALSE(alarm.acknowledged);
+  EXPECT_EQ(alarm.text.find("anybody has ordered and confirmed a position "), 0U) << alarm.text;
+  EXPECT_GT(alarm.value, 1e7);
+}
+
 TEST(MonitorConfiguration, IsRefusedInOneLineBeforeAnythingStarts) {
   const std::vector<std::pair<std::string, std::string>> wrong{
       {"gps.limit=3", "gps.limit"},

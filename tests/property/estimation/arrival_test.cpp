@@ -80,12 +80,17 @@ struct Trial {
     }
     const int off = static_cast<int>(normal.uniform(20.0, 60.0));
     order(off, CommandKind::disable_source, normal.uniform(0.0, 1.0) < 0.5 ? "dvl0" : "gps0");
-    order(off + 25, CommandKind::enable_source, orders.back().second.target);
+    order(off + 25, CommandKind::enable_source, orders.back().target);
     Command place;
     place.latitude_rad = kStart.latitude_rad + normal(5e-6);
     place.longitude_rad = kStart.longitude_rad + normal(5e-6);
     place.sigma_m = 20.0;
-    order(static_cast<int>(normal.uniform(10.0, 110.0)), CommandKind::set_position, {}, place);
+    const int set = static_cast<int>(normal.uniform(10.0, 110.0));
+    order(set, CommandKind::set_position, {}, place);
+    // Of one instant, with the same number, by somebody else.
+    orders.push_back(orders.back());
+    orders.back().header.sensor = "console:anna";
+    orders.back().latitude_rad += 1e-6;
   }
 
   /// Mostly nothing, now and then an error of such a size.
@@ -114,10 +119,11 @@ struct Trial {
   static void spoil(HeadingSample& sample) { sample.heading_rad += 0.01; }
   static void spoil(UsblSample& sample) { sample.latitude_rad += 2e-6; }
   void order(int step, CommandKind kind, const Name& target, Command command = {}) {
-    command.header = header("operator", step, 0);
+    command.header = header("operator", step, offset_ns());
+    command.header.sequence = orders.size() + 1;
     command.kind = kind;
     command.target = target;
-    orders.emplace_back(step, command);
+    orders.push_back(command);
   }
   static SampleHeader header(const char* sensor, int step, TimeNs offset_ns) {
     SampleHeader out;
@@ -151,22 +157,28 @@ struct Trial {
     s.position_sigma_N_m = {50.0, 50.0, 10.0};
     return s;
   }
-  /// Behind which inertial sample each measurement arrives: up to four before its own, as clocks that
-  /// disagree make it, or late.
-  std::vector<int> arrivals(test::Normal& random, double earliest_s, double latest_s) const {
-    std::vector<int> out;
-    for (const test::Sample& sample : aiding) {
-      const double own = to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs) / kStep_s;
+  /// Behind which inertial sample each measurement and order arrives: up to four before its own, as clocks
+  /// that disagree make it, or late.
+  struct Arrivals {
+    std::vector<int> aiding;
+    std::vector<int> orders;
+  };
+  Arrivals arrivals(test::Normal& random, double earliest_s, double latest_s) const {
+    const auto arrival = [&](const SampleHeader& one) {
+      const double own = to_seconds(one.stamp_ns - SurveyRun::kEpochNs) / kStep_s;
       const double step = own + random.uniform(earliest_s, latest_s) / kStep_s;
-      out.push_back(static_cast<int>(std::clamp(std::floor(step), 0.0, kSteps - 1.0)));
-    }
+      return static_cast<int>(std::clamp(std::floor(step), 0.0, kSteps - 1.0));
+    };
+    Arrivals out;
+    for (const test::Sample& sample : aiding) out.aiding.push_back(arrival(test::header(sample)));
+    for (const Command& one : orders) out.orders.push_back(arrival(one.header));
     return out;
   }
 
   test::Normal normal;
   std::vector<ImuSample> imu;
   std::vector<test::Sample> aiding;
-  std::vector<std::pair<int, Command>> orders;
+  std::vector<Command> orders;
 };
 
 /// Everything that a final verdict says of the judgement.
@@ -201,15 +213,14 @@ struct Passage {
     engine.start_from(Trial::start());
     for (Verdict verdict; engine.next_verdict(verdict);) continue;
   }
-  void step(const Trial& trial, int k, const std::vector<int>& after, const std::vector<std::size_t>& order) {
+  void step(const Trial& trial, int k, const Trial::Arrivals& after, const std::vector<std::size_t>& order) {
     engine.add(trial.imu[static_cast<std::size_t>(k)]);
-    for (const auto& [step, command] : trial.orders) {
-      if (step == k) {
-        EXPECT_TRUE(engine.apply(command));
-      }
+    for (std::size_t i = 0; i < trial.orders.size(); ++i) {
+      if (after.orders[i] != k) continue;
+      EXPECT_EQ(engine.apply(trial.orders[i]), "");
     }
     for (const std::size_t i : order)
-      if (after[i] == k) test::feed(engine, trial.aiding[i]);
+      if (after.aiding[i] == k) test::feed(engine, trial.aiding[i]);
     take();
   }
   void take() {
@@ -340,8 +351,10 @@ TEST(Arrival, SpreadOverSamplesTheStateIsTheSameWheneverNothingIsBeingMadeUpFor)
       // From few late ones, with pauses in between, to a flood of them.
       auto after = trial.arrivals(random, 0.0, 0.0);
       const auto late = trial.arrivals(random, -0.4, 1.0);
-      for (std::size_t i = 0; i < after.size(); ++i)
-        if (random.uniform(0.0, 5.0) < permutation) after[i] = late[i];
+      for (std::size_t i = 0; i < after.aiding.size(); ++i)
+        if (random.uniform(0.0, 5.0) < permutation) after.aiding[i] = late.aiding[i];
+      for (std::size_t i = 0; i < after.orders.size(); ++i)
+        if (random.uniform(0.0, 5.0) < permutation) after.orders[i] = late.orders[i];
       shuffle(order, random);
       Passage expected(whole);
       Passage passage(spread);

@@ -148,8 +148,8 @@ void fields(Is<ServiceStatus> auto& s, auto visit) {
   visit(header, a, b, c, d, e, f, g, h, rates, counters);
 }
 void fields(Is<Command> auto& s, auto visit) {
-  auto& [header, a, b, c, d, e, f, g] = s;
-  visit(header, a, b, c, d, e, f, g);
+  auto& [header, a, b, c, d, e, f, g, h] = s;
+  visit(header, a, b, c, d, e, f, g, h);
 }
 void fields(Is<ReplicaStatus> auto& s, auto visit) {
   auto& [header, a, b, c, d, e, f, g] = s;

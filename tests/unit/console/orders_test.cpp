@@ -77,6 +77,12 @@ TEST(Orders, EachKindBecomesItsCommand) {
   EXPECT_EQ(position.command->depth_m, 5);
   EXPECT_EQ(describe(*position.command),
             "set_position 36.400000 deg N -127.400000 deg E depth 5.0 m sigma 10.0 m");
+  EXPECT_FALSE(position.command->confirmed);
+  const auto meant = judge_order(
+      R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 2, "depth_m": 5, "sigma_m": 10, "confirmed": true})",
+      kOperator, true);
+  ASSERT_TRUE(meant.command);
+  EXPECT_TRUE(meant.command->confirmed);
 }
 
 TEST(Orders, OnlyOperatorsAndOnlyWhereOrdersAreOn) {
@@ -96,6 +102,8 @@ TEST(Orders, WhatIsNotExactlyAnOrderIsRefused) {
         R"({"kind": "enable_source", "target": "two words"})",
         R"({"kind": "set_position", "lat_deg": 91, "lon_deg": 0, "depth_m": 0, "sigma_m": 1})",
         R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0})",
+        R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0, "sigma_m": 1, "confirmed": 1})",
+        R"({"kind": "realign", "confirmed": true})",
         R"({"kind": "set_position", "lat_deg": "1", "lon_deg": 0, "depth_m": 0, "sigma_m": 1})",
         R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0, "sigma_m": 0})"}) {
     const auto judgement = judge_order(bad, kOperator, true);

@@ -4,6 +4,7 @@
 
 #include "estimation/alignment/rest_window.hpp"
 #include "estimation/forecaster.hpp"
+#include "support/orders.hpp"
 #include "support/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -148,7 +149,7 @@ TEST(Alignment, WithoutPositionItAsksForOneAndTakesAnOrder) {
   command.latitude_rad = run.truth[0].latitude_rad;
   command.longitude_rad = run.truth[0].longitude_rad;
   command.sigma_m = 4.0;
-  EXPECT_TRUE(engine.apply(command));
+  EXPECT_EQ(test::order_now(engine, command), "");
   ImuSample next;
   for (const test::Sample& sample : run.samples)
     if (const auto* imu = std::get_if<ImuSample>(&sample);
@@ -303,7 +304,7 @@ TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   Command command;
   command.kind = CommandKind::disable_source;
   command.target = "dvl0";
-  ASSERT_TRUE(engine.apply(command));
+  ASSERT_EQ(test::order_now(engine, command), "");
   ImuSample next =
       std::get<ImuSample>(*std::find_if(run.samples.rbegin(), run.samples.rend(), [](const test::Sample& s) {
         return std::holds_alternative<ImuSample>(s);

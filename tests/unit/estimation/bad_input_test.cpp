@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/orders.hpp"
 #include "support/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -296,13 +297,13 @@ TEST_F(BadInput, SourceCanBeSwitchedOffAndOn) {
   Command command;
   command.kind = CommandKind::disable_source;
   command.target = "dvl0";
-  EXPECT_TRUE(engine_.apply(command));
+  EXPECT_EQ(test::order_now(engine_, command), "");
   EXPECT_EQ(judge(dvl_), VerdictKind::source_disabled);
   command.kind = CommandKind::enable_source;
-  EXPECT_TRUE(engine_.apply(command));
+  EXPECT_EQ(test::order_now(engine_, command), "");
   EXPECT_EQ(judge(dvl_), VerdictKind::used);
   command.target = "nobody";
-  EXPECT_FALSE(engine_.apply(command));
+  EXPECT_NE(test::order_now(engine_, command), "");
 }
 
 TEST_F(BadInput, PositionIsSetByOrderOnly) {
@@ -311,9 +312,9 @@ TEST_F(BadInput, PositionIsSetByOrderOnly) {
   command.latitude_rad = engine_.nav_state().latitude_rad + 1e-5;
   command.longitude_rad = engine_.nav_state().longitude_rad;
   command.sigma_m = kNaN;
-  EXPECT_FALSE(engine_.apply(command));
+  EXPECT_NE(test::order_now(engine_, command), "");
   command.sigma_m = 5.0;
-  EXPECT_TRUE(engine_.apply(command));
+  EXPECT_EQ(test::order_twice(engine_, command), "");
   step();
   const NavState& nav = engine_.nav_state();
   EXPECT_NEAR(nav.latitude_rad, command.latitude_rad, 2e-8);
@@ -347,7 +348,7 @@ TEST(Rejections, ThatAgreeForLongEnoughAreBelieved) {
       command.latitude_rad = engine.nav_state().latitude_rad + 200.0 / 6.37e6;
       command.longitude_rad = engine.nav_state().longitude_rad;
       command.sigma_m = 1.0;
-      set = engine.apply(command);
+      set = test::order_twice(engine, command).empty();
     }
     Verdict verdict;
     while (engine.next_verdict(verdict))

@@ -8,6 +8,7 @@
 
 #include "estimation/alignment/stability_gate.hpp"
 #include "support/drop_run.hpp"
+#include "support/orders.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -228,13 +229,13 @@ TEST(DropFaults, AHeadingLostTooNeedsMotionWithGps) {
   // Smooth as it runs, it is not taken for a vehicle at rest; nor does an order make up for a heading.
   Command realign;
   realign.kind = CommandKind::realign;
-  EXPECT_TRUE(drop.engine.apply(realign));
+  EXPECT_EQ(test::order_now(drop.engine, realign), "");
   Command place;
   place.kind = CommandKind::set_position;
   place.latitude_rad = fall.truth.back().latitude_rad;
   place.longitude_rad = fall.truth.back().longitude_rad;
   place.sigma_m = 10.0;
-  EXPECT_TRUE(drop.engine.apply(place));
+  EXPECT_EQ(test::order_now(drop.engine, place, 2), "");
   // The same motion again, as the stamps go on, first without and then with fixes.
   const TimeNs shift = from_seconds(12.0);
   for (const auto& sample : fall.samples) {

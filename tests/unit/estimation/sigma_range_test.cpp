@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/order.hpp"
+#include "support/orders.hpp"
 #include "support/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -30,8 +31,8 @@ TEST(SigmaRange, AnOrderOutsideItIsRefusedInWords) {
   FusionEngine engine(SurveyRun::config());
   const SurveyRun run({.duration_s = 1.0});
   for (const test::Sample& sample : run.samples) test::feed(engine, sample);
-  EXPECT_FALSE(engine.apply(set_position(2e6)));
-  EXPECT_TRUE(engine.apply(set_position(1e6)));
+  EXPECT_NE(test::order_now(engine, set_position(2e6)), "");
+  EXPECT_EQ(test::order_now(engine, set_position(1e6)), "");
 }
 
 /// The verdict on the next fix with this sigma.

@@ -252,10 +252,14 @@ TEST(Smoother, DoesNotSmearAPositionThatWasOrdered) {
         test::header(sample).stamp_ns != SurveyRun::kEpochNs + from_seconds(kOrder_s))
       return;
     Command command;
+    command.header.stamp_ns = test::header(sample).stamp_ns + 1;
     command.kind = CommandKind::set_position;
     command.latitude_rad = run.truth[at].latitude_rad + 300.0 / 6.36e6;
     command.longitude_rad = run.truth[at].longitude_rad;
     command.sigma_m = 1.0;
+    smoother.add(command);
+    command.header.stamp_ns += 1;
+    command.confirmed = true;
     smoother.add(command);
   };
   const Result plain = smooth(run.samples, SurveyRun::config());
@@ -280,6 +284,7 @@ TEST(Smoother, DoesNotReachBackThroughANewStart) {
         test::header(sample).stamp_ns != SurveyRun::kEpochNs + 40 * kNsPerSecond)
       return;
     Command command;
+    command.header.stamp_ns = test::header(sample).stamp_ns + 1;
     command.kind = CommandKind::realign;
     smoother.add(command);
   };

@@ -42,6 +42,7 @@ export function notice(text, good) {
   setTimeout(() => line.remove(), 8000);
 }
 
+/** True when the order was passed on. One that has to be confirmed is, where the operator says so. */
 export async function order(content) {
   try {
     const response = await fetch("/api/order", {
@@ -50,6 +51,10 @@ export async function order(content) {
       body: JSON.stringify(content),
     });
     const answer = await response.json();
+    if (response.ok && answer.confirm) {
+      const sure = await ask("Confirm the position", answer.text, "Set it all the same");
+      return sure ? order({...content, confirmed: true}) : false;
+    }
     notice(answer.text, response.ok);
     return response.ok;
   } catch {
