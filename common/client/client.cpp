@@ -88,24 +88,23 @@ struct Client::Impl {
   }
 
   /// When one fusion service takes over from another, a state of the one may come in behind newer ones of the
-  /// other; on a machine that has too much to do, by seconds. Further behind, it is of a clock set anew.
+  /// other, or say what the other one has said; on a machine that has too much to do, by seconds. Further
+  /// behind, it is of a clock set anew. One that repeats its own stamp is no news either: its age goes on.
   /// Precondition: mutex held.
-  [[nodiscard]] bool overtaken(const NavState& state) const {
-    if (!latest || state.header.sensor == latest->header.sensor) return false;
+  [[nodiscard]] bool is_news(const NavState& state) const {
+    if (!latest) return true;
     const DurationNs behind_ns = latest->header.stamp_ns - state.header.stamp_ns;
-    return behind_ns > 0 && behind_ns < kOvertaken_ns;
+    if (state.header.sensor == latest->header.sensor) return behind_ns != 0;
+    return behind_ns < 0 || behind_ns >= kOvertaken_ns;
   }
 
   void take(const NavState& state) {
     {
       const std::lock_guard lock(mutex);
       if (!ours(state.header)) return;
-      if (overtaken(state)) return;
-      // A state that repeats its stamp is no news: its age goes on.
-      if (!latest || latest->header.stamp_ns != state.header.stamp_ns) {
-        arrived_ns = clock.monotonic_ns();
-        ++arrivals;
-      }
+      if (!is_news(state)) return;
+      arrived_ns = clock.monotonic_ns();
+      ++arrivals;
       latest = state;
     }
     arrival.notify_all();

@@ -61,6 +61,8 @@ bool Replica::own(const NavState& state, TimeNs now_ns) {
     since_ns_ = now_ns;
     other_ns_ = 0;
   }
+  if (yielded_ns_ && own_ns_ != 0 && now_ns - own_ns_ > options_.pause_ns) yielded_ns_ = now_ns;
+  if (!holds_its_tongue(now_ns)) yielded_ns_.reset();
   own_ns_ = now_ns;
   missed_lately_ = false;
   if (others_ > 0) alone_ns_ = 0;
@@ -92,7 +94,18 @@ bool Replica::own(const NavState& state, TimeNs now_ns) {
   }
   // Who takes the lead back does not say again what the other one has said.
   const bool said = follows_ && mark.stamp_ns <= other_stamp_ns_;
-  return phase_ == ReplicaPhase::in_step && !said && !(late && company);
+  return phase_ == ReplicaPhase::in_step && !said && !(late && company) && !yielded_ns_;
+}
+
+bool Replica::holds_its_tongue(TimeNs now_ns) const {
+  return yielded_ns_ && now_ns - *yielded_ns_ < options_.hold_ns &&
+         now_ns - other_ns_ < options_.hold_silence_ns;
+}
+
+bool Replica::is_weaker(const Name& instance, TimeNs now_ns) const {
+  const auto found = peers_.find(instance);
+  return found != peers_.end() && now_ns - found->second.told_ns <= kToldFor_ns &&
+         found->second.status.ownership_strength < options_.strength;
 }
 
 DurationNs Lateness::of(TimeNs stamp_ns, TimeNs now_ns) {
@@ -113,6 +126,9 @@ DurationNs Lateness::of(TimeNs stamp_ns, TimeNs now_ns) {
 void Replica::heard(const NavState& state, bool self, TimeNs now_ns) {
   follows_ = !self;
   if (self) return;
+  // DDS would let the stronger one be heard again with its next state, and the other one at its next pause.
+  if (phase_ == ReplicaPhase::in_step && !yielded_ns_ && is_weaker(state.header.sensor, now_ns))
+    yielded_ns_ = now_ns;
   other_ns_ = now_ns;
   other_stamp_ns_ = state.header.stamp_ns;
   leader_ = state.header.sensor;

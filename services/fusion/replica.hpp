@@ -60,7 +60,9 @@ class Lateness {
 ///   behind     hears a leader that is not like it: says nothing, asks for the leader's state; in step once
 ///              `kAlikeNeeded` states in a row are alike, or when the leader is silent for `silence_ns`:
 ///              navigation from what it has is better than none
-///   in step    speaks, except of what is long past or has been said; goes behind when it has not been like
+///   in step    speaks, except of what is long past or has been said, and except that one which was late and
+///              hears a weaker one speak for it since leaves the lead to that one for a while; goes behind
+///              when it has not been like
 ///   the leader for `quarrel_ns` (longer than late
 ///              measurements make a difference; at once if it has just begun alone), when a replica in step
 ///              lacks fewer samples, or when it has just begun alone and finds one that was in step before
@@ -72,8 +74,14 @@ class Replica {
     DurationNs listen_ns = 0;
     DurationNs silence_ns = 0;
     DurationNs quarrel_ns = 0;
-    DurationNs gap_ns = 0;   ///< without a state of its own: another one may have taken over in it
-    DurationNs late_ns = 0;  ///< behind the samples' usual time of arrival: of the past, not for guidance
+    DurationNs gap_ns = 0;    ///< without a state of its own: another one may have taken over in it
+    DurationNs late_ns = 0;   ///< behind the samples' usual time of arrival: of the past, not for guidance
+    DurationNs pause_ns = 0;  ///< between two of its states, after which a weaker one is heard
+    DurationNs hold_ns = 0;   ///< without such a pause, until it takes the lead back from the weaker one
+    /// Of the weaker one, for which it takes the lead back at once. Longer than the pauses of a busy machine:
+    /// a change of the leader costs guidance a deadline without a state.
+    DurationNs hold_silence_ns = 0;
+    std::int32_t strength = 0;  ///< of its own, by which DDS chooses who is heard
   };
   static constexpr int kAlikeNeeded = 10;
 
@@ -111,6 +119,9 @@ class Replica {
   void differs(TimeNs now_ns, const char* how);
   void fall_behind(std::string reason);
   void come_in_step(TimeNs now_ns);
+  /// The lead passed to a weaker one, and does not pass back yet.
+  [[nodiscard]] bool holds_its_tongue(TimeNs now_ns) const;
+  [[nodiscard]] bool is_weaker(const Name& instance, TimeNs now_ns) const;
   [[nodiscard]] std::optional<std::uint64_t> missed_by(const Name& instance, TimeNs now_ns) const;
 
   struct Peer {
@@ -128,7 +139,8 @@ class Replica {
   TimeNs other_stamp_ns_ = 0;  ///< of what it said
   TimeNs alone_ns_ = 0;        ///< when the last of the others left; 0: not since the last state of its own
   int others_ = 0;
-  bool follows_ = false;  ///< another one is heard
+  bool follows_ = false;              ///< another one is heard
+  std::optional<TimeNs> yielded_ns_;  ///< since when a weaker one is heard, or when it was late itself since
   Name leader_;
   std::string reason_;
   int alike_ = 0;         ///< in a row

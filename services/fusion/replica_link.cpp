@@ -24,6 +24,8 @@ constexpr double kSilenceOfListening = 0.4;  // a leader is missed sooner than n
 constexpr DurationNs kQuarrel_ns = 2 * kNsPerSecond;
 constexpr DurationNs kLeastGap_ns = 100 * kNsPerMillisecond;
 constexpr DurationNs kLate_ns = 250 * kNsPerMillisecond;
+constexpr DurationNs kHold_ns = 2 * kNsPerSecond;
+constexpr DurationNs kHoldSilence_ns = 100 * kNsPerMillisecond;
 constexpr DurationNs kLeaderPatience_ns = 2 * kNsPerSecond;  // of the host: ten accounts
 constexpr int kSaidAfterTicks = 6;  // what lasts shorter is a hiccup of the scheduler
 
@@ -35,9 +37,17 @@ Replica::Options replica_options(const Clock& clock, const config::FusionConfig&
     return static_cast<DurationNs>(static_cast<double>(host_ns) * rate);
   };
   const DurationNs period_ns = from_seconds(1.0 / config.engine.imu.nominal_rate_hz);
-  return {at_least(from_seconds(config.standby.listen_s)),
-          at_least(from_seconds(kSilenceOfListening * config.standby.listen_s)), at_least(kQuarrel_ns),
-          at_least(std::max(kLeastGap_ns, 3 * period_ns)), at_least(kLate_ns)};
+  Replica::Options out;
+  out.listen_ns = at_least(from_seconds(config.standby.listen_s));
+  out.silence_ns = at_least(from_seconds(kSilenceOfListening * config.standby.listen_s));
+  out.quarrel_ns = at_least(kQuarrel_ns);
+  out.gap_ns = at_least(std::max(kLeastGap_ns, 3 * period_ns));
+  out.late_ns = at_least(kLate_ns);
+  out.pause_ns = 3 * period_ns;  // the deadline of the navigation state
+  out.hold_ns = at_least(kHold_ns);
+  out.hold_silence_ns = at_least(std::max(kHoldSilence_ns, 6 * period_ns));
+  out.strength = config.ownership_strength;
+  return out;
 }
 
 bus::ReaderOptions nav_state_options(const host::ServiceHost& host, const config::FusionConfig& config) {

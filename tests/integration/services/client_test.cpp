@@ -94,6 +94,10 @@ TEST(Client, TimeDoesNotGoBackWhenOneFusionTakesOverFromAnother) {
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   say("leader", 7500);
   ASSERT_TRUE(wait_until([&] { return arrived() >= 3; }));
+  say("standby", 7500);  // what the other one has said
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  say("standby", 7500);
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
   say("standby", -30'000);  // UTC was set
   ASSERT_TRUE(wait_until([&] { return arrived() >= 4; }));
   const std::vector<std::pair<std::string, DurationNs>> expected{

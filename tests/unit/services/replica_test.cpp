@@ -11,8 +11,17 @@ constexpr DurationNs kPeriod = 10 * kNsPerMillisecond;
 constexpr TimeNs kStamp0 = 1'700'000'000 * kNsPerSecond;
 
 Replica::Options options() {
-  return {300 * kNsPerMillisecond, 200 * kNsPerMillisecond, 2 * kNsPerSecond, 100 * kNsPerMillisecond,
-          250 * kNsPerMillisecond};
+  Replica::Options out;
+  out.listen_ns = 300 * kNsPerMillisecond;
+  out.silence_ns = 200 * kNsPerMillisecond;
+  out.quarrel_ns = 2 * kNsPerSecond;
+  out.gap_ns = 100 * kNsPerMillisecond;
+  out.late_ns = 250 * kNsPerMillisecond;
+  out.pause_ns = 30 * kNsPerMillisecond;
+  out.hold_ns = 2 * kNsPerSecond;
+  out.hold_silence_ns = 100 * kNsPerMillisecond;
+  out.strength = 10;
+  return out;
 }
 
 /// A replica, what its engine makes of the samples, and the leader it hears.
@@ -288,6 +297,60 @@ TEST(Replica, MakesRoomWhenItBeganAloneByMistake) {
   later.alone(1100);
   later.replica.told(peer, later.now_ns);
   EXPECT_TRUE(later.replica.leads()) << "two that were under way apart: the stronger one is heard";
+}
+
+/// Hears the weaker one, "a", as long as it says nothing itself; each tells the other how it is.
+int beside_a_weaker_one(Scene& scene, int steps, int pause_every = 0) {
+  int spoke = 0;
+  ReplicaStatus weaker = scene.account(0);
+  weaker.ownership_strength = 5;
+  for (int i = 0; i < steps; ++i) {
+    scene.advance();
+    if (i % 20 == 0) scene.replica.told(weaker, scene.now_ns);
+    if (pause_every > 0 && i % pause_every < 5) {  // the scheduler kept it for five periods
+      scene.replica.heard(scene.state("a", 0.0), false, scene.now_ns);
+      continue;
+    }
+    const bool said = scene.replica.own(scene.state("b", 0.0), scene.now_ns);
+    spoke += said ? 1 : 0;
+    scene.replica.heard(scene.state(said ? "b" : "a", 0.0), said, scene.now_ns);
+  }
+  return spoke;
+}
+
+TEST(Replica, LeavesTheLeadToAWeakerOneUntilItKeepsItsTime) {
+  Scene scene;
+  scene.alone(100);
+  scene.replica.others(1, scene.now_ns);
+  EXPECT_EQ(beside_a_weaker_one(scene, 300), 300);
+  // Paused once: the weaker one is heard for two seconds.
+  EXPECT_EQ(beside_a_weaker_one(scene, 190, 1000), 0);
+  EXPECT_FALSE(scene.replica.leads());
+  EXPECT_GE(beside_a_weaker_one(scene, 300), 280);
+  EXPECT_TRUE(scene.replica.leads());
+  // Paused every half second, it stays away.
+  EXPECT_EQ(beside_a_weaker_one(scene, 2000, 50), 0);
+  EXPECT_GE(beside_a_weaker_one(scene, 300), 90);
+}
+
+TEST(Replica, SpeaksAtOnceWhenTheOneItLeftTheLeadToFallsSilent) {
+  Scene scene;
+  scene.alone(100);
+  scene.replica.others(1, scene.now_ns);
+  beside_a_weaker_one(scene, 100);
+  ASSERT_EQ(beside_a_weaker_one(scene, 50, 1000), 0);
+  EXPECT_GE(scene.alone(30), 20) << "after a tenth of a second";
+}
+
+TEST(Replica, TakesTheLeadFromAWeakerOneSoonAfterItComesInStep) {
+  Scene scene;
+  ReplicaStatus weaker = scene.account(0);
+  weaker.ownership_strength = 5;
+  scene.replica.told(weaker, scene.now_ns);
+  scene.led(20, 0.0);
+  EXPECT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
+  EXPECT_EQ(beside_a_weaker_one(scene, 180), 0);
+  EXPECT_GE(beside_a_weaker_one(scene, 300), 280);
 }
 
 TEST(Replica, DoesNotFollowALeaderThatLacksMore) {
