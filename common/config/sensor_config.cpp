@@ -204,6 +204,8 @@ void describe(Schema<sim::DvlConfig>& s) {
   s.field("working_beams", &C::working_beams, "3: the one astern is dead, 2: the one to starboard as well")
       .range(2, 4);
   s.field("water_track", &C::water_track, "pings that do not reach the bottom measure against the water");
+  s.field("water_layer", &C::water_layer, "each ping measures against the water layer as well");
+  s.field("bottom_lost", &C::bottom_lost, "when the bottom gives no echo; the water layer does");
   s.field("outlier_m_s", &C::outlier_m_s, "size of a wrong velocity").unit("m/s").range(0, 100);
   s.field("sound_speed_m_s", &C::sound_speed_m_s, "that the instrument uses").unit("m/s").range(1300, 1700);
   s.field("frame", &C::frame, "of the recorded velocities")

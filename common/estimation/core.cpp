@@ -27,8 +27,12 @@ Setup::Setup(const EngineConfig& engine_config)
     : config(engine_config),
       index(engine_config.groups),
       q_B_imu(geo::from_rpy(geo::vec(engine_config.imu.mounting_rpy_rad))) {
-  for (std::size_t i = 0; i < config.sensors.size() && i < limits.size(); ++i)
+  int layers = 0;
+  water_layer.fill(-1);
+  for (std::size_t i = 0; i < config.sensors.size() && i < limits.size(); ++i) {
     limits[i] = gate_limits(config.sensors[i]);
+    if (config.sensors[i].kind == SourceKind::dvl && layers < kMaxWaterLayers) water_layer[i] = layers++;
+  }
   // A constraint is weighed down as far as it is broken and never refused: a slide ends some time.
   constraint_gate.robust = RobustKind::student_t;
   constraint_gate.robust_reject_ratio = 1e12;
@@ -99,18 +103,21 @@ Core::Core(const Setup& setup) : setup_(&setup), filter_(setup.index.size()) {
 bool Core::remembers_the_past_only() const {
   bool past = true;
   const auto hold = [&](TimeNs stamp_ns) { past = past && (stamp_ns == 0 || stamp_ns <= now_ns_); };
-  for (const TimeNs stamp : {gps_used_ns_, usbl_used_ns_, dvl_used_ns_, velocity_used_ns_, stepped_ns_,
-                             phase_since_ns_, waiting_since_ns_, began_ns_, hold_since_ns_, gps_seen_ns_,
-                             held_ns_, under_way_.heading_ns, under_way_.dvl_ns, under_way_.usbl_ns})
+  for (const TimeNs stamp :
+       {gps_used_ns_, usbl_used_ns_, dvl_used_ns_, bottom_used_ns_, velocity_used_ns_, stepped_ns_,
+        phase_since_ns_, waiting_since_ns_, began_ns_, hold_since_ns_, gps_seen_ns_, held_ns_,
+        under_way_.heading_ns, under_way_.dvl_ns, under_way_.usbl_ns})
     hold(stamp);
-  for (const Sensor& sensor : sensors_) {
+  const auto hold_all = [&](const Sensor& sensor) {
     hold(sensor.stamp_ns);
     hold(sensor.used_ns);
     for (const Sensor::Rejections& one : sensor.rejections) hold(one.since_ns);
     hold(sensor.candidate.refused_since_ns);
     hold(sensor.candidate.since_ns);
     hold(sensor.candidate.last_ns);
-  }
+  };
+  std::for_each(sensors_.begin(), sensors_.end(), hold_all);
+  std::for_each(water_layers_.begin(), water_layers_.end(), hold_all);
   return past;
 }
 
@@ -236,19 +243,21 @@ void Core::rebase(TimeNs now_ns, double unobserved_s) {
   const auto move = [shift](TimeNs& stamp) {
     if (stamp != 0) stamp += shift;
   };
-  for (TimeNs* stamp :
-       {&gps_used_ns_, &usbl_used_ns_, &dvl_used_ns_, &velocity_used_ns_, &stepped_ns_, &rest_until_ns_,
-        &next_zero_velocity_ns_, &phase_since_ns_, &waiting_since_ns_, &began_ns_, &hold_since_ns_,
-        &gps_seen_ns_, &held_ns_, &under_way_.heading_ns, &under_way_.dvl_ns, &under_way_.usbl_ns})
+  for (TimeNs* stamp : {&gps_used_ns_, &usbl_used_ns_, &dvl_used_ns_, &bottom_used_ns_, &velocity_used_ns_,
+                        &stepped_ns_, &rest_until_ns_, &next_zero_velocity_ns_, &phase_since_ns_,
+                        &waiting_since_ns_, &began_ns_, &hold_since_ns_, &gps_seen_ns_, &held_ns_,
+                        &under_way_.heading_ns, &under_way_.dvl_ns, &under_way_.usbl_ns})
     move(*stamp);
-  for (Sensor& sensor : sensors_) {
+  const auto move_all = [&](Sensor& sensor) {
     move(sensor.used_ns);
     for (Sensor::Rejections& one : sensor.rejections) move(one.since_ns);
     move(sensor.candidate.refused_since_ns);
     move(sensor.candidate.since_ns);
     move(sensor.candidate.last_ns);
     sensor.stamp_ns = 0;
-  }
+  };
+  std::for_each(sensors_.begin(), sensors_.end(), move_all);
+  std::for_each(water_layers_.begin(), water_layers_.end(), move_all);
   now_ns_ = now_ns;
   ImuStep silence;
   silence.gap_s = unobserved_s;

@@ -16,6 +16,8 @@
 namespace fathom::estimation {
 
 inline constexpr int kMaxSensors = 24;
+/// DVLs whose water layer is judged beside the bottom.
+inline constexpr int kMaxWaterLayers = 4;
 
 /// What never changes after construction: the configuration and what is made from it once.
 struct Setup {
@@ -24,7 +26,8 @@ struct Setup {
   EngineConfig config;
   StateIndex index;
   std::array<GateLimits, kMaxSensors> limits{};
-  SensorConfig constraint_gate;  ///< how what no instrument measures is gated
+  std::array<int, kMaxSensors> water_layer{};  ///< of each DVL a number; -1: none
+  SensorConfig constraint_gate;                ///< how what no instrument measures is gated
   GateLimits constraint_limits;
   std::array<double, kMaxStates> initial_sigma{};  ///< of the states from index 9 on
   std::array<double, kMaxStates> walk{};
@@ -165,6 +168,11 @@ class Core {
   /// Sigmas of roll, pitch and yaw of the axes that are published.
   [[nodiscard]] Eigen::Vector3d rpy_sigma_rad() const;
   [[nodiscard]] const Sensor& sensor(int index) const { return sensors_[static_cast<std::size_t>(index)]; }
+  /// Of a DVL, what is measured against the water; null for others.
+  [[nodiscard]] const Sensor* water_layer(int index) const {
+    const int layer = setup_->water_layer[static_cast<std::size_t>(index)];
+    return layer < 0 ? nullptr : &water_layers_[static_cast<std::size_t>(layer)];
+  }
   /// That of a step with this attitude, rate and force.
   [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const Eigen::Vector3d& rate_B_rad_s,
                                            const Eigen::Vector3d& force_B_m_s2) const;
@@ -191,6 +199,8 @@ class Core {
 
   // core_judge.cpp
   Judgement judge(const Measurement& measurement);
+  /// What is known of the instrument behind a measurement.
+  [[nodiscard]] Sensor& instrument_of(const Measurement& measurement);
   Judgement place(const Command& command);
   /// The same position was held, and this order confirms it.
   [[nodiscard]] bool is_confirmed(const Command& command, const geo::Geodetic& ordered) const;
@@ -223,7 +233,7 @@ class Core {
   void make_room(SourceKind source, const Sensor& sensor, const Observation& observation, unsigned rows,
                  double factor, std::array<double, kNavStates>& variance) const;
   /// What is measured along the vehicle's own axes: over ground while a DVL does, else through the water.
-  [[nodiscard]] Eigen::Vector3d velocity_of_log() const;
+  [[nodiscard]] Eigen::Vector3d velocity_of_log(const Measurement& measurement) const;
   void mark_used(const Measurement& measurement, bool with_position);
 
   // core_constraints.cpp
@@ -292,9 +302,12 @@ class Core {
   Eigen::Vector3d force_B_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d travelled_N_m_ = Eigen::Vector3d::Zero();  ///< integral of the velocity
   std::array<Sensor, kMaxSensors> sensors_{};
+  /// One ping of a DVL measures the bottom and the water layer, both of one stamp: two instruments in one.
+  std::array<Sensor, kMaxWaterLayers> water_layers_{};
   TimeNs gps_used_ns_ = 0;
   TimeNs usbl_used_ns_ = 0;
   TimeNs dvl_used_ns_ = 0;
+  TimeNs bottom_used_ns_ = 0;  ///< of its velocities those over ground
   TimeNs velocity_used_ns_ = 0;
   std::uint32_t reset_counter_ = 0;
   Eigen::Vector3d last_reset_N_m_ = Eigen::Vector3d::Zero();

@@ -82,12 +82,19 @@ Judgement Core::apply(const Measurement& measurement) {
   return measurement.command ? order(std::get<Command>(measurement.sample)) : judge(measurement);
 }
 
+Core::Sensor& Core::instrument_of(const Measurement& measurement) {
+  const auto slot = static_cast<std::size_t>(measurement.sensor);
+  const int layer = setup_->water_layer[slot];
+  return is_of_water(measurement.sample) && layer >= 0 ? water_layers_[static_cast<std::size_t>(layer)]
+                                                       : sensors_[slot];
+}
+
 Judgement Core::judge(const Measurement& measurement) {
   Judgement out;
   const auto slot = static_cast<std::size_t>(measurement.sensor);
   const SensorConfig& config = setup_->config.sensors[slot];
-  Sensor& sensor = sensors_[slot];
-  if (!sensor.enabled) {
+  Sensor& sensor = instrument_of(measurement);
+  if (!sensors_[slot].enabled) {
     out.kind = VerdictKind::source_disabled;
     return out;
   }
@@ -193,13 +200,13 @@ Judgement Core::judge(const Measurement& measurement) {
     out.kind = VerdictKind::rejected;
     return out;
   }
-  const Vector3d before = velocity_of_log();
+  const Vector3d before = velocity_of_log(measurement);
   remove_error(x, setup_->index.size(), state_);
   // (KF-5)
   const bool along_body =
       !measures_position(measurement.source) && !is_speed_alone(measurement.source, config);
   if (along_body && filter_(8, 8) > kDoubtfulHeading_rad * kDoubtfulHeading_rad)
-    filter_.turn_with_attitude(velocity_of_log() - before);
+    filter_.turn_with_attitude(velocity_of_log(measurement) - before);
   if (stepped) {
     note_step(-Vector3d(x[0], x[1], x[2]), &whole);
   }
@@ -229,8 +236,11 @@ bool Core::frozen(const Measurement& measurement, const SensorConfig& config, Se
   return (prediction - sensor.first_prediction).norm() > config.frozen_change;
 }
 
-Vector3d Core::velocity_of_log() const {
-  if (since(dvl_used_ns_) <= setup_->config.velocity_timeout_s) return state_.nav.v_N_m_s;
+Vector3d Core::velocity_of_log(const Measurement& measurement) const {
+  const bool ground = measurement.source == SourceKind::dvl
+                          ? !is_of_water(measurement.sample)
+                          : since(bottom_used_ns_) <= setup_->config.velocity_timeout_s;
+  if (ground) return state_.nav.v_N_m_s;
   const AidingState state = aiding_state();
   return state_.nav.v_N_m_s - Vector3d(state.value(Group::current, 0), state.value(Group::current, 1), 0.0);
 }
@@ -247,6 +257,7 @@ void Core::mark_used(const Measurement& measurement, bool with_position) {
       break;
     case SourceKind::dvl:
       dvl_used_ns_ = now_ns_;
+      if (!is_of_water(measurement.sample)) bottom_used_ns_ = now_ns_;
       velocity_used_ns_ = now_ns_;
       break;
     case SourceKind::airspeed:

@@ -71,8 +71,10 @@ double radius_50(double larger_sigma, double smaller_sigma) {
 Forecaster::Forecaster(const Setup& setup) : setup_(&setup), core_(setup), filter_(setup.index.size()) {}
 
 void Forecaster::remember(int sensor, const AnySample& sample) {
-  past_.last[static_cast<std::size_t>(sensor)] = sample;
-  past_.remembered[static_cast<std::size_t>(sensor)] = true;
+  const int layer = setup_->water_layer[static_cast<std::size_t>(sensor)];
+  const int instrument = is_of_water(sample) && layer >= 0 ? kMaxSensors + layer : sensor;
+  past_.last[static_cast<std::size_t>(instrument)] = sample;
+  past_.remembered[static_cast<std::size_t>(instrument)] = true;
 }
 
 void Forecaster::take(const Core& core) {
@@ -81,14 +83,20 @@ void Forecaster::take(const Core& core) {
   taken_ = past_;
 }
 
-bool Forecaster::aids(int sensor) const {
+bool Forecaster::aids(int sensor, int instrument, const Core::Sensor& known) const {
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(sensor)];
   if (config.kind == SourceKind::gps || config.kind == SourceKind::usbl) return false;
   // What a restored state was aided by may not have been heard here yet.
-  if (!taken_.remembered[static_cast<std::size_t>(sensor)]) return false;
-  const TimeNs used = core_.sensor(sensor).used_ns;
-  return core_.sensor(sensor).enabled && used != 0 &&
-         to_seconds(core_.now_ns() - used) <= setup_->config.velocity_timeout_s;
+  if (!taken_.remembered[static_cast<std::size_t>(instrument)]) return false;
+  return core_.sensor(sensor).enabled && known.used_ns != 0 &&
+         to_seconds(core_.now_ns() - known.used_ns) <= setup_->config.velocity_timeout_s;
+}
+
+bool Forecaster::aids(int sensor) const {
+  const Core::Sensor* const layer = core_.water_layer(sensor);
+  const int number = setup_->water_layer[static_cast<std::size_t>(sensor)];
+  return aids(sensor, sensor, core_.sensor(sensor)) ||
+         (layer != nullptr && aids(sensor, kMaxSensors + number, *layer));
 }
 
 void Forecaster::begin() {
@@ -126,29 +134,36 @@ void Forecaster::step(int lost, double dt_s) {
   ahead_s_ += dt_s;
   if (lost == kAll) return;
   const AidingState state(setup_->index, state_, motion.rate_B_rad_s, 0.0, motion.force_B_m_s2);
+  for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) {
+    if (i == lost) continue;
+    aid(i, i, core_.sensor(i), state, dt_s);
+    if (const Core::Sensor* layer = core_.water_layer(i))
+      aid(i, kMaxSensors + setup_->water_layer[static_cast<std::size_t>(i)], *layer, state, dt_s);
+  }
+}
+
+void Forecaster::aid(int sensor, int instrument, const Core::Sensor& known, const AidingState& state,
+                     double dt_s) {
+  if (!aids(sensor, instrument, known)) return;
+  const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(sensor)];
+  // The last sample is about one second old in the forecast's eyes, whatever its rate.
+  const bool modelled = setup_->velocity_model && config.kind == SourceKind::propulsion;
+  const AidingInput input{.state = state,
+                          .sensor = config,
+                          .surface_altitude_m = setup_->config.states.surface_altitude_m,
+                          .vehicle_model = &setup_->config.vehicle_model,
+                          .water = modelled ? &core_.water_velocity() : nullptr,
+                          .unused_s = dt_s};
+  Observation observation;
+  for (const AidingEntry& entry : aiding_registry())
+    if (entry.source == config.kind)
+      (void)entry.observe(input, taken_.last[static_cast<std::size_t>(instrument)], observation);
+  if (observation.rows == 0) return;
+  observation.list_columns(setup_->index.size());
   InnovationStatistics statistics;
   std::array<double, kMaxStates> ignored{};
-  for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) {
-    if (i == lost || !aids(i)) continue;
-    const auto slot = static_cast<std::size_t>(i);
-    // The last sample is about one second old in the forecast's eyes, whatever its rate.
-    const bool modelled =
-        setup_->velocity_model && setup_->config.sensors[slot].kind == SourceKind::propulsion;
-    const AidingInput input{.state = state,
-                            .sensor = setup_->config.sensors[slot],
-                            .surface_altitude_m = setup_->config.states.surface_altitude_m,
-                            .vehicle_model = &setup_->config.vehicle_model,
-                            .water = modelled ? &core_.water_velocity() : nullptr,
-                            .unused_s = dt_s};
-    Observation observation;
-    for (const AidingEntry& entry : aiding_registry())
-      if (entry.source == setup_->config.sensors[slot].kind)
-        (void)entry.observe(input, taken_.last[slot], observation);
-    if (observation.rows == 0) continue;
-    observation.list_columns(setup_->index.size());
-    filter_.statistics(observation, kStep_s / dt_s, statistics);
-    (void)filter_.update(observation, statistics, ignored);
-  }
+  filter_.statistics(observation, kStep_s / dt_s, statistics);
+  (void)filter_.update(observation, statistics, ignored);
 }
 
 double Forecaster::horizontal_95_m(double after_s) {

@@ -34,15 +34,21 @@ class Forecaster {
   /// Which aiding goes on: a sensor that does not, or one of these.
   enum Lost : int { kNone = -1, kAll = -2 };
 
+  /// Sensors, and behind them the water layers.
+  static constexpr int kInstruments = kMaxSensors + kMaxWaterLayers;
   struct Past {
     MotionMemory motion;
-    std::array<AnySample, kMaxSensors> last{};
-    std::array<bool, kMaxSensors> remembered{};
+    std::array<AnySample, kInstruments> last{};
+    std::array<bool, kInstruments> remembered{};
   };
 
   void begin();
   void step(int lost, double dt_s);
+  /// A measurement of that instrument of a sensor, as far as it aids, at the instant that is looked at.
+  void aid(int sensor, int instrument, const Core::Sensor& known, const AidingState& state, double dt_s);
+  /// Any instrument of it does.
   [[nodiscard]] bool aids(int sensor) const;
+  [[nodiscard]] bool aids(int sensor, int instrument, const Core::Sensor& known) const;
   void follow(int lost, Forecast& out, std::uint32_t first);
 
   const Setup* setup_;

@@ -43,8 +43,8 @@ namespace fathom::estimation {
 /// 32 inertial samples after the first one that asks for more; finish() waits for neither. It is made of the
 /// measurements that were taken in: more than `measurement_capacity` of them within the horizon shorten it,
 /// what is older gets the verdict late. Orders act at their stamps, like measurements. Of two samples of
-/// one sensor with the same stamp the one with the lower sequence number counts, and of two with the same
-/// number as well the one that came first.
+/// one sensor (of a DVL, of one layer) with the same stamp the one with the lower sequence number counts, and
+/// of two with the same number as well the one that came first.
 ///
 /// Bounded work. An inertial sample costs one step, and when older measurements came in since the last one,
 /// at most twice `replay_steps_per_sample` repeated steps; the last of 32 as above, at most horizon_s +

@@ -18,6 +18,12 @@ namespace fathom::estimation {
 using AnySample = std::variant<Command, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
                                AirspeedSample, PropulsionSample, FinsSample>;
 
+/// Whether it is measured against the water layer.
+[[nodiscard]] inline bool is_of_water(const AnySample& sample) {
+  const auto* dvl = std::get_if<DvlSample>(&sample);
+  return dvl != nullptr && dvl->mode == DvlMode::water;
+}
+
 /// Something that happens to the filter at an instant: a measurement or an order.
 struct Measurement {
   TimeNs stamp_ns = 0;                   ///< validity, latency taken off

@@ -70,8 +70,17 @@ void VehicleHealth::add(const GpsSample& sample, const Instant& now, const Write
 
 void VehicleHealth::add(const DvlSample& sample, const Instant& now, const WriterId& writer) {
   if (!ours(sample.header)) return;
-  heard(SourceKind::dvl, sample.header, now, writer);
+  if (!is_second_half(sample)) heard(SourceKind::dvl, sample.header, now, writer);
   fixes_.add(sample, now);
+}
+
+bool VehicleHealth::is_second_half(const DvlSample& sample) {
+  constexpr std::size_t kMostDvls = 16;  // names come from the network: bounded
+  const Name& name = sample.header.sensor;
+  const auto known = pings_.find(name);
+  if (sample.mode == DvlMode::water) return known != pings_.end() && known->second == sample.header.stamp_ns;
+  if (known != pings_.end() || pings_.size() < kMostDvls) pings_[name] = sample.header.stamp_ns;
+  return false;
 }
 
 void VehicleHealth::add(const NavState& state, const Instant& now, const WriterId& writer) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,6 +88,8 @@ class VehicleHealth {
  private:
   /// Whether enough was heard since the start to say how the vehicle is.
   [[nodiscard]] bool known(const Instant& now) const;
+  /// What a ping measured of the water layer, behind what it measured of the bottom.
+  bool is_second_half(const DvlSample& sample);
   [[nodiscard]] bool ours(const SampleHeader& header) const { return header.vehicle == config_.vehicle; }
 
   HealthConfig config_;
@@ -95,6 +98,7 @@ class VehicleHealth {
   AlarmBook book_;
   GpsOutage gps_;
   FixWatch fixes_;
+  std::map<Name, TimeNs> pings_;  ///< stamp of the last one on the bottom, by DVL
   InterferenceWatch interference_;
   DisputeWatch disputes_;
   StampWatch stamps_;

@@ -90,13 +90,12 @@ Bytes DeviceEncoder::encode(const Measurement& measurement) {
   if (const auto* dvl = std::get_if<DvlSample>(&measurement);
       dvl != nullptr && !sensors.dvl.protocol.empty()) {
     if (canonical(sensors.dvl.protocol) == "waterlinked") {
+      if (dvl->mode == DvlMode::water) return {};  // it has no word for it
       const double since_ms = last_dvl_ns_ == 0 ? kUnknown : to_seconds(valid_ns - last_dvl_ns_) * 1e3;
       last_dvl_ns_ = valid_ns;
       return bytes_of(encode::waterlinked(*dvl, {valid_ns, sent_ns, since_ms}));
     }
-    encode::Pd0Options options;
-    options.ensemble = ++ensemble_;
-    return encode::pd0(*dvl, valid_ns, options);
+    return pd0(*dvl);
   }
   if (const auto* depth = std::get_if<DepthSample>(&measurement);
       depth != nullptr && !sensors.depth.protocol.empty()) {
@@ -129,6 +128,29 @@ Bytes DeviceEncoder::encode(const Measurement& measurement) {
     return bytes_of(encode::ascii_air_data(*air, {}));
   }
   return {};
+}
+
+Bytes DeviceEncoder::pd0(const DvlSample& sample) {
+  const TimeNs valid_ns = sample.header.stamp_ns;
+  if (sample.mode == DvlMode::bottom && scenario_.sensors.dvl.water_layer) {
+    ping_ = sample;  // the other half of the ensemble comes next
+    return {};
+  }
+  encode::Pd0Options options;
+  options.ensemble = ++ensemble_;
+  if (sample.mode == DvlMode::bottom) return encode::pd0(sample, valid_ns, options);
+  DvlSample bottom = sample;
+  bottom.mode = DvlMode::bottom;
+  if (ping_ && ping_->header.stamp_ns == valid_ns) {
+    bottom = *ping_;
+  } else {
+    bottom.velocity_D_m_s.fill(kUnknown);
+    bottom.beam_velocity_m_s.fill(kUnknown);
+    bottom.beam_range_m.fill(kUnknown);
+    bottom.error_velocity_m_s = bottom.altitude_m = kUnknown;
+  }
+  ping_.reset();
+  return encode::pd0(bottom, valid_ns, options, &sample);
 }
 
 }  // namespace fathom::sim

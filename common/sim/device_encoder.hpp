@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,14 +24,18 @@ class DeviceEncoder {
  public:
   DeviceEncoder(const Scenario& scenario, TimeNs power_on_ns);
 
-  /// Empty when the sensor has no device output.
+  /// Empty when the sensor has no device output, and for the first of two measurements that share an
+  /// ensemble: what a DVL measures of the bottom waits for the water layer.
   [[nodiscard]] std::vector<std::uint8_t> encode(const Measurement& measurement);
 
  private:
+  std::vector<std::uint8_t> pd0(const DvlSample& sample);
+
   Scenario scenario_;
   TimeNs power_on_ns_;
   std::uint32_t ensemble_ = 0;
   TimeNs last_dvl_ns_ = 0;
+  std::optional<DvlSample> ping_;  ///< on the bottom, until its water layer comes
 };
 
 }  // namespace fathom::sim

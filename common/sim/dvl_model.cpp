@@ -10,7 +10,8 @@ namespace fathom::sim {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-DvlModel::DvlModel(const DvlConfig& config, std::uint64_t seed) : config_(config), random_(seed, "dvl") {
+DvlModel::DvlModel(const DvlConfig& config, std::uint64_t seed)
+    : config_(config), random_(seed, "dvl"), layer_(seed, "dvl.water_layer") {
   scale_ = config.scale + random_.normal(config.scale_sigma);
   const auto& m = config.mounting_rpy_rad;
   const double sigma = config.misalignment_sigma_rad;
@@ -23,8 +24,18 @@ DvlModel::DvlModel(const DvlConfig& config, std::uint64_t seed) : config_(config
 }
 
 DvlSample DvlModel::sample(const TruthPoint& point) {
-  const Vector3d lever_B = geo::vec(config_.lever_B_m);
-  const TruthPoint at = at_lever(point, lever_B);
+  const TruthPoint at = at_lever(point, geo::vec(config_.lever_B_m));
+  const bool outlier = random_.chance(config_.outlier_probability);
+  const bool far = at.water_depth_m - at.depth_m > std::cos(config_.beam_angle_rad) * config_.maximum_range_m;
+  return measure(at, {config_.water_track && far, outlier}, random_);
+}
+
+std::optional<DvlSample> DvlModel::water_layer(const TruthPoint& point) {
+  if (!config_.water_layer) return std::nullopt;
+  return measure(at_lever(point, geo::vec(config_.lever_B_m)), {.water = true}, layer_);
+}
+
+DvlSample DvlModel::measure(const TruthPoint& at, const Ping& ping, Random& random) const {
   const Eigen::Quaterniond q_DN = (at.q_NB * q_BD_).conjugate();
   const Vector3d ground_D = q_DN * at.v_N_m_s;
   const Vector3d down_D = q_DN * Vector3d::UnitZ();
@@ -35,8 +46,8 @@ DvlSample DvlModel::sample(const TruthPoint& point) {
                                        Vector3d(-s, 0, c)};
   const bool deaf = inside(config_.dropouts, at.t_s) || at.depth_m < 0.0;
   const double sigma = std::hypot(config_.beam_sigma_m_s, config_.beam_sigma_per_speed * ground_D.norm());
-  const bool outlier = random_.chance(config_.outlier_probability);
-  const bool water = config_.water_track && height_m > c * config_.maximum_range_m;
+  const bool water = ping.water;
+  const bool no_echo = !water && inside(config_.bottom_lost, at.t_s);
   const Vector3d v_D = water ? Vector3d(q_BD_.conjugate() * at.V_B_m_s) : ground_D;
 
   DvlSample out;
@@ -52,15 +63,15 @@ DvlSample DvlModel::sample(const TruthPoint& point) {
   double range_sum_m = 0.0;
   int good = 0;
   for (std::size_t i = 0; i < beam_D.size(); ++i) {
-    const double noise = random_.normal(sigma);
-    const bool lost = random_.chance(config_.beam_dropout_probability);
+    const double noise = random.normal(sigma);
+    const bool lost = random.chance(config_.beam_dropout_probability);
     const double steepness = beam_D[i].dot(down_D);  // cosine of the beam against the vertical
     const double slant_m = steepness > 0.1 ? height_m / steepness : config_.maximum_range_m * 10.0;
     const bool reached = height_m > config_.minimum_range_m && slant_m < config_.maximum_range_m;
     const bool dead = (config_.working_beams < 4 && i == 3) || (config_.working_beams < 3 && i == 1);
-    if (deaf || lost || dead || !(reached || water)) continue;
+    if (deaf || lost || dead || no_echo || !(reached || water)) continue;
     double velocity = beam_D[i].dot((1.0 + scale_) * v_D + bias_D_m_s_) + noise;
-    if (outlier) velocity += config_.outlier_m_s * (i % 2 == 0 ? 1.0 : -0.5);
+    if (ping.outlier) velocity += config_.outlier_m_s * (i % 2 == 0 ? 1.0 : -0.5);
     out.beam_velocity_m_s[i] = velocity;
     if (!water) out.beam_range_m[i] = slant_m * c;
     normal += beam_D[i] * beam_D[i].transpose();

@@ -87,6 +87,8 @@ struct DvlConfig : SensorCommon {
   double beam_dropout_probability = 0.0;  ///< each beam of each ping
   int working_beams = 4;                  ///< 3: the one astern is dead, 2: the one to starboard as well
   bool water_track = false;               ///< pings that do not reach the bottom measure against the water
+  bool water_layer = false;               ///< each ping measures against the water layer as well
+  std::vector<Window> bottom_lost;        ///< the bottom gives no echo; the water layer does
   double outlier_m_s = 1.0;
   double sound_speed_m_s = 1500.0;
   enum class Frame { instrument, ship, beam };

@@ -81,13 +81,23 @@ class DvlModel {
  public:
   DvlModel(const DvlConfig& config, std::uint64_t seed);
   DvlSample sample(const TruthPoint& point);
+  /// Of the same ping, the water layer; none where it is not measured.
+  std::optional<DvlSample> water_layer(const TruthPoint& point);
   /// Rotation of vectors from the instrument's true axes into B, misalignment included.
   [[nodiscard]] const Eigen::Quaterniond& q_BD() const { return q_BD_; }
   [[nodiscard]] double scale() const { return scale_; }
 
  private:
+  /// Whether the beams reach the bottom is the caller's; what they measure is this.
+  struct Ping {
+    bool water = false;
+    bool outlier = false;
+  };
+  DvlSample measure(const TruthPoint& point, const Ping& ping, Random& random) const;
+
   DvlConfig config_;
   Random random_;
+  Random layer_;  ///< apart, so that the bottom is measured alike with and without it
   Eigen::Quaterniond q_BD_ = Eigen::Quaterniond::Identity();
   double scale_ = 0.0;
   Eigen::Vector3d bias_D_m_s_ = Eigen::Vector3d::Zero();

@@ -115,7 +115,18 @@ struct Simulation::Impl {
     // Receivers without a fix and DVLs without the bottom go on talking.
     static const std::vector<Window> never;
     sampled(gps_schedule, never, [&](const TruthPoint& at) { return std::optional(gps.sample(at)); });
-    sampled(dvl_schedule, never, [&](const TruthPoint& at) { return std::optional(dvl.sample(at)); });
+    while (dvl_schedule.due(now_s)) {
+      const auto slot = dvl_schedule.take();
+      const TruthPoint at = interpolate(before, now, std::max(slot.t_s, before.t_s));
+      DvlSample bottom = dvl.sample(at);
+      auto layer = dvl.water_layer(at);
+      if (slot.lost) continue;
+      dvl_schedule.stamp(bottom.header, options, slot.t_s, slot.latency_s);
+      out.emplace_back(bottom);
+      if (!layer) continue;
+      dvl_schedule.stamp(layer->header, options, slot.t_s, slot.latency_s);
+      out.emplace_back(*layer);
+    }
     sampled(depth_schedule, sensors.depth.dropouts, [&](const TruthPoint& at) { return depth.sample(at); });
     sampled(heading_schedule, sensors.heading.dropouts,
             [&](const TruthPoint& at) { return std::optional(heading.sample(at)); });

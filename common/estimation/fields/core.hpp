@@ -129,6 +129,8 @@ void Core::fields(Archive& archive, Self& self) {
   if (archive.since(2)) {
     archive("held_ns", self.held_ns_, fathom::archive::kInstant);
     archive("held_position", self.held_position_);
+    archive("bottom_used_ns", self.bottom_used_ns_, fathom::archive::kInstant);
+    archive("water_layers", self.water_layers_);
   }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }

@@ -293,6 +293,23 @@ TEST_F(BadInput, FrozenFixIsNotTrusted) {
   EXPECT_EQ(used_late, 0);
 }
 
+TEST_F(BadInput, AWaterLayerIsAnInstrumentOfItsOwn) {
+  DvlSample layer = dvl_;
+  layer.mode = DvlMode::water;
+  layer.header.stamp_ns = dvl_.header.stamp_ns = imu_.header.stamp_ns + 5'000'000;
+  dvl_.header.sequence += 1000;
+  layer.header.sequence = dvl_.header.sequence + 1;
+  drain();
+  engine_.add(dvl_);
+  engine_.add(layer);
+  ++layer.header.sequence;
+  engine_.add(layer);  // once more
+  step();
+  std::vector<std::string_view> kinds;
+  for (Verdict verdict; next_news(verdict);) kinds.push_back(to_string(verdict.kind));
+  EXPECT_EQ(kinds, (std::vector<std::string_view>{"used", "used", "duplicate"}));
+}
+
 TEST_F(BadInput, SourceCanBeSwitchedOffAndOn) {
   Command command;
   command.kind = CommandKind::disable_source;

@@ -28,6 +28,7 @@ class Vehicle {
   bool fusion_alive = true;
   bool fusion_refuses_gps = false;
   bool moored = false;
+  bool water_layer = false;
   double host_clock_set_s = 0.0;
   WriterId writer = kBridge;
   std::uint32_t bridge_pid = 10;
@@ -103,6 +104,10 @@ class Vehicle {
       dvl.header = header("dvl", t - 0.05);
       dvl.velocity_D_m_s = {speed_m_s + 0.01 * noise(), 0.01 * noise(), 0.0};
       health.add(dvl, now, kBridge);
+      if (water_layer) {
+        dvl.mode = DvlMode::water;
+        health.add(dvl, now, kBridge);
+      }
     }
     if (tick_ % 50 == 0) {
       GpsSample sample = fix(t, speed_m_s);
@@ -239,6 +244,11 @@ TEST_F(FaultMatrix, EveryFixTwice) {
   vehicle.also = nullptr;
   vehicle.run_for(15.0);
   EXPECT_FALSE(vehicle.active("duplicate_stamps:gps"));
+}
+
+TEST_F(FaultMatrix, AWaterLayerBesideTheBottomIsNoSecondPing) {
+  vehicle.water_layer = true;
+  EXPECT_EQ(vehicle.run_for(20.0), Alarms{});
 }
 
 TEST_F(FaultMatrix, OneFixForEver) {

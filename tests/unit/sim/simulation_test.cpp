@@ -10,6 +10,7 @@
 
 #include "codec/registry.hpp"
 #include "sim/device_encoder.hpp"
+#include "support/codec/decode_run.hpp"
 #include "vehicles.hpp"
 
 namespace fathom::sim {
@@ -112,6 +113,60 @@ TEST(Simulation, RatesStampsAndSequences) {
   const auto& imu = by_sensor["imu"];
   for (std::size_t i = 0; i < imu.size(); ++i) {
     EXPECT_EQ(imu[i].stamp_ns, kEpoch + static_cast<TimeNs>(i + 1) * 10'000'000);
+  }
+}
+
+std::vector<DvlSample> decoded(const Outcome& outcome, const Scenario& scenario) {
+  DeviceEncoder encoder(scenario, kEpoch);
+  std::vector<std::uint8_t> bytes;
+  for (const Measurement& one : outcome.measurements) {
+    if (!std::holds_alternative<DvlSample>(one)) continue;
+    const auto some = encoder.encode(one);
+    bytes.insert(bytes.end(), some.begin(), some.end());
+  }
+  const test::DecodeRun run = test::decode_whole("pd0", bytes);
+  EXPECT_TRUE(run.rejected.empty());
+  return run.all<DvlSample>();
+}
+
+TEST(Simulation, APingMeasuresBottomAndWaterLayer) {
+  Scenario scenario = instrumented();
+  scenario.environment.current_N_m_s = {0.3, -0.2};
+  scenario.environment.current_from_s = 0.0;
+  const auto alone = decoded(play(scenario, 3, 30.0), scenario);
+  scenario.sensors.dvl.water_layer = true;
+  scenario.sensors.dvl.bottom_lost = {{20.0, 25.0}};
+  const auto samples = decoded(play(scenario, 3, 30.0), scenario);
+  ASSERT_EQ(samples.size(), 2 * 151U);
+  ASSERT_EQ(alone.size(), 151U);
+  int lost = 0;
+  for (std::size_t i = 0; i < samples.size(); i += 2) {
+    const DvlSample& bottom = samples[i];
+    const DvlSample& water = samples[i + 1];
+    ASSERT_EQ(bottom.mode, DvlMode::bottom);
+    ASSERT_EQ(water.mode, DvlMode::water);
+    EXPECT_TRUE(std::isfinite(water.velocity_D_m_s[0])) << i;
+    if (std::isnan(bottom.velocity_D_m_s[0])) {
+      ++lost;
+      continue;
+    }
+    // They differ by the current.
+    const double apart = std::hypot(bottom.velocity_D_m_s[0] - water.velocity_D_m_s[0],
+                                    bottom.velocity_D_m_s[1] - water.velocity_D_m_s[1]);
+    EXPECT_NEAR(apart, std::hypot(0.3, 0.2), 0.06) << i;
+    EXPECT_EQ(bottom.velocity_D_m_s, alone[i / 2].velocity_D_m_s) << "as without the layer";
+  }
+  EXPECT_EQ(lost, 25);
+}
+
+TEST(Simulation, AWaterTrackIsNoBottomTrack) {
+  Scenario scenario = instrumented();
+  scenario.sensors.dvl.water_track = true;
+  scenario.sensors.dvl.maximum_range_m = 1.0;  // far from the bottom
+  const auto samples = decoded(play(scenario, 3, 10.0), scenario);
+  ASSERT_EQ(samples.size(), 2 * 51U);
+  for (const DvlSample& one : samples) {
+    EXPECT_EQ(std::isfinite(one.velocity_D_m_s[0]), one.mode == DvlMode::water);
   }
 }
 
