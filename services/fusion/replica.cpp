@@ -124,10 +124,10 @@ DurationNs Lateness::of(TimeNs stamp_ns, TimeNs now_ns) {
 }
 
 void Replica::heard(const NavState& state, bool self, TimeNs now_ns) {
-  follows_ = !self;
+  const bool led = !std::exchange(follows_, !self);
   if (self) return;
   // DDS would let the stronger one be heard again with its next state, and the other one at its next pause.
-  if (phase_ == ReplicaPhase::in_step && !yielded_ns_ && is_weaker(state.header.sensor, now_ns))
+  if (led && phase_ == ReplicaPhase::in_step && !yielded_ns_ && is_weaker(state.header.sensor, now_ns))
     yielded_ns_ = now_ns;
   other_ns_ = now_ns;
   other_stamp_ns_ = state.header.stamp_ns;
