@@ -52,7 +52,7 @@ TEST(Processes, AKilledWriterIsReportedAndMetAgainAfterRestart) {
     const auto killed = steady_clock::now();
     fusion.kill_hard();
     ASSERT_TRUE(eventually([&] { return participant.counters().writer_lost == round; }));
-    EXPECT_LT(steady_clock::now() - killed, std::chrono::seconds(5));  // lease 2 s, and a loaded machine
+    EXPECT_LT(steady_clock::now() - killed, std::chrono::seconds(9));  // lease 6 s, and a loaded machine
     EXPECT_EQ(reader.matched_writers(), 0);
     ASSERT_EQ(events.of(BusEventKind::writer_lost).size(), round);
     EXPECT_EQ(events.of(BusEventKind::writer_lost).back().topic, "fathom/v1/nav_state");
@@ -69,7 +69,7 @@ TEST(Processes, AWriterThatLeavesInOrderIsNotLost) {
   ASSERT_TRUE(eventually([&] { return inbox.size() > 5; }));
   EXPECT_EQ(fusion.stop(), 0);
   ASSERT_TRUE(eventually([&] { return reader.matched_writers() == 0; }, milliseconds(1500)));
-  let_pass(milliseconds(2500));  // longer than the lease
+  let_pass(milliseconds(6500));  // longer than the lease
   EXPECT_EQ(participant.counters().writer_lost, 0U);
   EXPECT_TRUE(participant.peers().empty());
 }
@@ -90,7 +90,7 @@ TEST(Processes, TheStandbyTakesOverWhenTheStrongerIsKilled) {
   const auto killed = steady_clock::now();
   primary.kill_hard();
   ASSERT_TRUE(eventually([&] { return last_strength() == 1.0; }));
-  // By the deadline of 30 ms, not by the lease of 2 s; the rest is room for a loaded machine.
+  // By the deadline of 30 ms, not by the lease of 6 s; the rest is room for a loaded machine.
   EXPECT_LT(steady_clock::now() - killed, milliseconds(1000));
 }
 
