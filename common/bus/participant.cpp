@@ -310,6 +310,7 @@ void Participant::Impl::participant_seen(const detail::GuidPrefix& who,
 
 void Participant::Impl::participant_gone(const detail::GuidPrefix& who, bool fell_silent) {
   onlookers_->gone(who);
+  hearing->gone(who);
   if (fell_silent) participant_dropped(who);
   peers.participant_gone(who);
   if (credentials) part(who);

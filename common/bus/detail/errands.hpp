@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <list>
@@ -16,8 +17,10 @@ class Errands {
   Errands(const Errands&) = delete;
   Errands& operator=(const Errands&) = delete;
 
-  /// Runs `work`, which must not throw, soon; unless some of `whose` waits to be run already.
-  void run(const void* whose, std::function<void()> work);
+  /// Runs `work`, which must not throw, when `delay` has passed; unless one of `whose` of the same kind waits
+  /// to be run already. Be quick: others wait.
+  void run(const void* whose, std::function<void()> work, int kind = 0,
+           std::chrono::milliseconds delay = std::chrono::milliseconds(0));
   /// Nothing of `whose` runs any more, and what waits never will. Not to be called by an errand.
   void forget(const void* whose);
 
@@ -26,11 +29,13 @@ class Errands {
 
   struct One {
     const void* whose;
+    int kind;
+    std::chrono::steady_clock::time_point due;
     std::function<void()> work;
   };
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::list<One> waiting_;
+  std::list<One> waiting_;  // in the order of their turns
   const void* running_ = nullptr;
   bool ending_ = false;
   std::thread thread_;

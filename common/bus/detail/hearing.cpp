@@ -90,4 +90,26 @@ void Hearing::refused(const void* reader) {
   for (Writer& one : known->writers) one.waiting = 0;
 }
 
+void Hearing::arrived_from(std::span<const std::uint8_t> datagram) {
+  constexpr std::size_t kPrefix = 8;  // behind "RTPS", version and vendor
+  GuidPrefix from{};
+  if (!somebody_asked_ || datagram.size() < kPrefix + from.size()) return;
+  std::copy_n(datagram.begin() + kPrefix, from.size(), from.begin());
+  const std::lock_guard lock(mutex_of_participants_);
+  const auto known = last_.find(from);
+  if (known != last_.end()) known->second = now_ns_();
+}
+
+bool Hearing::is_heard(const GuidPrefix& participant, DurationNs age_ns) {
+  somebody_asked_ = true;
+  const std::lock_guard lock(mutex_of_participants_);
+  const TimeNs last_ns = last_.try_emplace(participant, 0).first->second;
+  return last_ns != 0 && now_ns_() - last_ns <= age_ns;
+}
+
+void Hearing::gone(const GuidPrefix& participant) {
+  const std::lock_guard lock(mutex_of_participants_);
+  last_.erase(participant);
+}
+
 }  // namespace fathom::bus::detail

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <span>
 #include <vector>
 
 #include "base/time.hpp"
+#include "bus/detail/peer_book.hpp"
 #include "bus/participant.hpp"
 
 namespace fathom::bus::detail {
@@ -60,6 +63,14 @@ class Hearing {
   /// It had no room for a sample of some writer.
   void refused(const void* reader);
 
+  /// A datagram came in, of whatever kind, from the participant that it says it is of.
+  void arrived_from(std::span<const std::uint8_t> datagram);
+  /// Something came in from this participant within the last `age_ns`. What came before it was first asked
+  /// about does not count.
+  [[nodiscard]] bool is_heard(const GuidPrefix& participant, DurationNs age_ns);
+  /// It left.
+  void gone(const GuidPrefix& participant);
+
  private:
   struct Writer {
     WriterGuid guid;
@@ -79,6 +90,10 @@ class Hearing {
   std::function<TimeNs()> now_ns_;
   std::mutex mutex_;
   std::vector<Reader> readers_;
+
+  std::atomic<bool> somebody_asked_ = false;
+  std::mutex mutex_of_participants_;
+  std::map<GuidPrefix, TimeNs> last_;  ///< of those asked about, when something of them came in; 0: never
 };
 
 }  // namespace fathom::bus::detail

@@ -55,6 +55,7 @@ class Transport final : public RoutingTransport<Transport> {
         !all_claims(datagram, [this](const Claim& claim) { return descriptor_.hearing->arrived(claim); })) {
       return descriptor_.refused(rtps::IPLocator::toIPv4string(remote));
     }
+    descriptor_.hearing->arrived_from(datagram);
     dds->OnDataReceived(bytes, count, local, remote);
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <future>
@@ -18,6 +19,8 @@
 
 namespace fathom::bus::detail {
 namespace {
+
+using test::rtps::Bytes;
 
 constexpr EntityId kReader = 0x0000'0104;
 
@@ -167,6 +170,97 @@ TEST(Claims, AreToldWithWriterReaderAndNumber) {
                                 ElementsAre(0x11, 2, 0x104, 5, 0),
                                 ElementsAre(0x11, 8, 0x004, (std::uint64_t{1} << 32U) + 1, 0),
                                 ElementsAre(0x11, 7, 0x604, 3, 1)));
+}
+
+/// Of participant `who`, as far as its header.
+Bytes datagram_of(std::uint8_t who) {
+  Bytes bytes = test::rtps::datagram({});
+  std::fill_n(bytes.begin() + 8, 12, who);
+  return bytes;
+}
+GuidPrefix prefix(std::uint8_t who) {
+  GuidPrefix made{};
+  made.fill(who);
+  return made;
+}
+
+TEST(Hearing, KnowsWhoWasHeardOfThoseAskedAbout) {
+  TimeNs now_ns = 1;
+  Hearing hearing([&] { return now_ns; });
+  hearing.arrived_from(datagram_of(1));
+  EXPECT_FALSE(hearing.is_heard(prefix(1), kNsPerSecond));  // nobody had asked
+  hearing.arrived_from(datagram_of(2));
+  EXPECT_FALSE(hearing.is_heard(prefix(1), kNsPerSecond));
+  hearing.arrived_from(datagram_of(1));
+  now_ns += kNsPerSecond;
+  EXPECT_TRUE(hearing.is_heard(prefix(1), kNsPerSecond));
+  now_ns += 1;
+  EXPECT_FALSE(hearing.is_heard(prefix(1), kNsPerSecond));
+  hearing.arrived_from(datagram_of(1));
+  hearing.gone(prefix(1));
+  EXPECT_FALSE(hearing.is_heard(prefix(1), kNsPerSecond));
+  hearing.arrived_from(Bytes(19));  // too short to be of anybody
+}
+
+/// Keeps the thread of errands busy until told otherwise.
+class Busy {
+ public:
+  explicit Busy(Errands& errands) {
+    errands.run(this, [this] {
+      begun_.set_value();
+      go_on_.get_future().wait();
+    });
+    begun_.get_future().wait();
+  }
+  void end() { go_on_.set_value(); }
+
+ private:
+  std::promise<void> begun_;
+  std::promise<void> go_on_;
+};
+
+TEST(Errand, TakesItsTurnWhenItsTimeHasCome) {
+  std::vector<int> ran;  // by the one thread of errands
+  std::promise<void> done;
+  Errands errands;
+  Busy busy(errands);
+  int one = 0;
+  const auto last = [&] {
+    ran.push_back(3);
+    done.set_value();
+  };
+  errands.run(&one, last, 3, std::chrono::milliseconds(10));
+  errands.run(
+      &one, [&] { ran.push_back(2); }, 2, std::chrono::milliseconds(5));
+  errands.run(
+      &one, [&] { ran.push_back(20); }, 2);  // one of this kind waits
+  errands.run(&one, [&] { ran.push_back(1); });
+  busy.end();
+  done.get_future().wait();
+  EXPECT_EQ(ran, (std::vector<int>{1, 2, 3}));
+}
+
+TEST(Errand, ThatAsksForAnotherIsForgottenWithIt) {
+  std::atomic<int> ran = 0;
+  Errands errands;
+  int one = 0;
+  std::promise<void> begun;
+  std::promise<void> go_on;
+  errands.run(&one, [&] {
+    begun.set_value();
+    go_on.get_future().wait();
+    errands.run(
+        &one, [] {}, 0, std::chrono::hours(1));
+  });
+  begun.get_future().wait();
+  go_on.set_value();
+  errands.forget(&one);
+  std::promise<void> done;
+  errands.run(&one, [&] { ++ran; });  // not, if one of this kind still waits
+  int another = 0;
+  errands.run(&another, [&] { done.set_value(); });
+  done.get_future().wait();
+  EXPECT_EQ(ran, 1);
 }
 
 TEST(Errand, RunsOnceForOneThatWaitsAndNeverForTheForgotten) {
