@@ -17,10 +17,12 @@ struct WriterOptions {
   /// It falls silent by intent, while another writer speaks for it: its own missed deadlines are no event.
   bool may_rest = false;
   /// After so many samples a Fast DDS writer is followed by another; of reliable, volatile topics, others
-  /// keep theirs. None is lost; of exclusive topics, where one may be 15 ms late, none that has arrived by
-  /// then. To a reader that comes anew Fast DDS 2.9.1 counts all samples that the writer ever wrote, up to
-  /// the newest, before it hands over one: a second for four million, which at 400 Hz are three hours. 0:
-  /// never.
+  /// keep theirs. Readers of this bus are handed every sample once and in order, also those that a cut of the
+  /// network held up meanwhile: the old writer stays until all it wrote has arrived, 5 s at most. Of
+  /// exclusive topics the change waits for an instant at which nothing is under way, and may make a sample 15
+  /// ms late, or half a deadline. To a reader that comes anew Fast DDS 2.9.1 counts all samples that the
+  /// writer ever wrote, up to the newest, before it hands over one: a second for four million, which at 400
+  /// Hz are three hours. 0: never.
   std::uint64_t successor_after = 250'000;
 };
 

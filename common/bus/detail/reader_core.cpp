@@ -1,6 +1,7 @@
 #include <atomic>
 #include <chrono>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -12,8 +13,10 @@
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 
+#include "base/clock.hpp"
 #include "bus/detail/dds_log.hpp"
 #include "bus/detail/endpoint.hpp"
+#include "bus/detail/in_order.hpp"
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos.hpp"
 #include "bus/detail/sample_type.hpp"
@@ -23,7 +26,26 @@ using rtps::InstanceHandle_t;
 
 namespace {
 
+using std::chrono::milliseconds;
+
 constexpr std::chrono::seconds kRest(30);  // from one renewal of a reader to the next
+
+// Errands.
+constexpr int kRenew = 0;
+constexpr int kHandOver = 1;
+constexpr int kHandOverAtLast = 2;
+
+Arrival arrival_of(const WriterGuid& guid, const dds::SampleInfo& info) {
+  const auto number = [](const rtps::SampleIdentity& identity) {
+    return static_cast<std::uint64_t>(identity.sequence_number().to64long());
+  };
+  Arrival arrival{{guid, number(info.sample_identity)}};
+  const rtps::SampleIdentity& after = info.related_sample_identity;
+  if (after.writer_guid() != rtps::GUID_t()) {
+    arrival.after = Arrival::Place{to_guid(after.writer_guid()), number(after)};
+  }
+  return arrival;
+}
 
 }  // namespace
 
@@ -47,6 +69,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 
   ~Impl() override {
     bus.hearing->leave(this);
+    stop();
     bus.errands.forget(this);
     close();
     ops.destroy(slot.sample);
@@ -60,18 +83,24 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     dds::Topic* topic = bus.topic(ops);
     closed = false;
     // Joined before Fast DDS knows it, for writers may be matched at once.
-    bus.hearing->join(this, requested.ownership == dds::EXCLUSIVE_OWNERSHIP_QOS,
-                      [this] { bus.errands.run(this, [this] { renew(); }); });
+    bus.hearing->join(this, requested.ownership == dds::EXCLUSIVE_OWNERSHIP_QOS, [this] {
+      bus.errands.run(
+          this, [this] { renew(); }, kRenew);
+    });
     reader = bus.subscriber->create_datareader(topic, qos, this, mask);
     if (reader == nullptr) return bus.hearing->leave(this);
     const WriterGuid guid = to_guid(reader->guid());
     bus.hearing->is_entity(this, to_entity_id(std::span(guid).subspan(12)));
   }
 
-  void close() {
+  /// Whoever is in the handler now is waited for; whoever comes later sees `closed`.
+  void stop() {
     closed = true;
-    // Whoever is in the handler now is waited for; whoever comes later sees `closed`.
-    { const std::lock_guard wait(handler_mutex); }
+    const std::scoped_lock wait(handler_mutex, mutex);
+  }
+
+  void close() {
+    stop();
     if (reader == nullptr) return;
     reader->set_listener(nullptr);
     bus.subscriber->delete_datareader(reader);
@@ -88,9 +117,14 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     close();
     {
       const std::lock_guard lock(mutex);
+      order.all_unmatched();
       writers.clear();
       instances.clear();
       matched = 0;
+    }
+    {
+      const std::lock_guard lock(handler_mutex);
+      while (const auto held = next_held()) hand_over(*held, held->sample.get());
     }
     open();
     bus.events.report(
@@ -103,6 +137,10 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 
   void on_data_available(dds::DataReader* from) override {
     if (bus.samples_as) carry_samples(*bus.samples_as);
+    receive(from);
+  }
+
+  void receive(dds::DataReader* from) {
     const std::lock_guard lock(handler_mutex);
     dds::SampleInfo info;
     while (!closed && done(from->take_next_sample(&slot, &info))) {
@@ -115,9 +153,63 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
                           name + " sent bytes that are no " + ops.type_name);
         continue;
       }
-      handler(slot.sample, {guid, info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()});
-      if (requested.deadline_ns != kForever) track_deadline(info.instance_handle, guid);
+      const Held now{
+          {guid, info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()}, info.instance_handle, {}};
+      if (is_next(arrival_of(guid, info), now)) hand_over(now, slot.sample);
     }
+    hand_over_held();
+  }
+
+  /// A sample, or what is known of one.
+  struct Held {
+    SampleInfo info;
+    InstanceHandle_t instance;
+    std::shared_ptr<void> sample;
+  };
+
+  /// False: the sample in the slot comes after others that have not arrived, and is kept for later.
+  bool is_next(const Arrival& arrival, const Held& held) {
+    const std::lock_guard lock(mutex);
+    if (order.may_pass(arrival)) return true;
+    Held kept = held;
+    kept.sample = {slot.sample, ops.destroy};
+    slot.sample = ops.create();
+    order.keep(arrival, std::move(kept), clock.monotonic_ns());
+    return false;
+  }
+
+  /// Precondition: handler_mutex held.
+  void hand_over(const Held& held, const void* sample) {
+    handler(sample, held.info);
+    if (requested.deadline_ns != kForever) track_deadline(held.instance, held.info.writer_guid, sample);
+  }
+
+  /// Those kept for later whose turn has come. Precondition: handler_mutex held, and all that has arrived was
+  /// taken.
+  void hand_over_held() {
+    while (!closed) {
+      const auto held = next_held();
+      if (!held) break;
+      hand_over(*held, held->sample.get());
+    }
+    const std::lock_guard lock(mutex);
+    constexpr milliseconds kAtLast(InOrder<Held>::kMost_ns / kNsPerMillisecond);
+    if (order.keeps()) hand_over_later(kHandOverAtLast, kAtLast);
+  }
+
+  std::optional<Held> next_held() {
+    const std::lock_guard lock(mutex);
+    order.settle();
+    return order.keeps() ? order.next(clock.monotonic_ns()) : std::nullopt;
+  }
+
+  /// Precondition: mutex held.
+  void hand_over_later(int errand, milliseconds delay) {
+    if (closed) return;
+    const auto work = [this] {
+      if (reader != nullptr) receive(reader);
+    };
+    bus.errands.run(this, work, errand, delay);
   }
 
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
@@ -128,10 +220,13 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
       const std::lock_guard lock(mutex);
       if (status.current_count_change > 0) {
         writers.insert(guid);
+        order.matched(guid);
       } else {
         writers.erase(guid);
+        order.unmatched(guid);
       }
       matched = static_cast<int>(writers.size());
+      if (order.keeps()) hand_over_later(kHandOver, milliseconds(0));
     }
     if (status.current_count_change > 0) {
       bus.hearing->matched(this, guid);
@@ -193,13 +288,13 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     bool missed = false;
   };
 
-  /// Remembers whose sample an instance was last, and notices recovery. Called with slot filled.
-  void track_deadline(const InstanceHandle_t& handle, const WriterGuid& guid) {
+  /// Remembers whose sample an instance was last, and notices recovery.
+  void track_deadline(const InstanceHandle_t& handle, const WriterGuid& guid, const void* sample) {
     std::string key;
     {
       const std::lock_guard lock(mutex);
       Instance& instance = instances[handle];
-      if (instance.key.empty()) instance.key = ops.key_text(slot.sample);
+      if (instance.key.empty()) instance.key = ops.key_text(sample);
       instance.writer = guid;
       if (!instance.missed) return;
       instance.missed = false;
@@ -210,6 +305,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 
   Participant::Impl& bus;
   const TopicOps& ops;
+  const SystemClock clock;
   const dds::DataReaderQos qos;
   const QosSummary requested;
   std::atomic<bool> closed = false;
@@ -222,6 +318,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   std::mutex mutex;  // of what follows
   std::set<WriterGuid> writers;
   std::map<InstanceHandle_t, Instance> instances;
+  InOrder<Held> order;
 
   dds::DataReader* reader = nullptr;
   std::optional<std::chrono::steady_clock::time_point> renewed;

@@ -1,13 +1,12 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <set>
 #include <shared_mutex>
-#include <thread>
 #include <utility>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -25,18 +24,32 @@ namespace fathom::bus::detail {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::steady_clock;
 
 // How long a writer's end may wait for its readers: two heartbeats of the profiles and the answer.
 constexpr std::uint32_t kLastWords_ns = 150'000'000;
 
-// How long the readers of a writer have to find its successor, and how long all the same after that: that
-// they are known here is no proof that they know it.
-constexpr milliseconds kToBeFound(5000);
-constexpr milliseconds kToBeSure(1000);
+// What is done about a successor is looked at so often.
+constexpr milliseconds kLook(50);
 
-// Where one writer is heard at a time, how long the successor's first sample may wait for the last of the old
-// one to have arrived: what comes after it is not heard. Less than the deadline of a navigation state.
-constexpr std::uint32_t kToArrive_ns = 15'000'000;
+// For so long everybody who reads has to have been heard without a break before the successor begins: that
+// its readers are known here is no proof that they know it. Discovery repeats what was lost after a second.
+constexpr milliseconds kToBeSure(2500);
+constexpr DurationNs kBreak_ns = 600 * kNsPerMillisecond;  // each says something every 400 ms
+
+// Where one writer is heard at a time, nothing of the old one may be under way when the successor begins, for
+// it would not be heard any more. So long an instant is waited for at which that is so by itself; after that
+// the successor's first sample has to wait, now and then and for half a deadline at most.
+constexpr milliseconds kByItself(5000);
+constexpr DurationNs kMayWait_ns = 15 * kNsPerMillisecond;
+
+// Somebody who never says that it got anything does not keep a successor away for ever.
+constexpr milliseconds kPatience(60'000);
+
+// How long the old one is kept: until all it wrote has arrived, or is too old to be had (the profiles'
+// depth), and at least until the successor is heard.
+constexpr milliseconds kDepth(5000);
+constexpr milliseconds kToBeHeard(1000);
 
 }  // namespace
 
@@ -62,6 +75,8 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   ~Impl() override {
     closing = true;
     bus.errands.forget(this);
+    retire(old);
+    retire(next);
     retire(writer);
   }
 
@@ -99,37 +114,109 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     return status.current_count;
   }
 
-  /// False when this writer is about to go.
-  [[nodiscard]] bool wait(milliseconds most, const std::function<bool()>& enough) const {
-    const auto end = std::chrono::steady_clock::now() + most;
-    while (!closing && !enough() && std::chrono::steady_clock::now() < end) {
-      std::this_thread::sleep_for(milliseconds(20));
-    }
-    return !closing;
+  static bool all_arrived(dds::DataWriter& of, DurationNs within_ns) {
+    return done(of.wait_for_acknowledgments({0, static_cast<std::uint32_t>(within_ns)}));
   }
 
-  /// Another Fast DDS writer goes on in the place of this one (WriterOptions::successor_after).
-  void succeed() {
-    dds::DataWriter* next = create();
-    if (next == nullptr) return;  // the old one is as good, but for those who come anew
-    const auto found = [&] { return readers_of(*next) >= matched; };
-    if (!wait(kToBeFound, found) || !found() || !wait(kToBeSure, [] { return false; })) return retire(next);
-    dds::DataWriter* old = nullptr;
-    {
-      const std::unique_lock lock(writer_mutex);
-      if (exclusive()) writer.load()->wait_for_acknowledgments({0, kToArrive_ns});
-      old = writer.exchange(next);
+  using Step = void (Impl::*)();
+  void then(Step step, milliseconds delay = kLook) {
+    if (!closing)
+      bus.errands.run(
+          this, [this, step] { (this->*step)(); }, 0, delay);
+  }
+
+  /// Another Fast DDS writer goes on in the place of this one (WriterOptions::successor_after). First step;
+  /// the old one is as good, but for those who come anew, so that nothing of this has to succeed.
+  void begin_succession() {
+    next = create();
+    if (next == nullptr) {
+      succeeding = false;
+      return;
+    }
+    began = calm_since = steady_clock::now();
+    then(&Impl::await_successor);
+  }
+
+  void await_successor() {
+    const auto now = steady_clock::now();
+    if (readers_of(*next) < matched || !everybody_is_heard()) calm_since = now;
+    const bool at_last = now - began >= kPatience;
+    if (!at_last && now - calm_since < kToBeSure) return then(&Impl::await_successor);
+    const bool by_itself = !at_last && now - calm_since < kToBeSure + kByItself;
+    if (!(exclusive() ? take_over_at_rest(by_itself, at_last) : take_over())) {
+      return then(&Impl::await_successor);
     }
     old->set_listener(nullptr);
     do {
-      matched = readers_of(*next);
-    } while (matched != readers_of(*next));
-    retire(old);
+      matched = readers_of(*writer.load());
+    } while (matched != readers_of(*writer.load()));
+    changed_at = steady_clock::now();
+    then(&Impl::await_end_of_old);
+  }
+
+  void await_end_of_old() {
+    const auto age = steady_clock::now() - changed_at;
+    if (age < kToBeHeard || (age < kDepth && !all_arrived(*old, 0))) return then(&Impl::await_end_of_old);
+    {
+      const std::unique_lock lock(writer_mutex);
+      predecessor = rtps::SampleIdentity::unknown();
+    }
+    retire(std::exchange(old, nullptr));
+    succeeding = false;
+  }
+
+  [[nodiscard]] bool everybody_is_heard() {
+    const std::lock_guard lock(mutex);
+    bool all = true;  // each is asked about, or it would never count
+    for (const WriterGuid& reader : readers) {
+      const GuidPrefix of = prefix_of(reader);
+      const bool own = of == prefix_of(to_guid(next->guid()));
+      all = (own || bus.hearing->is_heard(of, kBreak_ns)) && all;
+    }
+    return all;
+  }
+
+  /// What the old one has under way arrives beside what the successor writes, which says what it comes after.
+  bool take_over() {
+    const std::unique_lock lock(writer_mutex);
+    predecessor.writer_guid(writer.load()->guid()).sequence_number(newest());
+    change();
+    return true;
+  }
+
+  bool take_over_at_rest(bool by_itself, bool at_last) {
+    constexpr DurationNs kChance_ns = 100 * kNsPerMillisecond;
+    if (by_itself && !all_arrived(*writer.load(), kChance_ns)) return false;
+    const std::unique_lock lock(writer_mutex);
+    const DurationNs may_wait_ns = std::min(kMayWait_ns, offered.deadline_ns / 2);
+    if (!all_arrived(*writer.load(), by_itself ? 0 : may_wait_ns) && !at_last) return false;
+    change();
+    return true;
+  }
+
+  /// Precondition: writer_mutex held.
+  void change() {
+    old = writer.exchange(std::exchange(next, nullptr));
+    newest_number = 0;
+  }
+
+  [[nodiscard]] rtps::SequenceNumber_t newest() const {
+    const std::uint64_t number = newest_number;
+    return {static_cast<std::int32_t>(number >> 32U), static_cast<std::uint32_t>(number)};
   }
 
   void on_publication_matched(dds::DataWriter* of, const dds::PublicationMatchedStatus& status) override {
     const dds::DataWriter* const current = writer;
-    if (current == nullptr || of == current) matched = status.current_count;
+    const bool of_current = current == nullptr || of == current;
+    if (of_current) matched = status.current_count;
+    WriterGuid reader{};
+    for (std::size_t i = 0; i < reader.size(); ++i) reader[i] = status.last_subscription_handle.value[i];
+    const std::lock_guard lock(mutex);
+    if (status.current_count_change > 0) {
+      readers.insert(reader);
+    } else if (of_current) {
+      readers.erase(reader);
+    }
   }
 
   void on_offered_incompatible_qos(dds::DataWriter*,
@@ -183,16 +270,26 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     return "an unknown key";
   }
 
+  /// The number of a sample, among those of its writer; several threads may write.
+  void note(std::uint64_t number) {
+    std::uint64_t known = newest_number;
+    while (number > known && !newest_number.compare_exchange_weak(known, number)) {
+    }
+  }
+
   bool write(const void* sample) {
     if (bus.samples_as) ask_for_short_turns();
     SampleSlot slot{const_cast<void*>(sample), true};
     bool written = false;
     {
       const std::shared_lock lock(writer_mutex);
-      written = done(writer.load()->write(&slot));
+      rtps::WriteParams with;
+      with.related_sample_identity(predecessor);
+      written = done(writer.load()->write(&slot, with));
+      if (written) note(static_cast<std::uint64_t>(with.sample_identity().sequence_number().to64long()));
     }
-    if (successors && ++count % options.successor_after == 0) {
-      bus.errands.run(this, [this] { succeed(); });
+    if (successors && ++count % options.successor_after == 0 && !succeeding.exchange(true)) {
+      then(&Impl::begin_succession, milliseconds(0));
     }
     if (offered.deadline_ns != kForever) track_deadline(slot);  // nobody waits for this
     if (written) {
@@ -219,8 +316,20 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   std::atomic<bool> failed = false;
   std::mutex mutex;
   std::map<std::string, Instance> instances;
+  std::set<WriterGuid> readers;    // matched
   std::shared_mutex writer_mutex;  // the writer does not change while it is held
   std::atomic<dds::DataWriter*> writer = nullptr;
+  std::atomic<std::uint64_t> newest_number = 0;  // of its samples
+  /// The last sample of the old one, while that is there; else unknown.
+  rtps::SampleIdentity predecessor = rtps::SampleIdentity::unknown();
+
+  // Of the errands.
+  std::atomic<bool> succeeding = false;
+  dds::DataWriter* next = nullptr;  // created, and not writing yet
+  dds::DataWriter* old = nullptr;   // no longer writing
+  steady_clock::time_point began;
+  steady_clock::time_point calm_since;
+  steady_clock::time_point changed_at;
 };
 
 WriterCore::WriterCore(Participant& participant, const TopicOps& ops, const WriterOptions& options)

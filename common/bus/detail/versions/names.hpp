@@ -19,6 +19,7 @@
 #include <fastdds/rtps/common/InstanceHandle.h>
 #include <fastdds/rtps/common/Locator.h>
 #include <fastdds/rtps/common/Time_t.h>
+#include <fastdds/rtps/common/WriteParams.h>
 #include <fastrtps/types/TypesBase.h>
 #include <fastrtps/utils/IPLocator.h>
 #else
@@ -27,6 +28,7 @@
 #include <fastdds/rtps/common/Guid.hpp>
 #include <fastdds/rtps/common/InstanceHandle.hpp>
 #include <fastdds/rtps/common/Locator.hpp>
+#include <fastdds/rtps/common/WriteParams.hpp>
 #include <fastdds/utils/IPLocator.hpp>
 #endif
 
