@@ -52,8 +52,14 @@ struct Participant::Impl final : detail::DiscoveryListener {
   void onParticipantAuthentication(detail::dds::DomainParticipant*,
                                    detail::rtps::ParticipantAuthenticationInfo&& info) override;
 
-  /// An entity id below all that were asked for before, and above those that Fast DDS gives by itself.
-  [[nodiscard]] std::int16_t next_lower_id() { return static_cast<std::int16_t>(lower_id_--); }
+  /// An entity id below the one asked for before, and above those that Fast DDS gives by itself. Below it
+  /// both as Fast DDS compares two of them and as Cyclone DDS does, which begins with the lower byte. There
+  /// are some four hundred; then they begin anew.
+  [[nodiscard]] std::int16_t next_lower_id() {
+    constexpr int kBoth = 256 + 123;
+    const int step = lower_ids_++ % kBoth;
+    return static_cast<std::int16_t>(step < 256 ? 0x7FFF - step : 0x7F00 - ((step - 255) << 8));
+  }
 
   /// What Fast DDS could not do about a local writer or reader, with the remedy where it is known.
   [[nodiscard]] std::string why_not(const std::string& topic);
@@ -86,8 +92,8 @@ struct Participant::Impl final : detail::DiscoveryListener {
   void close();
 
   const std::shared_ptr<detail::Onlookers> onlookers_ = std::make_shared<detail::Onlookers>();
-  std::atomic<int> lower_id_ = 32'000;
-  int number_ = -1;  // among the participants of this process
+  std::atomic<int> lower_ids_ = 0;  // given
+  int number_ = -1;                 // among the participants of this process
 
   std::mutex mutex_;
   std::map<std::string, detail::dds::Topic*> topics_;  // owned by participant

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <set>
 #include <shared_mutex>
+#include <thread>
 #include <utility>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -45,6 +46,9 @@ constexpr DurationNs kMayWait_ns = 15 * kNsPerMillisecond;
 
 // Somebody who never says that it got anything does not keep a successor away for ever.
 constexpr milliseconds kPatience(60'000);
+
+// How long the news that a writer left takes to a reader, where nothing is lost.
+constexpr milliseconds kToBeGone(3);
 
 // How long the old one is kept: until all it wrote has arrived, or is too old to be had (the profiles'
 // depth), and at least until the successor is heard.
@@ -146,7 +150,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     if (!(exclusive() ? take_over_at_rest(by_itself, at_last) : take_over())) {
       return then(&Impl::await_successor);
     }
-    old->set_listener(nullptr);
+    if (old != nullptr) old->set_listener(nullptr);
     do {
       matched = readers_of(*writer.load());
     } while (matched != readers_of(*writer.load()));
@@ -156,7 +160,8 @@ struct WriterCore::Impl final : dds::DataWriterListener {
 
   void await_end_of_old() {
     const auto age = steady_clock::now() - changed_at;
-    if (age < kToBeHeard || (age < kDepth && !all_arrived(*old, 0))) return then(&Impl::await_end_of_old);
+    const bool is_done = old == nullptr || (age >= kToBeHeard && all_arrived(*old, 0));
+    if (!is_done && age < kDepth) return then(&Impl::await_end_of_old);
     {
       const std::unique_lock lock(writer_mutex);
       predecessor = rtps::SampleIdentity::unknown();
@@ -190,7 +195,13 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     const std::unique_lock lock(writer_mutex);
     const DurationNs may_wait_ns = std::min(kMayWait_ns, offered.deadline_ns / 2);
     if (!all_arrived(*writer.load(), by_itself ? 0 : may_wait_ns) && !at_last) return false;
+    const bool is_lower = next->guid().entityId < writer.load()->guid().entityId;
     change();
+    if (is_lower) return true;
+    // The ids have begun anew: the old one is the stronger of the two as long as it is there.
+    old->set_listener(nullptr);
+    retire(std::exchange(old, nullptr));
+    std::this_thread::sleep_for(kToBeGone);
     return true;
   }
 

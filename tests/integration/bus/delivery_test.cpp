@@ -106,8 +106,39 @@ TEST(Successor, IsNotOfAWriterThatKeepsSamplesForLateReaders) {
   bus::Writer<ServiceStatus> writer(a, with);
   const bus::WriterGuid first = writer.guid();
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(writer.write(ServiceStatus{}));
-  let_pass(milliseconds(1500));
+  let_pass(milliseconds(3500));
   EXPECT_EQ(writer.guid(), first);
+}
+
+TEST(Successor, OfAnExclusiveTopicIsHeardAlsoWhenTheIdentitiesBeginAnew) {
+  bus::Participant a(options(102, "fusion"));
+  bus::Participant b(options(102, "guidance"));
+  for (int i = 0; i < 378; ++i) {  // of 379
+    const bus::Writer<NavState> uses_one(a);
+  }
+  Inbox<NavState> inbox;
+  bus::WriterOptions with;
+  with.successor_after = 100;
+  bus::Writer<NavState> writer(a, with);
+  bus::ReaderOptions each_one;
+  each_one.profile_suffix = "deep";
+  bus::Reader<NavState> reader(b, inbox.handler(), each_one);
+  ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+  NavState sample;
+  sample.header.vehicle = "auv";
+  const bus::WriterGuid first = writer.guid();
+  const auto write = [&] {
+    ++sample.header.sequence;
+    EXPECT_TRUE(writer.write(sample));
+    return writer.guid() != first;
+  };
+  ASSERT_TRUE(eventually(write, std::chrono::seconds(60)));
+  EXPECT_LT(first, writer.guid());
+  for (int i = 0; i < 50; ++i) {
+    write();
+    let_pass(milliseconds(2));
+  }
+  EXPECT_TRUE(eventually([&] { return inbox.size() == sample.header.sequence; })) << inbox.size();
 }
 
 TEST(Successor, OnItsWayIsNotWaitedForByTheEnd) {

@@ -1,6 +1,8 @@
-/* cyclone_peer nav_state|alignment|route|gps DOMAIN: a Cyclone DDS participant for the tests.
+/* cyclone_peer ROLE DOMAIN: a Cyclone DDS participant for the tests.
  * nav_state, alignment, route: prints the first sample received, one "field value" a line, and exits 0.
- * gps: publishes GpsSample every 20 ms until it is killed. Exits 1 after 20 s without a sample. */
+ * count_imu, count_nav_state: receives until a sample of no vehicle ends it; prints how many came, how many
+ *   numbers were missing, how many were not in order or came twice, the longest pause in ms, and how many
+ * writers. gps: publishes GpsSample every 20 ms until it is killed. Exits 1 after 20 s without a sample. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -102,6 +104,70 @@ static int subscribe(dds_entity_t participant, const dds_topic_descriptor_t* typ
   return 1;
 }
 
+/* What has been counted of one source. */
+struct Count {
+  unsigned long long received, missing, not_in_order, newest;
+  dds_instance_handle_t writer;
+  unsigned writers;
+  dds_time_t last;
+  dds_time_t pause;
+};
+
+static void count_one(struct Count* count, unsigned long long number, dds_instance_handle_t writer) {
+  const dds_time_t now = dds_time();
+  if (count->received > 0) {
+    if (now - count->last > count->pause) count->pause = now - count->last;
+    if (number <= count->newest) {
+      ++count->not_in_order;
+    } else {
+      count->missing += number - count->newest - 1;
+    }
+  }
+  if (writer != count->writer) ++count->writers;
+  count->writer = writer;
+  count->last = now;
+  if (number > count->newest) count->newest = number;
+  ++count->received;
+}
+
+/* The last sample is of no vehicle. */
+static int count_samples(dds_entity_t participant, const dds_topic_descriptor_t* type, const char* name,
+                         dds_qos_t* qos, int of_imu) {
+  dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
+  const dds_entity_t topic = dds_create_topic(participant, type, name, NULL, NULL);
+  check(topic, "topic");
+  const dds_entity_t reader = dds_create_reader(participant, topic, qos, NULL);
+  check(reader, "reader");
+  check(dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS), "status mask");
+  const dds_entity_t waitset = dds_create_waitset(participant);
+  check(dds_waitset_attach(waitset, reader, 0), "attach");
+  struct Count count;
+  memset(&count, 0, sizeof count);
+  for (;;) {
+    if (dds_waitset_wait(waitset, NULL, 0, DDS_SECS(20)) <= 0) return 1;
+    void* samples[64] = {NULL};
+    dds_sample_info_t info[64];
+    const dds_return_t taken = dds_take(reader, samples, info, 64, 64);
+    check(taken, "take");
+    int ended = 0;
+    for (dds_return_t i = 0; i < taken; ++i) {
+      if (!info[i].valid_data) continue;
+      const fathom_v1_ImuSample* imu = samples[i];
+      const fathom_v1_NavState* state = samples[i];
+      if (strcmp(of_imu ? imu->vehicle : state->vehicle, "") == 0) {
+        ended = 1;
+      } else {
+        count_one(&count, of_imu ? imu->sequence_number : state->sequence_number, info[i].publication_handle);
+      }
+    }
+    if (taken > 0) check(dds_return_loan(reader, samples, taken), "return loan");
+    if (ended) break;
+  }
+  printf("received %llu missing %llu not_in_order %llu pause_ms %lld writers %u\n", count.received,
+         count.missing, count.not_in_order, (long long)(count.pause / 1000000), count.writers);
+  return 0;
+}
+
 static int publish_gps(dds_entity_t participant, dds_qos_t* qos) {
   const dds_entity_t topic =
       dds_create_topic(participant, &fathom_v1_GpsSample_desc, "fathom/v1/gps", NULL, NULL);
@@ -127,7 +193,7 @@ static int publish_gps(dds_entity_t participant, dds_qos_t* qos) {
 
 int main(int argc, char** argv) {
   if (argc != 3) {
-    fprintf(stderr, "usage: cyclone_peer nav_state|alignment|route|gps DOMAIN\n");
+    fprintf(stderr, "usage: cyclone_peer nav_state|alignment|route|count_imu|count_nav_state|gps DOMAIN\n");
     return 2;
   }
   const dds_entity_t participant =
@@ -139,6 +205,13 @@ int main(int argc, char** argv) {
     dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
     dds_qset_deadline(qos, DDS_MSECS(30));
     return subscribe(participant, &fathom_v1_NavState_desc, "fathom/v1/nav_state", qos, print_nav_state);
+  }
+  if (strcmp(argv[1], "count_imu") == 0) {
+    return count_samples(participant, &fathom_v1_ImuSample_desc, "fathom/v1/imu", qos, 1);
+  }
+  if (strcmp(argv[1], "count_nav_state") == 0) {
+    dds_qset_ownership(qos, DDS_OWNERSHIP_EXCLUSIVE);
+    return count_samples(participant, &fathom_v1_NavState_desc, "fathom/v1/nav_state", qos, 0);
   }
   if (strcmp(argv[1], "alignment") == 0) {
     dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);

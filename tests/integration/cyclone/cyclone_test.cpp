@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,6 +24,7 @@
 #include "bus/writer.hpp"
 #include "samples/alignment_status.hpp"
 #include "samples/gps.hpp"
+#include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/route.hpp"
 
@@ -188,6 +190,68 @@ TEST(Cyclone, ReceivesTheWaypointsOfARoute) {
             "vehicle auv\npublisher guidance\nactive 1\nrepeats 1\nfirst_number 9\nmission_count 40\n"
             "leg_start_latitude_rad 0.5\nleg_start_longitude_rad nan\n"
             "waypoint 'A buoy' 0.625 -2.25 5 1.5\nwaypoint '' 0.75 2.5 nan nan\n");
+}
+
+/// What the peer counted, by name.
+std::map<std::string, long> counts(const std::string& line) {
+  std::map<std::string, long> found;
+  std::istringstream words(line);
+  std::string name;
+  for (long value = 0; words >> name >> value;) found[name] = value;
+  return found;
+}
+
+/// The peer counts while `writes` samples are written and successors take the writer's place.
+template <class T>
+std::map<std::string, long> counted_by_peer(const char* role, std::uint32_t domain, std::uint64_t each,
+                                            std::chrono::microseconds period, std::uint64_t writes) {
+  bus::Participant participant(options(domain));
+  bus::WriterOptions followed;
+  followed.successor_after = each;
+  bus::Writer<T> writer(participant, followed);
+  CyclonePeer peer(role, domain);
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  while (writer.matched_readers() == 0 && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));  // that the peer knows the writer as well
+  T sample;
+  sample.header.vehicle = "auv";
+  sample.header.sensor = "one";
+  auto next = std::chrono::steady_clock::now();
+  for (std::uint64_t number = 1; number <= writes; ++number) {
+    sample.header.sequence = number;
+    EXPECT_TRUE(writer.write(sample));
+    std::this_thread::sleep_until(next += period);
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  sample.header.vehicle = "";
+  EXPECT_TRUE(writer.write(sample));
+  return counts(peer.output());
+}
+
+// A pause: as long as a busy machine keeps a program waiting, and far below what discovery would take.
+constexpr long kPause_ms = 200;
+
+TEST(Cyclone, HearsASuccessionWithoutAPauseOrALoss) {
+  constexpr std::uint64_t kWrites = 8000;  // 20 s
+  auto heard = counted_by_peer<ImuSample>("count_imu", 134, 1600, std::chrono::microseconds(2500), kWrites);
+  EXPECT_EQ(heard["received"], static_cast<long>(kWrites));
+  EXPECT_EQ(heard["missing"], 0);
+  EXPECT_EQ(heard["not_in_order"], 0);
+  EXPECT_GE(heard["writers"], 3);
+  EXPECT_LT(heard["pause_ms"], kPause_ms);
+}
+
+TEST(Cyclone, HearsASuccessionOfTheNavigationState) {
+  constexpr std::uint64_t kWrites = 3000;  // 30 s
+  auto heard =
+      counted_by_peer<NavState>("count_nav_state", 135, 600, std::chrono::microseconds(10000), kWrites);
+  EXPECT_EQ(heard["received"], static_cast<long>(kWrites));
+  EXPECT_EQ(heard["missing"], 0);
+  EXPECT_EQ(heard["not_in_order"], 0);
+  EXPECT_GE(heard["writers"], 3);
+  EXPECT_LT(heard["pause_ms"], kPause_ms);
 }
 
 TEST(Cyclone, PublishesGpsToUs) {
