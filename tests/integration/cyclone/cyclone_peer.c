@@ -1,8 +1,9 @@
 /* cyclone_peer ROLE DOMAIN: a Cyclone DDS participant for the tests.
  * nav_state, alignment, route: prints the first sample received, one "field value" a line, and exits 0.
- * count_imu, count_nav_state: receives until a sample of no vehicle ends it; prints how many came, how many
- *   numbers were missing, how many were not in order or came twice, the longest pause in ms, and how many
- * writers. gps: publishes GpsSample every 20 ms until it is killed. Exits 1 after 20 s without a sample. */
+ * count_imu, count_nav_state: receives until a sample of no vehicle ends it; prints the first number, how
+ * many came, how many numbers were missing, how many were not in order or came twice, the longest pause in
+ * ms, and how many writers. gps: publishes GpsSample every 20 ms until it is killed. Exits 1 after 20 s
+ * without a sample. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -106,7 +107,7 @@ static int subscribe(dds_entity_t participant, const dds_topic_descriptor_t* typ
 
 /* What has been counted of one source. */
 struct Count {
-  unsigned long long received, missing, not_in_order, newest;
+  unsigned long long first, received, missing, not_in_order, newest;
   dds_instance_handle_t writer;
   unsigned writers;
   dds_time_t last;
@@ -122,6 +123,8 @@ static void count_one(struct Count* count, unsigned long long number, dds_instan
     } else {
       count->missing += number - count->newest - 1;
     }
+  } else {
+    count->first = number;
   }
   if (writer != count->writer) ++count->writers;
   count->writer = writer;
@@ -163,8 +166,9 @@ static int count_samples(dds_entity_t participant, const dds_topic_descriptor_t*
     if (taken > 0) check(dds_return_loan(reader, samples, taken), "return loan");
     if (ended) break;
   }
-  printf("received %llu missing %llu not_in_order %llu pause_ms %lld writers %u\n", count.received,
-         count.missing, count.not_in_order, (long long)(count.pause / 1000000), count.writers);
+  printf("first %llu received %llu missing %llu not_in_order %llu pause_ms %lld writers %u\n", count.first,
+         count.received, count.missing, count.not_in_order, (long long)(count.pause / 1000000),
+         count.writers);
   return 0;
 }
 
