@@ -24,27 +24,23 @@ struct Condition {
 
 /// Latched alarms.
 ///
-/// - hold(): the condition holds now. Raises the alarm, or keeps it and refreshes text and value. While
-/// active the
-///   severity only rises; a rise withdraws an acknowledgement, for it is news.
-/// - release(): the condition does not hold. The alarm clears once it has stayed away for `clear_hold_s`, so
-/// a
-///   condition that flickers faster than that is one alarm, not many.
-/// - An alarm leaves the book only when cleared and acknowledged, in either order. Raised again while still
-/// in the
-///   book it is active and unacknowledged anew, with a new `since`.
-/// - At most kMaxAlarms are kept: a new one then pushes out the oldest cleared alarm, else the oldest active
-/// one of
-///   lower severity, else it is refused; either way dropped() counts it.
+/// An alarm leaves the book only when it is cleared and acknowledged, in either order. Raised again while it
+/// is still in the book, it is active and unacknowledged anew, with a new `since`.
+///
+/// At most kMaxAlarms are kept. A new one then pushes out the oldest cleared alarm, else the oldest active
+/// one of lower severity, else it is refused; either way dropped() counts it.
 class AlarmBook {
  public:
   static constexpr std::size_t kMaxAlarms = 64;
 
   explicit AlarmBook(Name vehicle = {}) : vehicle_(vehicle) {}
 
+  /// The condition holds now. Raises the alarm, or keeps it and refreshes text and value. While it is active
+  /// its severity only rises; a rise withdraws an acknowledgement, for it is news.
   void hold(const Condition& condition, const Instant& now);
-  /// `certain` false: it does not hold as far as is known. An alarm of before a restart then waits for its
-  /// time.
+  /// The condition does not hold. The alarm clears once that has been so for `clear_hold_s`: a condition that
+  /// flickers faster is one alarm, not many.
+  /// `certain` false: as far as is known. An alarm of before a restart then waits for its time.
   void release(const Name& key, const Instant& now, bool certain = false);
   /// hold() or release() by `active`, for conditions whose text is cheap.
   void set(bool active, const Condition& condition, const Instant& now);

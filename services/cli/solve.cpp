@@ -177,6 +177,15 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<SolveOptions>();
   CLI::App* command =
       app.add_subcommand("solve", "Run a recorded data set through the fusion engine, offline.");
+  command->footer(
+      "The data set: imu.csv (t_s, gx_rad_s gy_rad_s gz_rad_s, ax_m_s2 ay_m_s2 az_m_s2, body axes forward, "
+      "right,\n"
+      "down) and any of gps, dvl, depth, heading, usbl, airspeed, propulsion, fins, reference (.csv or "
+      ".csv.gz),\n"
+      "each with t_s in seconds. Their columns: common/dataset/README.md, installed as data-sets.md; one "
+      "that is\n"
+      "missing is named. Configurations to begin from: deploy/config/fusion.json, "
+      "deploy/config/solve/*.json.");
   command
       ->add_option("directory", options->directory,
                    "data set: a folder with imu.csv and others, plain or .gz")

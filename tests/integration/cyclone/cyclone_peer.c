@@ -172,7 +172,7 @@ static int count_samples(dds_entity_t participant, const dds_topic_descriptor_t*
   return 0;
 }
 
-static int publish_gps(dds_entity_t participant, dds_qos_t* qos) {
+_Noreturn static void publish_gps(dds_entity_t participant, dds_qos_t* qos) {
   const dds_entity_t topic =
       dds_create_topic(participant, &fathom_v1_GpsSample_desc, "fathom/v1/gps", NULL, NULL);
   check(topic, "topic");
@@ -228,5 +228,5 @@ int main(int argc, char** argv) {
     dds_qset_deadline(qos, DDS_SECS(3));
     return subscribe(participant, &fathom_v1_Route_desc, "fathom/v1/route", qos, print_route);
   }
-  return publish_gps(participant, qos);
+  publish_gps(participant, qos);
 }

@@ -1,6 +1,10 @@
 // An engine that takes up a drop goes on with it to the last bit, in every phase of the alignment.
 
+#include <fstream>
+#include <iterator>
 #include <set>
+#include <span>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -56,6 +60,37 @@ TEST(SavedStates, OfASurveyWithEveryInstrumentAreTakenUp) {
     FusionEngine another(state.config);
     EXPECT_EQ(another.restore(image), "") << at_s;
   }
+}
+
+/// An engine that goes on from a state which the first version of the archive wrote; no orders.
+NavState gone_on_from(const std::string& file, const test::EngineState& state) {
+  std::ifstream bytes(std::string(FATHOM_VECTORS "/archive/") + file, std::ios::binary);
+  const std::string image((std::istreambuf_iterator<char>(bytes)), {});
+  EXPECT_FALSE(image.empty()) << file;
+  FusionEngine engine(state.config);
+  EXPECT_EQ(engine.restore(std::as_bytes(std::span(image))), "") << file;
+  for (const auto& one : state.next) {
+    std::visit(
+        [&]<class T>(const T& sample) {
+          if constexpr (!std::is_same_v<T, Command>) engine.add(sample);
+        },
+        one);
+  }
+  return engine.nav_state();
+}
+
+// What the build that wrote them made of the second after them.
+TEST(SavedStates, OfTheFirstVersionAreTakenUp) {
+  const NavState survey = gone_on_from("survey.v1", test::survey_state(48.0));
+  EXPECT_NEAR(survey.latitude_rad, 0.63529719041432187, 1e-12);
+  EXPECT_NEAR(survey.longitude_rad, 2.2235066761446785, 1e-12);
+  EXPECT_NEAR(survey.altitude_m, 18.490737483902635, 1e-6);
+  EXPECT_NEAR(survey.rpy_rad[2], 2.5031130389052039, 1e-8);
+  const NavState drop = gone_on_from("drop.v1", test::drop_state(30.0));
+  EXPECT_NEAR(drop.latitude_rad, 0.6000676365507297, 1e-12);
+  EXPECT_NEAR(drop.longitude_rad, 2.0000840493002938, 1e-12);
+  EXPECT_NEAR(drop.altitude_m, -81.900773177163387, 1e-6);
+  EXPECT_NEAR(drop.rpy_rad[0], 0.000294962486762574, 1e-8);
 }
 
 }  // namespace
