@@ -31,6 +31,10 @@ void describe(Schema<sim::EnvironmentConfig>& s) {
       .scaled(kDegree)
       .range(-180, 180);
   s.field("current_N_m_s", &C::current_N_m_s, "velocity of the water: north, east").unit("m/s").range(-5, 5);
+  s.field("current_spread_m_s", &C::current_spread_m_s,
+          "1 sigma by which each component of the true current differs from that, drawn once a run")
+      .unit("m/s")
+      .range(0, 5);
   s.field("current_from_s", &C::current_from_s, "sheltered water before").unit("s").range(0, 1e6);
   s.field("current_ramp_s", &C::current_ramp_s, "the current grows over this time").unit("s").range(0.1, 1e6);
   s.field("wind_N_m_s", &C::wind_N_m_s, "velocity of the air: north, east").unit("m/s").range(-60, 60);

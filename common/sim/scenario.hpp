@@ -18,6 +18,7 @@ struct EnvironmentConfig {
   double bottom_slope_N = 0.0;                    ///< metres deeper per metre north
   double magnetic_variation_rad = 0.0;            ///< east positive
   std::array<double, 2> current_N_m_s{0.0, 0.0};  ///< north, east
+  double current_spread_m_s = 0.0;                ///< 1 sigma of each, about that, drawn once a run
   double current_from_s = 0.0;                    ///< sheltered water before: the current grows from zero ...
   double current_ramp_s = 5.0;                    ///< ... over this time
   std::array<double, 2> wind_N_m_s{0.0, 0.0};     ///< velocity of the air: north, east

@@ -68,6 +68,7 @@ Medium medium_at(const EnvironmentConfig& environment, double t_s, double depth_
 
 struct TruthGenerator::Impl {
   Impl(const Scenario& s, std::uint64_t seed) : scenario(s), vehicle(make_vehicle(s, seed)) {
+    if (scenario.environment.current_spread_m_s > 0.0) draw_current(seed);
     const auto& start = scenario.start;
     x.setZero();
     x[kLat] = start.latitude_rad;
@@ -92,6 +93,12 @@ struct TruthGenerator::Impl {
       return std::any_of(sigma.begin(), sigma.end(), [](double one) { return one > 0.0; });
     };
     return any(spread.position_N_m) || any(spread.velocity_N_m_s) || any(spread.attitude_rad);
+  }
+
+  void draw_current(std::uint64_t seed) {
+    Random random(seed, "environment.current");
+    for (double& component : scenario.environment.current_N_m_s)
+      component += random.normal(scenario.environment.current_spread_m_s);
   }
 
   /// The true start about the configured one: place, velocity over ground, and attitude turned about N.
