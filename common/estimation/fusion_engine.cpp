@@ -17,6 +17,7 @@
 #include "estimation/forecaster.hpp"
 #include "estimation/history.hpp"
 #include "estimation/imu_intake.hpp"
+#include "estimation/newest_kept.hpp"
 #include "estimation/order.hpp"
 #include "estimation/output.hpp"
 
@@ -25,6 +26,7 @@ namespace {
 
 /// Besides two of each measurement held: all of them may be judged otherwise at once, and be final.
 constexpr std::size_t kVerdictsKept = 1024;
+constexpr std::size_t kOutcomesKept = 64;
 
 EngineConfig checked(const EngineConfig& config) {
   const std::string complaint = config.validate();
@@ -216,24 +218,8 @@ class FusionEngine::Impl final : public VerdictSink {
     verdict.is_final = measurement.settled;
   }
 
-  bool next_outcome(OrderOutcome& outcome) {
-    if (outcome_count_ == 0) return false;
-    outcome = outcomes_[first_outcome_];
-    first_outcome_ = (first_outcome_ + 1) % outcomes_.size();
-    --outcome_count_;
-    return true;
-  }
-
-  bool next_verdict(Verdict& verdict) {
-    if (verdict_count_ == 0) {
-      first_verdict_ = 0;  // always the same memory, while they are taken in time
-      return false;
-    }
-    verdict = verdicts_[first_verdict_];
-    first_verdict_ = (first_verdict_ + 1) % verdicts_.size();
-    --verdict_count_;
-    return true;
-  }
+  bool next_outcome(OrderOutcome& outcome) { return outcomes_.pop(outcome); }
+  bool next_verdict(Verdict& verdict) { return verdicts_.pop(verdict); }
 
   template <class Out>
   void fill(Out& out) const {
@@ -271,7 +257,7 @@ class FusionEngine::Impl final : public VerdictSink {
   }
   [[nodiscard]] std::uint64_t repeated_steps() const { return history_.repeated_steps(); }
   [[nodiscard]] bool catching_up() const { return history_.catching_up(); }
-  [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+  [[nodiscard]] std::uint64_t dropped() const { return verdicts_.dropped(); }
 
  private:
   /// Tells the fields of that version, as this build and configuration have them.
@@ -298,11 +284,7 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   void ordered(const Command& command, const Judgement& judgement, const Measurement& measurement) {
-    if (outcome_count_ == outcomes_.size()) {
-      first_outcome_ = (first_outcome_ + 1) % outcomes_.size();
-      --outcome_count_;
-    }
-    OrderOutcome& out = outcomes_[(first_outcome_ + outcome_count_++) % outcomes_.size()];
+    OrderOutcome& out = outcomes_.push();
     out = {};
     out.order = command;
     out.fate = judgement.kind == VerdictKind::used       ? OrderFate::done
@@ -327,15 +309,9 @@ class FusionEngine::Impl final : public VerdictSink {
 
   Verdict& push(const SampleHeader& header, SourceKind source, const Name& writer,
                 const Judgement& judgement) {
-    if (verdict_count_ == verdicts_.size()) {
-      first_verdict_ = (first_verdict_ + 1) % verdicts_.size();
-      --verdict_count_;
-      ++dropped_;
-    }
-    Verdict& verdict = verdicts_[(first_verdict_ + verdict_count_) % verdicts_.size()];
+    Verdict& verdict = verdicts_.push();
     verdict = verdict_of(header, source, judgement);
     verdict.writer = writer;
-    ++verdict_count_;
     return verdict;
   }
 
@@ -347,14 +323,9 @@ class FusionEngine::Impl final : public VerdictSink {
   mutable NavState nav_;          ///< filled when asked for
   mutable bool filled_ = true;
   Measurement incoming_;
-  std::array<OrderOutcome, 64> outcomes_;
-  std::size_t first_outcome_ = 0;
-  std::size_t outcome_count_ = 0;
   std::vector<Name> names_;
-  std::vector<Verdict> verdicts_;
-  std::size_t first_verdict_ = 0;
-  std::size_t verdict_count_ = 0;
-  std::uint64_t dropped_ = 0;
+  NewestKept<Verdict> verdicts_;
+  NewestKept<OrderOutcome> outcomes_{kOutcomesKept};
   std::optional<InitialState> pending_start_;
 };
 

@@ -9,19 +9,12 @@ namespace {
 
 constexpr double kDescribeS = 1.0;  // what discovery knows of a writer comes a little after its samples
 
-// A writer that is followed by another one of its process is no other writer.
-constexpr std::size_t kParticipant = 12;
-
-bool same_process(const WriterId& a, const WriterId& b) {
-  return std::equal(a.begin(), a.begin() + kParticipant, b.begin());
-}
-
 }  // namespace
 
 void WriterChange::note(Stream& stream, const WriterId& writer, const Instant& now) {
   if (writer == WriterId{}) return;
   const bool first = stream.writer == WriterId{};
-  if (!first && !same_process(writer, stream.writer)) {
+  if (!first && !of_same_process(writer, stream.writer)) {
     // Of several changes between two reports the first writer and the last one are told.
     if (!stream.changed) stream.before = stream.words;
     stream.changed = true;

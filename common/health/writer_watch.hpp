@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/writer_guid.hpp"
 #include "health/alarm_book.hpp"
 #include "health/instant.hpp"
 #include "samples/verdict.hpp"
@@ -15,7 +16,7 @@
 namespace fathom::health {
 
 /// Identity of a writer on the vehicle network; all zero: not known.
-using WriterId = std::array<std::uint8_t, 16>;
+using WriterId = WriterGuid;
 
 /// "gps_bridge (process 12 on host auv1)": what discovery knows of a writer.
 using DescribeWriter = std::function<std::string(const WriterId&)>;

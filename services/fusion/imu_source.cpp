@@ -1,22 +1,11 @@
 #include "fusion/imu_source.hpp"
 
-#include <algorithm>
+#include "base/writer_guid.hpp"
 
 namespace fathom::fusion {
-namespace {
-
-// A writer that is followed by another one of its process is no other writer.
-constexpr std::size_t kParticipant = 12;
-
-bool same_process(const bus::WriterGuid& a, const bus::WriterGuid& b) {
-  return std::equal(a.begin(), a.begin() + kParticipant, b.begin());
-}
-
-}  // namespace
-
 ImuSource::Hearing ImuSource::hear(const Name& unit, const bus::WriterGuid& writer, TimeNs now_ns) {
   if (unit != unit_) return Hearing::other_unit;
-  if (heard_ && !same_process(writer, writer_)) {
+  if (heard_ && !of_same_process(writer, writer_)) {
     if (now_ns - last_ns_ <= patience_ns_) {
       ++rivals_;
       return Hearing::other_writer;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -18,12 +17,9 @@
 #include <optional>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include <fathom/client.hpp>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -34,6 +30,7 @@
 #include "config/service_config.hpp"
 #include "estimation/fusion_engine.hpp"
 #include "geo/wgs84.hpp"
+#include "guidance.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
 #include "samples/depth.hpp"
@@ -50,80 +47,6 @@
 
 namespace fathom::test {
 namespace {
-
-constexpr std::uint32_t kDomain = 94;
-constexpr double kPatienceS = 120.0;
-constexpr double kUnderWayDepth_m = 3.0;
-
-struct Heard {
-  NavState state;
-  TimeNs arrived_ns = 0;
-};
-
-/// Guidance, and what the services say of themselves.
-class Guidance {
- public:
-  Guidance()
-      : participant_(presence(kDomain, "takeover_bench")),
-        states_(participant_,
-                [this](const NavState& state, const bus::SampleInfo&) {
-                  const std::lock_guard lock(mutex_);
-                  heard_.push_back({state, clock_.monotonic_ns()});
-                }),
-        services_(participant_,
-                  [this](const ServiceStatus& status, const bus::SampleInfo&) {
-                    const std::lock_guard lock(mutex_);
-                    pids_[status.header.sensor.str()] = static_cast<pid_t>(status.pid);
-                  }),
-        replicas_(participant_, [this](const ReplicaStatus& status, const bus::SampleInfo&) {
-          const std::lock_guard lock(mutex_);
-          replicas_heard_[status.header.sensor.str()] = status;
-        }) {}
-
-  [[nodiscard]] std::size_t count() const {
-    const std::lock_guard lock(mutex_);
-    return heard_.size();
-  }
-  [[nodiscard]] std::vector<Heard> since(std::size_t from) const {
-    const std::lock_guard lock(mutex_);
-    return {heard_.begin() + static_cast<std::ptrdiff_t>(from), heard_.end()};
-  }
-  [[nodiscard]] std::optional<NavState> newest() const {
-    const std::lock_guard lock(mutex_);
-    return heard_.empty() ? std::nullopt : std::optional(heard_.back().state);
-  }
-  [[nodiscard]] pid_t pid(const std::string& service) const {
-    const std::lock_guard lock(mutex_);
-    const auto found = pids_.find(service);
-    return found == pids_.end() ? -1 : found->second;
-  }
-  /// Both are there and know the same; accounts from before `since_ns` (UTC) do not count.
-  [[nodiscard]] bool both_in_step(TimeNs since_ns) const {
-    const std::lock_guard lock(mutex_);
-    int in_step = 0;
-    for (const auto& [name, status] : replicas_heard_) {
-      in_step += status.phase == ReplicaPhase::in_step && status.header.stamp_ns > since_ns ? 1 : 0;
-    }
-    return in_step == 2;
-  }
-  [[nodiscard]] std::uint64_t unprepared() const {
-    const std::lock_guard lock(mutex_);
-    std::uint64_t sum = 0;
-    for (const auto& [name, status] : replicas_heard_) sum += status.unprepared;
-    return sum;
-  }
-
- private:
-  SystemClock clock_;
-  mutable std::mutex mutex_;
-  std::vector<Heard> heard_;
-  std::map<std::string, pid_t> pids_;
-  std::map<std::string, ReplicaStatus> replicas_heard_;
-  bus::Participant participant_;
-  bus::Reader<NavState> states_;
-  bus::Reader<ServiceStatus> services_;
-  bus::Reader<ReplicaStatus> replicas_;
-};
 
 /// Hears what the fusion services hear, and nobody kills it: an engine of their configuration.
 class Witness {
@@ -223,22 +146,6 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-/// A vehicle navigates, in the soak test in the dive; one that has come to its end is begun again.
-bool under_way(const Guidance& guidance, std::optional<Process>& demo, bool soak,
-               const std::vector<std::string>& options, const std::function<void()>& begins) {
-  if (!demo || !demo->running()) {
-    begins();
-    std::vector<std::string> arguments{"--no-console", "--domain", std::to_string(kDomain), "--duration",
-                                       "470"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    demo.emplace("fathom-demo", arguments);
-  }
-  const auto newest = guidance.newest();
-  if (!newest || newest->alignment != AlignmentPhase::aligned) return false;
-  // A fix is a step of its own: what is measured is measured in the dive.
-  return !soak || (newest->depth_m > kUnderWayDepth_m && newest->mode > NavMode::gps_aided);
-}
-
 TEST(Takeover, OfALeaderThatIsKilled) {
   const bool soak = std::getenv("FATHOM_SOAK") != nullptr;
   const std::size_t times = soak ? 100 : 3;
@@ -315,72 +222,6 @@ TEST(Takeover, OfALeaderThatIsKilled) {
   EXPECT_EQ(guidance.unprepared(), 0U);
   EXPECT_LE(quantile(gaps_ms, 0.5), 40.0);
   EXPECT_LE(quantile(gaps_ms, 1.0), 100.0);
-}
-
-/// Twice as many compilers as there are processors, as far as they matter: they never wait.
-class BusyMachine {
- public:
-  BusyMachine() {
-    const unsigned count = 2 * std::max(1U, std::thread::hardware_concurrency());
-    for (unsigned i = 0; i < count; ++i) {
-      const pid_t pid = fork();
-      if (pid == 0) {
-        for (std::atomic<std::uint64_t> work = 0;;) work.fetch_add(1, std::memory_order_relaxed);
-      }
-      pids_.push_back(pid);
-    }
-  }
-  ~BusyMachine() {
-    for (const pid_t pid : pids_) {
-      ::kill(pid, SIGKILL);
-      waitpid(pid, nullptr, 0);
-    }
-  }
-  BusyMachine(const BusyMachine&) = delete;
-  BusyMachine& operator=(const BusyMachine&) = delete;
-
- private:
-  std::vector<pid_t> pids_;
-};
-
-TEST(Takeover, OnABusyMachine) {
-  const bool soak = std::getenv("FATHOM_SOAK") != nullptr;
-  const double span_s = soak ? 30.0 : 5.0;
-  std::optional<Process> demo;
-  std::optional<BusyMachine> busy;
-  std::mutex mutex;
-  std::vector<NavState> handed;
-  Client client({.domain = kDomain, .vehicle = "auv"});
-  Guidance guidance;
-  ASSERT_TRUE(
-      wait_until([&] { return under_way(guidance, demo, false, {"--standby"}, [] {}); }, 3.0 * kPatienceS));
-  const TimeNs since_ns = SystemClock().utc_ns();
-  ASSERT_TRUE(wait_until([&] { return guidance.both_in_step(since_ns); }, kPatienceS));
-  client.on_nav_state([&](const NavState& state) {
-    const std::lock_guard lock(mutex);
-    handed.push_back(state);
-  });
-  busy.emplace();
-  std::this_thread::sleep_for(std::chrono::duration<double>(span_s));
-  busy.reset();
-  const std::lock_guard lock(mutex);
-  ASSERT_GT(handed.size(), 1U);
-  std::size_t changes = 0;
-  std::size_t twice = 0;
-  double longest_s = 0.0;
-  for (std::size_t i = 1; i < handed.size(); ++i) {
-    const NavState& before = handed[i - 1];
-    const NavState& after = handed[i];
-    changes += before.header.sensor != after.header.sensor ? 1U : 0U;
-    twice += before.header.stamp_ns == after.header.stamp_ns ? 1U : 0U;
-    longest_s = std::max(longest_s, to_seconds(after.header.stamp_ns - before.header.stamp_ns));
-  }
-  const double due = 100.0 * to_seconds(handed.back().header.stamp_ns - handed.front().header.stamp_ns) + 1.0;
-  std::printf(
-      "on a busy machine, %.0f s: %zu changes of the leader, %zu states handed twice, %.1f %% missing, "
-      "longest gap %.2f s\n",
-      span_s, changes, twice, 100.0 * (1.0 - static_cast<double>(handed.size()) / due), longest_s);
-  EXPECT_EQ(twice, 0U);
 }
 
 /// When a process began, by the clock that counts from the start of the machine; seconds, to 10 ms.
