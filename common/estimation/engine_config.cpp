@@ -4,7 +4,7 @@
 #include <set>
 #include <sstream>
 
-#include "estimation/state_index.hpp"
+#include "estimation/filter/state_index.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "sim/simulation.hpp"
 
 namespace fathom::study {

@@ -1,10 +1,10 @@
 #include "study/registry.hpp"
 
 #include "study/alignment.hpp"
-#include "study/gps_outage.hpp"
+#include "study/gps_outage/gps_outage.hpp"
 #include "study/hydro/hydro_study.hpp"
-#include "study/rotating_arm.hpp"
-#include "study/survey.hpp"
+#include "study/rotating_arm/rotating_arm.hpp"
+#include "study/survey/survey.hpp"
 
 namespace fathom::study {
 

@@ -9,7 +9,7 @@
 #include "cli/bench_updates.hpp"
 #include "cli/bench_vehicle.hpp"
 #include "cli/command.hpp"
-#include "estimation/core.hpp"
+#include "estimation/navigator/core.hpp"
 
 namespace fathom::cli {
 namespace {

@@ -4,9 +4,9 @@
 #include "cli/bench_vehicle.hpp"
 #include "cli/command.hpp"
 #include "estimation/aiding/model_velocity.hpp"
-#include "estimation/error_filter.hpp"
-#include "estimation/hydro/embedded_filter.hpp"
+#include "estimation/filter/error_filter.hpp"
 #include "geo/so3.hpp"
+#include "study/baselines/embedded_filter.hpp"
 #include "study/hydro/vehicles.hpp"
 
 namespace fathom::cli {
@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector3d;
 using estimation::hydro::Controls;
-using estimation::hydro::EmbeddedFilter;
+using study::hydro::EmbeddedFilter;
 
 constexpr int kSteps = 40;
 constexpr double kRpm = 1500.0;
@@ -41,7 +41,7 @@ BenchRow ukf_step(const char* name, int rounds) {
   const BenchRow row = compare(
       name, rounds, kSteps, [&] { filter = base; }, [&] { filter.step(controls, dvl); },
       [&] {
-        for (int i = 0; i < estimation::Ukf<N>::kPoints; ++i) {
+        for (int i = 0; i < study::Ukf<N>::kPoints; ++i) {
           nu[5] += 1e-9;
           sum += model.step(nu, Vector3d::UnitZ(), controls, EmbeddedFilter<N>::kStep_s);
         }
@@ -107,8 +107,8 @@ BenchRow model_velocity(int rounds) {
 }  // namespace
 
 void bench_hydro(int rounds, const std::function<void(const BenchRow&)>& done) {
-  done(ukf_step<estimation::hydro::kPrintedStates>("ukf_step_printed", rounds));
-  done(ukf_step<estimation::hydro::kLinkedStates>("ukf_step_linked", rounds));
+  done(ukf_step<study::hydro::kPrintedStates>("ukf_step_printed", rounds));
+  done(ukf_step<study::hydro::kLinkedStates>("ukf_step_linked", rounds));
   done(model_velocity(rounds));
 }
 

@@ -3,8 +3,8 @@
 #include <variant>
 #include <vector>
 
-#include "estimation/core.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
+#include "estimation/navigator/core.hpp"
 
 namespace fathom::cli {
 

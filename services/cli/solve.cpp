@@ -23,7 +23,7 @@
 #include "dataset/dataset.hpp"
 #include "dataset/nav_csv.hpp"
 #include "dataset/score.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 
 namespace fathom::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "estimation/hydro/calibration.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"

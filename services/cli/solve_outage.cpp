@@ -8,7 +8,7 @@
 
 #include "cli/command.hpp"
 #include "cli/solve_smooth.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "sim/random.hpp"
 
 namespace fathom::cli {

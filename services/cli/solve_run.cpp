@@ -6,7 +6,7 @@
 #include "base/unknown.hpp"
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 
 namespace fathom::cli {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/clock.hpp"
 #include "cli/progress.hpp"
-#include "estimation/smoother.hpp"
+#include "estimation/smoothing/smoother.hpp"
 
 namespace fathom::cli {
 

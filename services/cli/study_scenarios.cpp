@@ -17,7 +17,7 @@
 #include "config/scenario_wiring.hpp"
 #include "config/service_config.hpp"
 #include "dataset/score.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "sim/simulation.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "config/fusion_config.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "fusion/checkpoint.hpp"
 
 namespace fathom::fusion {

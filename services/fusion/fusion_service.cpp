@@ -15,7 +15,7 @@
 
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "fusion/arrival_log.hpp"
 #include "fusion/checkpoint.hpp"
 #include "fusion/checkpoint_keeper.hpp"

@@ -8,7 +8,7 @@
 
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "fusion/life_sign.hpp"
 #include "fusion/verdict_relay.hpp"
 #include "host/service_host.hpp"

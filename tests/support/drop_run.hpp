@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 #include "sim/simulation.hpp"

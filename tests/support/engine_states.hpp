@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "support/drop_run.hpp"
 #include "support/small_vehicle.hpp"
 #include "support/survey_run.hpp"

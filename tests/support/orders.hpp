@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 
 namespace fathom::test {
 

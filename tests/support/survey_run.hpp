@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "support/analytic_vehicle.hpp"
 
 namespace fathom::test {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "estimation/nav_solution.hpp"
-#include "estimation/observation.hpp"
+#include "estimation/filter/nav_solution.hpp"
+#include "estimation/filter/observation.hpp"
 
 namespace fathom::estimation {
 

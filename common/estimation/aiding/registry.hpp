@@ -5,7 +5,7 @@
 
 #include "estimation/aiding/model.hpp"
 #include "estimation/hydro/water_velocity.hpp"
-#include "estimation/measurement.hpp"
+#include "estimation/navigator/measurement.hpp"
 
 namespace fathom::estimation {
 

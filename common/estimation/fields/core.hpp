@@ -1,8 +1,8 @@
 #pragma once
 
-#include "estimation/core.hpp"
 #include "estimation/fields/alignment.hpp"
 #include "estimation/fields/filter.hpp"
+#include "estimation/navigator/core.hpp"
 
 /// Fields of the navigator and of what it remembers.
 namespace fathom::estimation {

@@ -2,7 +2,7 @@
 
 #include "archive/covariance.hpp"
 #include "archive/values.hpp"
-#include "estimation/error_filter.hpp"
+#include "estimation/filter/error_filter.hpp"
 
 /// Fields of the estimate and its covariance.
 namespace fathom::estimation {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "archive/samples.hpp"
-#include "estimation/core.hpp"
-#include "estimation/measurement.hpp"
+#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/measurement.hpp"
 
 /// Fields of what acts on the navigator: inertial steps, measurements, orders.
 namespace fathom::estimation {

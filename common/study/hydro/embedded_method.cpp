@@ -4,17 +4,14 @@
 
 #include <Eigen/LU>
 
-#include "estimation/hydro/embedded_filter.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "study/baselines/embedded_filter.hpp"
 
 namespace fathom::study::hydro {
 namespace {
 
 using estimation::hydro::Controls;
-using estimation::hydro::EmbeddedFilter;
-using estimation::hydro::EmbeddedFilterConfig;
-using estimation::hydro::SlavedNavigator;
 
 estimation::NavSolution start_of(const Run& run) {
   estimation::NavSolution nav;
@@ -70,7 +67,7 @@ std::vector<ErrorPoint> run_embedded(const Run& run) {
   config.tilt_rad = run.start.attitude_sigma_rad[0];
   config.heading_rad = run.start.attitude_sigma_rad[2];
   // The printed filter keeps the printed noise; the other is told what the instrument is.
-  if constexpr (N == estimation::hydro::kLinkedStates) config.dvl_m_s = dvl_equivalent_sigma_m_s();
+  if constexpr (N == kLinkedStates) config.dvl_m_s = dvl_equivalent_sigma_m_s();
   EmbeddedFilter<N> filter(run.coefficients, config);
   filter.start(start_of(run), 0.0);
   std::vector<ErrorPoint> out;
@@ -106,11 +103,11 @@ std::vector<ErrorPoint> run_ins(const Run& run) {
 }
 
 std::vector<ErrorPoint> run_printed(const Run& run) {
-  return run_embedded<estimation::hydro::kPrintedStates>(run);
+  return run_embedded<kPrintedStates>(run);
 }
 
 std::vector<ErrorPoint> run_linked(const Run& run) {
-  return run_embedded<estimation::hydro::kLinkedStates>(run);
+  return run_embedded<kLinkedStates>(run);
 }
 
 }  // namespace fathom::study::hydro

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 

@@ -28,7 +28,7 @@
 #include "bus/reader.hpp"
 #include "config/fusion_config.hpp"
 #include "config/service_config.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "geo/wgs84.hpp"
 #include "guidance.hpp"
 #include "samples/actuator.hpp"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "estimation/strapdown.hpp"
+#include "estimation/filter/strapdown.hpp"
 #include "geo/so3.hpp"
 #include "support/normal_potential.hpp"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/aiding/registry.hpp"
-#include "estimation/core.hpp"
+#include "estimation/navigator/core.hpp"
 #include "support/analytic_vehicle.hpp"
 
 namespace fathom::estimation {

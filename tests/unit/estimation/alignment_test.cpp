@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/alignment/rest_window.hpp"
-#include "estimation/forecaster.hpp"
+#include "estimation/engine/forecaster.hpp"
 #include "support/orders.hpp"
 #include "support/survey_run.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/core.hpp"
+#include "estimation/navigator/core.hpp"
 #include "support/road_run.hpp"
 
 namespace fathom::estimation {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/aiding/registry.hpp"
-#include "estimation/gate.hpp"
+#include "estimation/filter/gate.hpp"
 #include "support/analytic_vehicle.hpp"
 
 namespace fathom::estimation {

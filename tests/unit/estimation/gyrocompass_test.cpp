@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 #include "sim/random.hpp"

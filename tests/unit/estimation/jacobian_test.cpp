@@ -5,8 +5,8 @@
 #include "estimation/aiding/non_holonomic.hpp"
 #include "estimation/aiding/registry.hpp"
 #include "estimation/aiding/zero_velocity.hpp"
-#include "estimation/error_filter.hpp"
-#include "estimation/strapdown.hpp"
+#include "estimation/filter/error_filter.hpp"
+#include "estimation/filter/strapdown.hpp"
 #include "support/analytic_vehicle.hpp"
 
 namespace fathom::estimation {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "estimation/hydro/water_velocity.hpp"
 #include "support/small_vehicle.hpp"
 #include "support/survey_run.hpp"

@@ -1,11 +1,11 @@
-#include "estimation/order.hpp"
+#include "estimation/engine/order.hpp"
 
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "support/orders.hpp"
 #include "support/survey_run.hpp"
 

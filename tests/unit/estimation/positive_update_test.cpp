@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "archive/covariance.hpp"
-#include "estimation/error_filter.hpp"
+#include "estimation/filter/error_filter.hpp"
 #include "support/orders.hpp"
 #include "support/survey_run.hpp"
 

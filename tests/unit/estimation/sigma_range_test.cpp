@@ -1,10 +1,10 @@
-#include "estimation/sigma_range.hpp"
+#include "estimation/filter/sigma_range.hpp"
 
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "estimation/order.hpp"
+#include "estimation/engine/order.hpp"
 #include "support/orders.hpp"
 #include "support/survey_run.hpp"
 

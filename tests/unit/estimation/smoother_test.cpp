@@ -1,5 +1,5 @@
 // The smoother over a simulated survey: better than the filter, honest, repeatable, and blind across resets.
-#include "estimation/smoother.hpp"
+#include "estimation/smoothing/smoother.hpp"
 
 #include <algorithm>
 #include <cmath>

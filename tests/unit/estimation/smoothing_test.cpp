@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "estimation/filter_log.hpp"
+#include "estimation/smoothing/filter_log.hpp"
 #include "geo/so3.hpp"
 #include "support/analytic_vehicle.hpp"
 #include "support/vectors.hpp"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/fields/core.hpp"
-#include "estimation/fields/intake.hpp"
+#include "estimation/fields/imu_preprocessor.hpp"
 #include "estimation/fields/measurement.hpp"
 
 namespace fathom::estimation {
@@ -98,7 +98,7 @@ TEST(StateFields, NoneIsForgotten) {
   EXPECT_EQ(holes(SpeedTrack()), "");
   EXPECT_EQ(holes(UnderWay()), "");
   EXPECT_EQ(holes(hydro::WaterVelocity()), "");
-  EXPECT_EQ(holes(ImuIntake(setup)), "");
+  EXPECT_EQ(holes(ImuPreprocessor(setup)), "");
   EXPECT_EQ(holes(ImuStep()), "");
   EXPECT_EQ(holes(Measurement()), "");
 }

@@ -1,4 +1,4 @@
-#include "estimation/state_index.hpp"
+#include "estimation/filter/state_index.hpp"
 
 #include <set>
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "support/survey_run.hpp"
 
 namespace fathom::estimation {

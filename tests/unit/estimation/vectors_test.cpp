@@ -6,8 +6,8 @@
 #include "estimation/aiding/dvl_velocity.hpp"
 #include "estimation/aiding/heading.hpp"
 #include "estimation/alignment/rest_window.hpp"
-#include "estimation/error_filter.hpp"
-#include "estimation/strapdown.hpp"
+#include "estimation/filter/error_filter.hpp"
+#include "estimation/filter/strapdown.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -15,7 +15,7 @@
 #include "config/fusion_config.hpp"
 #include "config/scenario_config.hpp"
 #include "config/scenario_wiring.hpp"
-#include "estimation/fusion_engine.hpp"
+#include "estimation/engine/fusion_engine.hpp"
 #include "geo/wgs84.hpp"
 #include "samples/nav_detail.hpp"
 #include "sim/simulation.hpp"

@@ -1,0 +1,423 @@
+#include "estimation/engine/fusion_engine.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "archive/layout.hpp"
+#include "archive/reader.hpp"
+#include "archive/writer.hpp"
+#include "estimation/engine/forecaster.hpp"
+#include "estimation/engine/history.hpp"
+#include "estimation/engine/imu_preprocessor.hpp"
+#include "estimation/engine/newest_kept.hpp"
+#include "estimation/engine/order.hpp"
+#include "estimation/engine/output.hpp"
+#include "estimation/fields/core.hpp"
+#include "estimation/fields/imu_preprocessor.hpp"
+#include "estimation/fields/state_head.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+/// Besides two of each measurement held: all of them may be judged otherwise at once, and be final.
+constexpr std::size_t kVerdictsKept = 1024;
+constexpr std::size_t kOutcomesKept = 64;
+
+EngineConfig checked(const EngineConfig& config) {
+  const std::string complaint = config.validate();
+  if (!complaint.empty()) throw std::invalid_argument(complaint);
+  return config;
+}
+
+}  // namespace
+
+class FusionEngine::Impl final : public VerdictSink {
+ public:
+  explicit Impl(const EngineConfig& config)
+      : setup_(checked(config)),
+        intake_(setup_),
+        history_(setup_),
+        forecaster_(setup_),
+        verdicts_(kVerdictsKept + 2 * setup_.config.measurement_capacity) {
+    nav_.header.vehicle = std::string_view(setup_.config.vehicle);
+    nav_.header.sensor = std::string_view(setup_.config.sensor);
+    for (const SensorConfig& one : setup_.config.sensors) names_.emplace_back(one.sensor);
+  }
+
+  bool add(const ImuSample& sample) {
+    if (!sound_stamp(sample.header.stamp_ns)) {
+      Judgement judgement;
+      judgement.kind = VerdictKind::out_of_range;
+      refuse(sample.header, SourceKind::imu, {}, judgement);
+      return false;
+    }
+    const ImuPreprocessor::Result result = intake_.take(sample);
+    switch (result.outcome) {
+      case ImuPreprocessor::Outcome::refused: {
+        Judgement judgement;
+        judgement.kind = result.refusal;
+        refuse(sample.header, SourceKind::imu, {}, judgement);
+        return false;
+      }
+      case ImuPreprocessor::Outcome::first:
+        history_.begin(sample.header.stamp_ns, *this);
+        break;
+      case ImuPreprocessor::Outcome::rebased:
+        history_.rebase(sample.header.stamp_ns, result.unobserved_s, *this);
+        break;
+      case ImuPreprocessor::Outcome::step:
+        history_.advance(result.step, *this);
+        break;
+    }
+    if (pending_start_ && sample.header.stamp_ns >= pending_start_->stamp_ns) {
+      history_.begin_given(*pending_start_, sample.header.stamp_ns, *this);
+      pending_start_.reset();
+    }
+    forecaster_.watch(history_.core());
+    nav_.header.stamp_ns = sample.header.stamp_ns;
+    nav_.header.received_ns = sample.header.received_ns;
+    ++nav_.header.sequence;
+    filled_ = false;
+    return true;
+  }
+
+  template <class Sample>
+  void add(const Sample& sample, SourceKind source, const Name& writer) {
+    Judgement judgement;
+    const int sensor = find(sample.header.sensor, source);
+    if (sensor < 0 || !sound_stamp(sample.header.stamp_ns)) {
+      judgement.kind = sensor < 0 ? VerdictKind::source_disabled : VerdictKind::out_of_range;
+      refuse(sample.header, source, writer, judgement);
+      return;
+    }
+    Measurement& one = incoming_;
+    one.stamp_ns = sample.header.stamp_ns -
+                   from_seconds(setup_.config.sensors[static_cast<std::size_t>(sensor)].latency_s);
+    one.command = false;
+    one.judged = one.settled = false;
+    one.revision = 0;
+    one.writer = writer;
+    one.source = source;
+    one.sensor = sensor;
+    one.sequence = sample.header.sequence;
+    one.sample = sample;
+    switch (history_.insert(one, *this)) {
+      case History::Placing::taken:
+        forecaster_.remember(sensor, one.sample);
+        return;
+      case History::Placing::late:
+        judgement.kind = VerdictKind::late;
+        break;
+      case History::Placing::duplicate:
+        judgement.kind = VerdictKind::duplicate;
+        break;
+      case History::Placing::from_the_future:
+        judgement.kind = VerdictKind::from_the_future;
+        break;
+      case History::Placing::not_started:
+        judgement.kind = VerdictKind::not_aligned;
+        break;
+    }
+    refuse(sample.header, source, writer, judgement);
+  }
+
+  [[nodiscard]] std::string objection(const Command& command) const {
+    const bool target =
+        command.kind == CommandKind::enable_source || command.kind == CommandKind::disable_source;
+    if (target && std::find(names_.begin(), names_.end(), command.target) == names_.end())
+      return "it names no sensor of the configuration";
+    return objection_to(command);
+  }
+
+  std::string apply(const Command& command) {
+    if (std::string why = objection(command); !why.empty()) return why;
+    if (!sound_stamp(command.header.stamp_ns)) return "its stamp is no instant of this age";
+    Measurement& one = incoming_;
+    one.command = true;
+    one.judged = one.settled = false;
+    one.revision = 0;
+    one.writer = {};
+    one.source = SourceKind::imu;
+    one.sensor = -1;
+    one.sequence = order_number(command);
+    one.stamp_ns = command.header.stamp_ns;
+    one.sample = command;
+    switch (history_.insert(one, *this)) {
+      case History::Placing::taken:
+        break;
+      case History::Placing::late:
+        return too_far(command, "before");
+      case History::Placing::from_the_future:
+        return too_far(command, "after");
+      case History::Placing::duplicate:
+        return "it was given before";
+      case History::Placing::not_started:
+        return "navigation has not begun";
+    }
+    return {};
+  }
+
+  void start_from(const InitialState& state) {
+    (void)nav_state();  // the last one stands until the next inertial sample
+    history_.clear(*this);
+    intake_ = ImuPreprocessor(setup_);
+    pending_start_ = state;
+  }
+
+  void finish() {
+    history_.settle(*this);
+    if (nav_.header.sequence > 0) filled_ = false;
+  }
+
+  bool save(std::vector<std::byte>& out) const {
+    if (!history_.started() || pending_start_) return false;
+    archive::Writer image(out, kStateVersion);
+    const SampleHeader& newest = nav_.header;
+    const StateHead head{StateHead::kMagic, kStateVersion,   layout(kStateVersion),
+                         newest.sequence,   newest.stamp_ns, newest.received_ns};
+    image("head", head);
+    image("intake", intake_);
+    history_.write(image);
+    return true;
+  }
+
+  std::string restore(std::span<const std::byte> bytes) {
+    archive::Reader image(bytes);
+    StateHead head;
+    image("head", head);
+    if (!image.good()) return image.complaint();
+    if (head.layout != layout(head.version))
+      return "its fields are not those that this build expects of version " + std::to_string(head.version);
+    ImuPreprocessor intake(setup_);
+    image.set_version(head.version);
+    image("intake", intake);
+    image.expect(intake.newest_ns() == head.stamp_ns, "intake.last_ns", "the stamp of the state");
+    if (std::string why = history_.read(image, head.stamp_ns, *this); !why.empty()) return why;
+    intake_ = intake;
+    nav_.header.stamp_ns = head.stamp_ns;
+    nav_.header.received_ns = head.received_ns;
+    nav_.header.sequence = head.sequence;
+    filled_ = false;
+    pending_start_.reset();
+    history_.for_each_event([this](const Measurement& one) {
+      if (!one.command) forecaster_.remember(one.sensor, one.sample);
+    });
+    return {};
+  }
+
+  void judged(const Measurement& measurement, const Judgement& judgement, VerdictKind previous) override {
+    if (measurement.command) return ordered(std::get<Command>(measurement.sample), judgement, measurement);
+    Verdict& verdict = push(measurement.header(), measurement.source, measurement.writer, judgement);
+    verdict.revision = measurement.revision;
+    verdict.previous = previous;
+    verdict.is_final = measurement.settled;
+  }
+
+  bool next_outcome(OrderOutcome& outcome) { return outcomes_.pop(outcome); }
+  bool next_verdict(Verdict& verdict) { return verdicts_.pop(verdict); }
+
+  template <class Out>
+  void fill(Out& out) const {
+    stamp(out.header);
+    estimation::fill(setup_, history_.core(), out);
+  }
+
+  void take_forecast() {
+    stamp(forecast_header_);
+    forecaster_.take(history_.core());
+  }
+
+  void fill_taken(Forecast& out) {
+    out.header = forecast_header_;
+    forecaster_.fill(out);
+  }
+
+  [[nodiscard]] double forecast_horizontal_95_m(double after_s) {
+    forecaster_.take(history_.core());
+    return forecaster_.horizontal_95_m(after_s);
+  }
+
+  [[nodiscard]] Matrix9 navigation_covariance() const {
+    const ErrorFilter& filter = history_.core().filter();
+    Matrix9 p;
+    for (int i = 0; i < kNavStates; ++i)
+      for (int j = 0; j < kNavStates; ++j) p(i, j) = filter(i, j);
+    return p;
+  }
+
+  [[nodiscard]] const NavState& nav_state() const {
+    if (!filled_) estimation::fill(setup_, history_.core(), nav_);
+    filled_ = true;
+    return nav_;
+  }
+  [[nodiscard]] std::uint64_t repeated_steps() const { return history_.repeated_steps(); }
+  [[nodiscard]] bool catching_up() const { return history_.catching_up(); }
+  [[nodiscard]] std::uint64_t dropped() const { return verdicts_.dropped(); }
+
+ private:
+  /// Tells the fields of that version, as this build and configuration have them.
+  [[nodiscard]] std::uint64_t layout(std::uint32_t version) const {
+    archive::Layout out(version);
+    out("intake", intake_);
+    history_.layout(out);
+    return out.fingerprint();
+  }
+
+  [[nodiscard]] int find(const Name& sensor, SourceKind source) const {
+    for (std::size_t i = 0; i < names_.size(); ++i)
+      if (names_[i] == sensor && setup_.config.sensors[i].kind == source) return static_cast<int>(i);
+    return -1;
+  }
+
+  [[nodiscard]] std::string too_far(const Command& command, const char* side) const {
+    const double apart_s = std::abs(to_seconds(command.header.stamp_ns - history_.core().now_ns()));
+    std::array<char, 160> text{};
+    std::snprintf(text.data(), text.size(),
+                  "its stamp is %.3f s %s the newest inertial sample, expected no more than %g s", apart_s,
+                  side, setup_.config.horizon_s);
+    return text.data();
+  }
+
+  void ordered(const Command& command, const Judgement& judgement, const Measurement& measurement) {
+    OrderOutcome& out = outcomes_.push();
+    out = {};
+    out.order = command;
+    out.fate = judgement.kind == VerdictKind::used       ? OrderFate::done
+               : judgement.kind == VerdictKind::rejected ? OrderFate::held
+                                                         : OrderFate::not_done;
+    out.again = measurement.revision > 0;
+    if (judgement.dimensions == 0) return;
+    out.apart_m = std::hypot(judgement.innovation[0], judgement.innovation[1]);
+    out.allowed_m = judgement.limit;
+  }
+
+  void stamp(SampleHeader& header) const {
+    header.vehicle = nav_.header.vehicle;
+    header.sensor = nav_.header.sensor;
+    header.stamp_ns = nav_.header.stamp_ns;
+    header.received_ns = nav_.header.received_ns;
+  }
+
+  void refuse(const SampleHeader& header, SourceKind source, const Name& writer, const Judgement& judgement) {
+    push(header, source, writer, judgement).is_final = true;
+  }
+
+  Verdict& push(const SampleHeader& header, SourceKind source, const Name& writer,
+                const Judgement& judgement) {
+    Verdict& verdict = verdicts_.push();
+    verdict = verdict_of(header, source, judgement);
+    verdict.writer = writer;
+    return verdict;
+  }
+
+  Setup setup_;
+  ImuPreprocessor intake_;
+  History history_;
+  Forecaster forecaster_;
+  SampleHeader forecast_header_;  ///< of take_forecast()
+  mutable NavState nav_;          ///< filled when asked for
+  mutable bool filled_ = true;
+  Measurement incoming_;
+  std::vector<Name> names_;
+  NewestKept<Verdict> verdicts_;
+  NewestKept<OrderOutcome> outcomes_{kOutcomesKept};
+  std::optional<InitialState> pending_start_;
+};
+
+FusionEngine::FusionEngine(const EngineConfig& config) : impl_(std::make_unique<Impl>(config)) {}
+FusionEngine::~FusionEngine() = default;
+FusionEngine::FusionEngine(FusionEngine&&) noexcept = default;
+FusionEngine& FusionEngine::operator=(FusionEngine&&) noexcept = default;
+
+bool FusionEngine::add(const ImuSample& sample) {
+  return impl_->add(sample);
+}
+void FusionEngine::add(const GpsSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::gps, writer);
+}
+void FusionEngine::add(const DvlSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::dvl, writer);
+}
+void FusionEngine::add(const DepthSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::depth, writer);
+}
+void FusionEngine::add(const HeadingSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::heading, writer);
+}
+void FusionEngine::add(const UsblSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::usbl, writer);
+}
+void FusionEngine::add(const AirspeedSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::airspeed, writer);
+}
+void FusionEngine::add(const PropulsionSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::propulsion, writer);
+}
+void FusionEngine::add(const FinsSample& sample, const Name& writer) {
+  impl_->add(sample, SourceKind::fins, writer);
+}
+std::string FusionEngine::objection(const Command& command) const {
+  return impl_->objection(command);
+}
+std::string FusionEngine::apply(const Command& command) {
+  return impl_->apply(command);
+}
+bool FusionEngine::next_outcome(OrderOutcome& outcome) {
+  return impl_->next_outcome(outcome);
+}
+void FusionEngine::start_from(const InitialState& state) {
+  impl_->start_from(state);
+}
+void FusionEngine::finish() {
+  impl_->finish();
+}
+std::uint64_t FusionEngine::repeated_steps() const {
+  return impl_->repeated_steps();
+}
+bool FusionEngine::catching_up() const {
+  return impl_->catching_up();
+}
+const NavState& FusionEngine::nav_state() const {
+  return impl_->nav_state();
+}
+bool FusionEngine::next_verdict(Verdict& verdict) {
+  return impl_->next_verdict(verdict);
+}
+std::uint64_t FusionEngine::verdicts_dropped() const {
+  return impl_->dropped();
+}
+void FusionEngine::fill(NavDetail& detail) const {
+  impl_->fill(detail);
+}
+void FusionEngine::fill(AlignmentStatus& status) const {
+  impl_->fill(status);
+}
+void FusionEngine::fill(Forecast& forecast) {
+  impl_->take_forecast();
+  impl_->fill_taken(forecast);
+}
+void FusionEngine::take_forecast() {
+  impl_->take_forecast();
+}
+void FusionEngine::fill_taken(Forecast& forecast) {
+  impl_->fill_taken(forecast);
+}
+bool FusionEngine::save(std::vector<std::byte>& out) const {
+  return impl_->save(out);
+}
+std::string FusionEngine::restore(std::span<const std::byte> image) {
+  return impl_->restore(image);
+}
+double FusionEngine::forecast_horizontal_95_m(double after_s) {
+  return impl_->forecast_horizontal_95_m(after_s);
+}
+Eigen::Matrix<double, 9, 9> FusionEngine::navigation_covariance() const {
+  return impl_->navigation_covariance();
+}
+
+}  // namespace fathom::estimation

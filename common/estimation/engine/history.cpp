@@ -1,0 +1,327 @@
+#include "estimation/engine/history.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace fathom::estimation {
+namespace {
+
+/// Room for young snapshots, and the steps between the youngest.
+constexpr std::size_t kYoung = 48;
+constexpr std::uint64_t kFineSteps = 2;
+/// An eighth of the age between snapshots, a quarter where one between two is given up.
+constexpr DurationNs kSaveShare = 8;
+constexpr DurationNs kThinShare = 4;
+/// A second navigator that is set back again and again finishes at once after so many samples.
+constexpr int kMostCatching = 32;
+
+std::size_t step_capacity(const EngineConfig& config) {
+  const double span = config.horizon_s + 2.0 * config.snapshot_interval_s;
+  return static_cast<std::size_t>(std::ceil(1.5 * span * config.imu.nominal_rate_hz)) + 64;
+}
+
+std::size_t snapshot_capacity(const EngineConfig& config) {
+  // Beside the regular ones those that stand closer: eight for each factor of e in age.
+  return static_cast<std::size_t>(std::ceil(config.horizon_s / config.snapshot_interval_s)) + 4 + kYoung;
+}
+
+}  // namespace
+
+History::History(const Setup& setup)
+    : setup_(&setup),
+      core_(setup),
+      steps_(step_capacity(setup.config)),
+      snapshots_(snapshot_capacity(setup.config), Core(setup)),
+      marks_(snapshots_.size()),
+      pool_(setup.config.measurement_capacity),
+      order_(setup.config.measurement_capacity),
+      judgements_(setup.config.measurement_capacity),
+      catching_(setup) {
+  for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint16_t>(i);
+  for (std::size_t i = 0; i < marks_.size(); ++i) marks_[i].place = static_cast<std::uint16_t>(i);
+}
+
+std::size_t History::first_after(TimeNs stamp_ns) const {
+  const auto begin = order_.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(event_count_);
+  const auto found = std::upper_bound(begin, end, stamp_ns, [this](TimeNs stamp, std::uint16_t place) {
+    return stamp < pool_[place].stamp_ns;
+  });
+  return static_cast<std::size_t>(found - begin);
+}
+
+History::Placing History::insert(const Measurement& measurement, VerdictSink& sink) {
+  if (!started_) return Placing::not_started;
+  const TimeNs newest = core_.now_ns();
+  const TimeNs stamp = measurement.stamp_ns;
+  if (stamp > newest + future_tolerance_ns(measurement)) return Placing::from_the_future;
+  const TimeNs horizon = newest - from_seconds(setup_->config.horizon_s);
+  if (stamp < horizon || stamp <= marks_[0].now_ns) return Placing::late;
+  if (event_count_ == order_.size()) {
+    // Full: the oldest goes, and with it the snapshots before it, which could no longer be repeated truly.
+    std::size_t kept = 0;
+    while (kept < snapshot_count_ && marks_[kept].now_ns < event(0).stamp_ns) ++kept;
+    if (kept == snapshot_count_) return Placing::late;
+    const TimeNs floor = marks_[kept].now_ns;
+    const bool needed =
+        (dirty_ns_ != 0 && dirty_ns_ <= floor) || (catching_up_ && catching_.now_ns() < floor);
+    if (stamp <= floor || needed) return Placing::late;
+    for (std::size_t i = 0; i < kept; ++i) drop_snapshot(0);
+    drop_before(floor, sink);
+  }
+  const auto begin = order_.begin();
+  const auto end = begin + static_cast<std::ptrdiff_t>(event_count_);
+  const auto key = measurement.key();
+  const auto place = std::lower_bound(
+      begin, end, key, [this](std::uint16_t one, const auto& wanted) { return pool_[one].key() < wanted; });
+  if (place != end && pool_[*place].key() == key) return Placing::duplicate;
+  const std::uint16_t slot = order_[event_count_];
+  pool_[slot] = measurement;
+  std::move_backward(place, end, end + 1);
+  *place = slot;
+  ++event_count_;
+  if (stamp <= newest && (dirty_ns_ == 0 || stamp < dirty_ns_)) dirty_ns_ = stamp;
+  return Placing::taken;
+}
+
+void History::advance(const ImuStep& step, VerdictSink& sink) {
+  steps_[steps_done_ % steps_.size()] = step;
+  const std::uint64_t target = steps_done_ + 1;
+  go_back();
+  repeat_until(target, sink);
+  if (catching_up_) {
+    ++catching_for_;
+    const bool forget = target - caught_up_step_ + 1 >= steps_.size();
+    const std::uint64_t most = setup_->config.replay_steps_per_sample;
+    catch_up(forget || catching_for_ >= kMostCatching ? target : most, sink);
+  }
+  settle_past(sink);
+}
+
+std::size_t History::snapshot_before(TimeNs stamp_ns) const {
+  std::size_t at = snapshot_count_ - 1;
+  while (at > 0 && marks_[at].now_ns >= stamp_ns) --at;
+  return at;
+}
+
+TimeNs History::oldest_ns() const {
+  const TimeNs oldest = marks_[0].now_ns;
+  return catching_up_ ? std::min(oldest, catching_.now_ns()) : oldest;
+}
+
+void History::go_back() {
+  if (dirty_ns_ == 0) return;
+  // insert() has seen to it that there is a snapshot before it.
+  const TimeNs late_ns = dirty_ns_;
+  dirty_ns_ = 0;
+  const std::size_t at = snapshot_before(late_ns);
+  const std::uint64_t repeated = steps_done_ - marks_[at].after_step;
+  const bool dear = repeated > setup_->config.replay_steps_per_sample;
+  fine_until_step_ = steps_done_ + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
+  if (catching_up_ && late_ns > catching_.now_ns()) {
+    // The second will meet it on its way; the first takes it in meanwhile where that is cheap.
+    if (dear || marks_[at].after_step <= caught_up_step_) return;
+  } else if (catching_up_ || dear) {
+    if (!catching_up_) catching_for_ = 0;
+    catching_up_ = true;
+    catching_ = snapshot(at);
+    caught_up_step_ = marks_[at].after_step;
+    return;
+  }
+  repeated_steps_ += repeated;
+  snapshot_count_ = at + 1;
+  core_ = snapshot(at);
+  steps_done_ = marks_[at].after_step;
+}
+
+void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
+  for (std::uint64_t i = 0; i < steps && caught_up_step_ < steps_done_; ++i) {
+    run(catching_, steps_[caught_up_step_ % steps_.size()], sink);
+    ++caught_up_step_;
+    ++repeated_steps_;
+    const auto begin = marks_.begin();
+    const auto end = begin + static_cast<std::ptrdiff_t>(snapshot_count_);
+    const auto passed =
+        std::lower_bound(begin, end, caught_up_step_,
+                         [](const Mark& one, std::uint64_t step) { return one.after_step < step; });
+    if (passed != end && passed->after_step == caught_up_step_) snapshots_[passed->place] = catching_;
+  }
+  if (caught_up_step_ < steps_done_) return;
+  core_ = catching_;
+  catching_up_ = false;
+}
+
+void History::settle(VerdictSink& sink) {
+  if (!started_) return;
+  const std::uint64_t target = steps_done_;
+  go_back();
+  repeat_until(target, sink);
+  if (catching_up_) catch_up(target, sink);
+  Judgement unplaced;
+  unplaced.kind = VerdictKind::from_the_future;
+  std::size_t kept = first_after(core_.now_ns());
+  for (std::size_t rank = kept; rank < event_count_; ++rank) {
+    // An order stays for the step that may yet come.
+    if (event(rank).command) {
+      std::swap(order_[kept++], order_[rank]);
+    } else {
+      say(event(rank), unplaced, true, sink);
+    }
+  }
+  event_count_ = kept;
+  snapshot_count_ = 0;
+  save(sink);
+}
+
+void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
+  const TimeNs newest_ns =
+      target == steps_done_ ? core_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
+  while (steps_done_ < target) {
+    run(core_, steps_[steps_done_ % steps_.size()], sink);
+    ++steps_done_;
+    if (save_due(newest_ns)) save(sink);
+    // A snapshot from which some step since is no longer held is of no use.
+    while (snapshot_count_ > 1 && steps_done_ - marks_[0].after_step >= steps_.size()) {
+      drop_snapshot(0);
+      drop_before(oldest_ns(), sink);
+    }
+  }
+  thin_snapshots(newest_ns);
+}
+
+DurationNs History::future_tolerance_ns(const Measurement& measurement) const {
+  // An order waits for its instant.
+  const EngineConfig& config = setup_->config;
+  return from_seconds(measurement.command ? config.horizon_s : config.future_tolerance_s);
+}
+
+void History::run(Core& core, const ImuStep& step, VerdictSink& sink) {
+  for (std::size_t rank = first_after(step.from_ns); rank < event_count_; ++rank) {
+    Measurement& one = event(rank);
+    if (one.stamp_ns > step.to_ns) break;
+    core.advance(step, one.stamp_ns);
+    const Judgement judgement = core.apply(one);
+    if (one.settled) continue;
+    judgements_[order_[rank]] = judgement;
+    if (!one.judged || judgement.kind != one.said) say(one, judgement, false, sink);
+  }
+  core.advance(step, step.to_ns);
+  core.finish(step);
+}
+
+bool History::save_due(TimeNs newest_ns) const {
+  const Mark& last = marks_[snapshot_count_ - 1];
+  const std::uint64_t steps = steps_done_ - last.after_step;
+  if (steps >= steps_.size() / 4) return true;
+  const DurationNs since = core_.now_ns() - last.now_ns;
+  if (since >= from_seconds(setup_->config.snapshot_interval_s)) return true;
+  return steps_done_ < fine_until_step_ && steps >= kFineSteps &&
+         since >= (newest_ns - core_.now_ns()) / kSaveShare;
+}
+
+void History::save(VerdictSink& sink) {
+  if (snapshot_count_ == snapshots_.size()) drop_snapshot(0);
+  Mark& mark = marks_[snapshot_count_];
+  mark.after_step = steps_done_;
+  mark.now_ns = core_.now_ns();
+  snapshots_[mark.place] = core_;
+  ++snapshot_count_;
+  drop_before(oldest_ns(), sink);
+}
+
+void History::thin_snapshots(TimeNs newest_ns) {
+  const TimeNs horizon = newest_ns - from_seconds(setup_->config.horizon_s);
+  while (snapshot_count_ > 1 && marks_[1].now_ns < horizon) drop_snapshot(0);
+  const DurationNs widest = from_seconds(setup_->config.snapshot_interval_s);
+  for (std::size_t i = snapshot_count_; i-- > 2;) {
+    const TimeNs before = marks_[i - 2].now_ns;
+    const DurationNs gap = marks_[i].now_ns - before;
+    if (gap <= std::min(widest, (newest_ns - before) / kThinShare)) drop_snapshot(i - 1);
+  }
+}
+
+void History::drop_snapshot(std::size_t age_order) {
+  const auto mark = marks_.begin() + static_cast<std::ptrdiff_t>(age_order);
+  std::rotate(mark, mark + 1, marks_.begin() + static_cast<std::ptrdiff_t>(snapshot_count_));
+  --snapshot_count_;
+}
+
+void History::drop_before(TimeNs stamp_ns, VerdictSink& sink) {
+  const std::size_t count = first_after(stamp_ns);
+  if (count == 0) return;
+  settle_first(count, VerdictKind::late, sink);
+  settled_count_ -= count;
+  const auto begin = order_.begin();
+  std::rotate(begin, begin + static_cast<std::ptrdiff_t>(count),
+              begin + static_cast<std::ptrdiff_t>(event_count_));
+  event_count_ -= count;
+}
+
+void History::say(Measurement& event, const Judgement& judgement, bool is_final, VerdictSink& sink) {
+  const VerdictKind previous = event.judged ? event.said : judgement.kind;
+  if (event.judged) ++event.revision;
+  event.judged = true;
+  event.settled = is_final;
+  event.said = judgement.kind;
+  sink.judged(event, judgement, previous);
+}
+
+void History::settle_first(std::size_t count, VerdictKind unjudged, VerdictSink& sink) {
+  Judgement none;
+  none.kind = unjudged;
+  for (; settled_count_ < count; ++settled_count_) {
+    Measurement& one = event(settled_count_);
+    // What became of an order is said when it acts; it has no final verdict.
+    if (one.settled || (one.command && one.judged)) continue;
+    say(one, one.judged ? judgement(settled_count_) : none, true, sink);
+  }
+}
+
+void History::settle_past(VerdictSink& sink) {
+  // What insert() takes in is younger than this,
+  TimeNs until_ns = std::max(marks_[0].now_ns, core_.now_ns() - from_seconds(setup_->config.horizon_s) - 1);
+  // and the second navigator judges what is younger than itself again.
+  if (catching_up_) until_ns = std::min(until_ns, catching_.now_ns());
+  while (settled_count_ < event_count_ && event(settled_count_).stamp_ns <= until_ns)
+    settle_first(settled_count_ + 1, VerdictKind::late, sink);
+}
+
+void History::forget_past(VerdictSink& sink, VerdictKind verdict) {
+  settle_first(event_count_, verdict, sink);
+  event_count_ = 0;
+  settled_count_ = 0;
+  snapshot_count_ = 0;
+  steps_done_ = 0;
+  fine_until_step_ = 0;
+  dirty_ns_ = 0;
+  catching_up_ = false;
+}
+
+void History::begin(TimeNs now_ns, VerdictSink& sink) {
+  core_.rebase(now_ns, 0.0);
+  started_ = true;
+  save(sink);
+}
+
+void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink) {
+  forget_past(sink, VerdictKind::not_aligned);
+  core_.start(initial, now_ns);
+  started_ = true;
+  save(sink);
+}
+
+void History::rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink) {
+  if (catching_up_) catch_up(steps_done_, sink);
+  forget_past(sink, VerdictKind::late);
+  core_.rebase(now_ns, unobserved_s);
+  save(sink);
+}
+
+void History::clear(VerdictSink& sink) {
+  forget_past(sink, VerdictKind::not_aligned);
+  core_ = Core(*setup_);
+  started_ = false;
+}
+
+}  // namespace fathom::estimation

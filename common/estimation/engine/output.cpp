@@ -1,0 +1,132 @@
+#include "estimation/engine/output.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// A surface known worse than this gives no depth.
+constexpr double kSurfaceSigma_m = 20.0;
+
+Matrix3d block(const ErrorFilter& filter, int row, int column) {
+  Matrix3d p;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) p(i, j) = filter(row + i, column + j);
+  return p;
+}
+
+/// Covariance of a vector at the end of a lever: its own, and what the attitude error swings.
+std::array<double, 9> with_lever(const ErrorFilter& filter, int first, const Vector3d& arm_N) {
+  // (OUT-2)
+  const Matrix3d swing = geo::skew(arm_N);
+  const Matrix3d cross = block(filter, first, 6) * swing.transpose();
+  const Matrix3d p = block(filter, first, first) + cross + cross.transpose() +
+                     swing * block(filter, 6, 6) * swing.transpose();
+  std::array<double, 9> out{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) out[static_cast<std::size_t>(3 * i + j)] = 0.5 * (p(i, j) + p(j, i));
+  return out;
+}
+
+void fill_attitude(const geo::Quaternion& q, NavState& out) {
+  // One sign of the two that mean the same, so that readers may difference it.
+  const double sign = q.w < 0.0 ? -1.0 : 1.0;
+  out.q_NB = {sign * q.w, sign * q.x, sign * q.y, sign * q.z};
+  out.rpy_rad = geo::arr(geo::to_rpy(q));
+}
+
+}  // namespace
+
+void fill(const Setup& setup, const Core& core, NavState& out) {
+  out.mode = core.mode();
+  out.alignment = core.phase();
+  out.gps_outage_s = core.gps_outage_s();
+  out.dvl_outage_s = core.dvl_outage_s();
+  out.reset_counter = core.reset_counter();
+  out.last_reset_delta_N_m = geo::arr(core.last_reset_N_m());
+  const OutputAttitude attitude = core.output_attitude();
+  out.angular_rate_B_rad_s = geo::arr(attitude.along(core.rate_B_rad_s()));
+  out.specific_force_B_m_s2 = geo::arr(attitude.along(core.force_B_m_s2()));
+  if (!core.navigating()) {
+    const NavState blank;
+    out.latitude_rad = out.longitude_rad = out.altitude_m = out.depth_m = kUnknown;
+    out.velocity_N_m_s = blank.velocity_N_m_s;
+    out.position_covariance_N_m2 = blank.position_covariance_N_m2;
+    out.velocity_covariance_N_m2_s2 = blank.velocity_covariance_N_m2_s2;
+    out.q_NB = blank.q_NB;
+    out.rpy_rad = out.rpy_sigma_rad = blank.rpy_rad;
+    if (core.levelled()) {
+      const Vector3d rpy = geo::to_rpy(attitude.q_NO);
+      out.rpy_rad = {rpy.x(), rpy.y(), kUnknown};
+    }
+    return;
+  }
+  const NavSolution& nav = core.state().nav;
+  const Matrix3d c = geo::to_matrix(nav.q_NB);
+  const Vector3d lever = geo::vec(setup.config.output_lever_B_m);
+  const Vector3d arm = c * lever;
+  const Vector3d rate_nb =
+      core.rate_B_rad_s() - c.transpose() * (geo::earth_rate_N(nav.position.latitude_rad) +
+                                             geo::transport_rate_N(nav.position, nav.v_N_m_s));
+  const Vector3d swing = c * geo::cross(rate_nb, lever);
+  const geo::Geodetic at = geo::moved_by(nav.position, arm);
+  out.latitude_rad = at.latitude_rad;
+  out.longitude_rad = at.longitude_rad;
+  out.altitude_m = at.altitude_m;
+  const int surface = setup.index.of(Group::surface_altitude);
+  if (surface < 0) {
+    out.depth_m = setup.config.states.surface_altitude_m - at.altitude_m;
+  } else {
+    const bool good = core.filter()(surface, surface) < kSurfaceSigma_m * kSurfaceSigma_m;
+    out.depth_m = good ? core.state().x[static_cast<std::size_t>(surface)] - at.altitude_m : kUnknown;
+  }
+  out.velocity_N_m_s = geo::arr(nav.v_N_m_s + swing);
+  fill_attitude(attitude.q_NO, out);
+  out.position_covariance_N_m2 = with_lever(core.filter(), 0, arm);
+  out.velocity_covariance_N_m2_s2 = with_lever(core.filter(), 3, swing);
+  out.rpy_sigma_rad = geo::arr(core.rpy_sigma_rad());
+}
+
+void fill(const Setup& setup, const Core& core, NavDetail& out) {
+  out.configuration = std::string_view(setup.config.configuration);
+  out.count = 0;
+  if (!core.navigating()) return;
+  const NavSolution& nav = core.state().nav;
+  const Vector3d rpy = geo::to_rpy(nav.q_NB);
+  for (int i = 0; i < setup.index.size() && i < static_cast<int>(NavDetail::kMaxStates); ++i) {
+    StateEstimate& one = out.states[out.count++];
+    one.name = setup.index.name(i);
+    one.sigma = std::sqrt(std::max(core.filter()(i, i), 0.0));
+    if (i < 3) {
+      one.value = 0.0;  // the position error after its correction; the position itself is in NavState
+    } else if (i < 6) {
+      one.value = nav.v_N_m_s(i - 3);
+    } else if (i < kNavStates) {
+      one.value = rpy(i - 6);
+    } else {
+      one.value = core.state().x[static_cast<std::size_t>(i)];
+    }
+  }
+}
+
+Verdict verdict_of(const SampleHeader& header, SourceKind source, const Judgement& judgement) {
+  Verdict verdict;
+  verdict.header = header;
+  verdict.source = source;
+  verdict.model = judgement.model;
+  verdict.kind = verdict.previous = judgement.kind;
+  verdict.dimensions = judgement.dimensions;
+  for (std::size_t i = 0; i < judgement.dimensions; ++i) {
+    verdict.innovation[i] = judgement.innovation[i];
+    verdict.innovation_sigma[i] = judgement.innovation_sigma[i];
+  }
+  verdict.test_ratio = judgement.test_ratio;
+  verdict.limit = judgement.limit;
+  return verdict;
+}
+
+}  // namespace fathom::estimation

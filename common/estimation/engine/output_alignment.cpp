@@ -1,0 +1,234 @@
+// The state of the alignment as it is published: its conditions, what it waits for and what would help.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "estimation/engine/output.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Vector3d;
+using Text = std::array<char, 128>;
+
+constexpr double kDegree = 0.017453292519943295;
+/// A fault is told until all timers may have run and a window may be full again.
+constexpr double kFaultTold_s = 4.0;
+
+void write(Text& target, const char* format, ...) __attribute__((format(printf, 2, 3)));
+void write(Text& target, const char* format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  target.fill('\0');
+  // NOLINTNEXTLINE(clang-analyzer-valist.Uninitialized): va_start is just above, the analyser misses it
+  std::vsnprintf(target.data(), target.size(), format, arguments);
+  va_end(arguments);
+}
+
+const char* advice(const StartConditions& c, const Core& core, const AlignmentConfig& config,
+                   const Vector3d& sigma) {
+  switch (core.phase()) {
+    case AlignmentPhase::aligned:
+    case AlignmentPhase::none:
+      return "";
+    case AlignmentPhase::fine:
+      if (sigma.z() > config.aligned_heading_sigma_rad)
+        return "Turn by 90 degrees or more and change speed: the heading is not yet known well enough.";
+      return "Hold on: roll and pitch are settling.";
+    default:
+      break;
+  }
+  if (core.waits_for_state()) return "Waiting for the state that it is to start from.";
+  if (config.mode == StartMode::air_drop && !known(core.gps_speed_m_s()))
+    return "The heading was lost too: surface and run straight with GPS, or give a state to start from.";
+  if (config.mode == StartMode::in_motion || config.mode == StartMode::air_drop)
+    return "Move straight with a GPS fix until the course is steady.";
+  if (!c.slow) return "Stop the vehicle, or let it run straight with GPS.";
+  if (!c.quiet) return "Keep the vehicle quiet: it moves too much to be levelled.";
+  if (!c.window_full) return "Keep the vehicle quiet.";
+  if (!c.position) return "A position is missing: wait for a GPS fix or set one.";
+  if (!c.heading) return "A heading is missing: check the compass or give one.";
+  return "The gyro is not good enough to find north: give a heading.";
+}
+
+/// What set timers and window back, as a part of a sentence; nullptr for nothing worth telling.
+const char* fault_text(StabilityReset fault) {
+  switch (fault) {
+    case StabilityReset::not_finite:
+      return "an inertial reading was no number";
+    case StabilityReset::gap:
+      return "inertial samples were missing";
+    case StabilityReset::stale:
+      return "an inertial sample was stale";
+    case StabilityReset::repeated:
+      return "an inertial reading was repeated";
+    case StabilityReset::no_depth:
+      return "the depth was missing";
+    case StabilityReset::no_speed:
+      return "the propulsor speed was missing";
+    default:
+      return nullptr;
+  }
+}
+
+/// The manoeuvre that brings the first missing condition about; nullptr when all hold.
+const char* manoeuvre(const DropAlignment& drop, Text& text) {
+  using C = StabilityCondition;
+  const StabilityGate& gate = drop.gate();
+  const auto met = [&gate](C condition) { return gate.watched(condition).met(); };
+  const auto limit = [&gate](C condition) { return gate.watched(condition).limit; };
+  if (!met(C::depth)) {
+    write(text, "hold depth within %.0f m of the set %.0f m", limit(C::depth), drop.config().set_depth_m);
+  } else if (!met(C::roll)) {
+    write(text, "hold roll within %.0f deg", limit(C::roll) / kDegree);
+  } else if (!met(C::pitch)) {
+    write(text, "level off: pitch within %.0f deg", limit(C::pitch) / kDegree);
+  } else if (!met(C::force_x)) {
+    write(text, "hold the speed: forward force within %.1f m/s2", limit(C::force_x));
+  } else if (!met(C::rate_z)) {
+    write(text, "run straight: turn slower than %.0f deg/s", limit(C::rate_z) / kDegree);
+  } else if (!met(C::rate_y)) {
+    write(text, "hold the pitch steady: within %.0f deg/s", limit(C::rate_y) / kDegree);
+  } else if (!met(C::gravity)) {
+    write(text, "hold the depth rate steady: heave force within %.2f m/s2", limit(C::gravity));
+  } else if (!met(C::speed_slope)) {
+    write(text, "hold the speed steady: within %.2f m/s2", limit(C::speed_slope));
+  } else {
+    return nullptr;
+  }
+  return text.data();
+}
+
+void drop_advice(const DropAlignment& drop, Text& out) {
+  const StabilityGate& gate = drop.gate();
+  switch (drop.phase()) {
+    case AlignmentPhase::aligned:
+      return write(out, "%s", "");
+    case AlignmentPhase::coarse:
+    case AlignmentPhase::fine:
+      return write(out, "%s",
+                   drop.consistent() ? "Hold on: roll and pitch are being refined."
+                                     : "Log, depth and inertial unit contradict each other: run straight.");
+    case AlignmentPhase::averaging:
+      return write(out, "%s", "Hold course, depth and speed.");
+    default:
+      break;
+  }
+  if (!drop.wet()) return write(out, "%s", "Waiting for the water: the depth sensor reports none yet.");
+  if (const char* missing = fault_text(drop.missing()))
+    return write(out, "Timers stand still: %s; all begins anew when it is back.", missing);
+  Text helpful;
+  const char* wanted = manoeuvre(drop, helpful);
+  const char* fault = gate.since_fault_s() < kFaultTold_s ? fault_text(gate.last_fault()) : nullptr;
+  if (fault != nullptr)
+    return write(out, "Began anew, %s: %s.", fault, wanted != nullptr ? wanted : "hold on");
+  if (drop.phase() == AlignmentPhase::lost)
+    return write(out, "%s",
+                 "The attitude was lost in a gap: it is found again while the vehicle runs straight.");
+  if (wanted != nullptr) {
+    write(out, "%s.", wanted);
+    out[0] = static_cast<char>(out[0] - 'a' + 'A');
+    return;
+  }
+  switch (gate.last_reset()) {
+    case StabilityReset::spread:
+      return write(out, "%s", "Hold on: the last window was too restless.");
+    case StabilityReset::disagreement:
+      return write(out, "%s", "Hold on: the last window contradicted the fine solution.");
+    default:
+      return write(out, "%s", "Hold on.");
+  }
+}
+
+void add_condition(AlignmentStatus& out, const char* name, double value, double limit, bool met,
+                   double held_s = 0.0, double needed_s = 0.0) {
+  if (out.condition_count >= AlignmentStatus::kMaxConditions) return;
+  AlignmentCondition& one = out.conditions[out.condition_count++];
+  one.name = name;
+  one.value = value;
+  one.limit = limit;
+  one.met = met;
+  one.held_s = held_s;
+  one.needed_s = needed_s;
+}
+
+/// Each condition of the run, then how far the averages and the fine solution are.
+void fill_drop(const DropAlignment& drop, AlignmentStatus& out) {
+  for (std::size_t i = 0; i < kStabilityConditions; ++i) {
+    const auto condition = static_cast<StabilityCondition>(i);
+    const StabilityGate::Watched& one = drop.gate().watched(condition);
+    add_condition(out, to_string(condition).data(), one.value, one.limit, one.met(), one.held_s,
+                  one.needed_s);
+  }
+  const Vector3d sigma = drop.rpy_sigma_rad();
+  const double limit = drop.config().aligned_tilt_sigma_rad;
+  const double hold = drop.config().aligned_hold_s;
+  add_condition(out, "roll_sigma_rad", sigma.x(), limit, sigma.x() <= limit, drop.held_s(), hold);
+  add_condition(out, "pitch_sigma_rad", sigma.y(), limit, sigma.y() <= limit, drop.held_s(), hold);
+  out.time_to_aligned_s = drop.time_to_aligned_s();
+  drop_advice(drop, out.advice);
+}
+
+/// Once it navigates: what is still missing from aligned.
+void fill_navigating(const Core& core, const AlignmentConfig& config, const Vector3d& sigma,
+                     AlignmentStatus& out) {
+  const double held =
+      core.aligned_hold_since_ns() == 0 ? 0.0 : to_seconds(core.now_ns() - core.aligned_hold_since_ns());
+  const auto sigma_condition = [&](const char* name, double value, double limit) {
+    add_condition(out, name, value, limit, value <= limit, held, config.aligned_hold_s);
+  };
+  sigma_condition("roll_sigma_rad", sigma.x(), config.aligned_tilt_sigma_rad);
+  sigma_condition("pitch_sigma_rad", sigma.y(), config.aligned_tilt_sigma_rad);
+  sigma_condition("yaw_sigma_rad", sigma.z(), config.aligned_heading_sigma_rad);
+  if (core.phase() == AlignmentPhase::aligned) {
+    out.time_to_aligned_s = 0.0;
+  } else if (core.aligned_hold_since_ns() != 0) {
+    out.time_to_aligned_s = std::max(0.0, config.aligned_hold_s - held);
+  }
+}
+
+/// Before that: what is missing from a start.
+void fill_waiting(const Core& core, const AlignmentConfig& config, const StartConditions& c,
+                  AlignmentStatus& out) {
+  const RestWindow& window = core.window();
+  const double held = window.duration_s();
+  const auto rest_condition = [&](const char* name, double value, double limit, bool met) {
+    add_condition(out, name, value, limit, met, held, config.averaging_s);
+  };
+  rest_condition("rate_spread_rad_s", window.rate_spread_rad_s(), config.rate_spread_rad_s,
+                 window.rate_spread_rad_s() <= config.rate_spread_rad_s);
+  rest_condition("force_spread_m_s2", window.force_spread_m_s2(), config.force_spread_m_s2,
+                 window.force_spread_m_s2() <= config.force_spread_m_s2);
+  rest_condition("gps_speed_m_s", core.gps_speed_m_s(), config.max_speed_m_s, c.slow);
+  add_condition(out, "heading_known", c.heading ? 1.0 : 0.0, 1.0, c.heading);
+  add_condition(out, "position_known", c.position ? 1.0 : 0.0, 1.0, c.position);
+  if (c.quiet && c.slow && c.heading && c.position)
+    out.time_to_aligned_s = std::max(0.0, config.averaging_s - held) + config.aligned_hold_s;
+}
+
+}  // namespace
+
+void fill(const Setup& setup, const Core& core, AlignmentStatus& out) {
+  const AlignmentConfig& config = setup.config.alignment;
+  out.phase = core.phase();
+  out.in_phase_s = to_seconds(core.now_ns() - core.phase_since_ns());
+  out.condition_count = 0;
+  const Vector3d sigma = core.rpy_sigma_rad();
+  out.rpy_sigma_rad = geo::arr(sigma);
+  out.time_to_aligned_s = kUnknown;
+  if (core.dropping()) {
+    fill_drop(core.drop(), out);
+    return;
+  }
+  const StartConditions c = core.conditions();
+  if (core.navigating()) {
+    fill_navigating(core, config, sigma, out);
+  } else if (!core.waits_for_state()) {
+    fill_waiting(core, config, c, out);
+  }
+  write(out.advice, "%s", advice(c, core, config, sigma));
+}
+
+}  // namespace fathom::estimation

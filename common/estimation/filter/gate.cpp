@@ -1,0 +1,158 @@
+#include "estimation/filter/gate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/unknown.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+constexpr std::size_t kStride = Observation::kMaxRows;
+/// Of the squared distance, where everything is to pass.
+constexpr double kNoLimit = 1e30;
+
+/// Normal quantile by P. J. Acklam's rational approximation (relative error 1.2e-9), upper half only.
+double normal_quantile(double p) {
+  constexpr std::array<double, 6> a{-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
+                                    1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
+  constexpr std::array<double, 5> b{-5.447609879822406e+01, 1.615858368580409e+02, -1.556989798598866e+02,
+                                    6.680131188771972e+01, -1.328068155288572e+01};
+  constexpr std::array<double, 6> c{-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
+                                    -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
+  constexpr std::array<double, 4> d{7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00,
+                                    3.754408661907416e+00};
+  if (p > 0.97575) {
+    const double q = std::sqrt(-2.0 * std::log(1.0 - p));
+    return -(((((c[0] * q + c[1]) * q + c[2]) * q + c[3]) * q + c[4]) * q + c[5]) /
+           ((((d[0] * q + d[1]) * q + d[2]) * q + d[3]) * q + 1.0);
+  }
+  const double q = p - 0.5;
+  const double r = q * q;
+  return (((((a[0] * r + a[1]) * r + a[2]) * r + a[3]) * r + a[4]) * r + a[5]) * q /
+         (((((b[0] * r + b[1]) * r + b[2]) * r + b[3]) * r + b[4]) * r + 1.0);
+}
+
+double noise_scale(const SensorConfig& sensor, double squared_distance, int rows) {
+  // (GATE-2)
+  switch (sensor.robust) {
+    case RobustKind::student_t:
+      return std::max(1.0, (sensor.robust_parameter + squared_distance) / (sensor.robust_parameter + rows));
+    case RobustKind::huber: {
+      const double distance = std::sqrt(squared_distance);
+      return std::max(1.0, distance / sensor.robust_parameter);
+    }
+    case RobustKind::none:
+      break;
+  }
+  return 1.0;
+}
+
+void drop_row(Observation& observation, int row) {
+  for (int i = row; i + 1 < observation.rows; ++i) {
+    const auto to = static_cast<std::size_t>(i);
+    observation.innovation[to] = observation.innovation[to + 1];
+    observation.sigma[to] = observation.sigma[to + 1];
+    observation.h[to] = observation.h[to + 1];
+  }
+  --observation.rows;
+}
+
+/// The statistics of those rows alone.
+void keep_rows(InnovationStatistics& statistics, unsigned refused) {
+  std::size_t kept = 0;
+  std::array<std::size_t, kStride> from{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
+    if ((refused & 1U << i) == 0) from[kept++] = i;
+  for (std::size_t i = 0; i < kept; ++i) {
+    statistics.noise[i] = statistics.noise[from[i]];
+    for (std::size_t j = 0; j < kept; ++j)
+      statistics.s[i * kStride + j] = statistics.s[from[i] * kStride + from[j]];
+    if (from[i] != i)
+      std::copy_n(statistics.ph.data() + from[i] * kMaxStates, kMaxStates,
+                  statistics.ph.data() + i * kMaxStates);
+  }
+  statistics.rows = static_cast<int>(kept);
+}
+
+}  // namespace
+
+double chi_square_quantile(double probability, int degrees) {
+  // One degree is the square of a normal variable, exactly.
+  if (degrees == 1) {
+    const double z = normal_quantile(0.5 + 0.5 * probability);
+    return z * z;
+  }
+  const double k = 2.0 / (9.0 * degrees);
+  const double z = normal_quantile(probability);
+  const double root = 1.0 - k + z * std::sqrt(k);
+  return degrees * root * root * root;
+}
+
+GateLimits gate_limits(const SensorConfig& sensor) {
+  GateLimits limits;
+  for (int rows = 1; rows <= Observation::kMaxRows; ++rows)
+    limits.chi_square[static_cast<std::size_t>(rows)] =
+        sensor.gate_probability < 1.0 ? chi_square_quantile(sensor.gate_probability, rows) : kNoLimit;
+  return limits;
+}
+
+GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const GateLimits& limits,
+                Observation& observation, InnovationStatistics& statistics) {
+  GateResult result;
+  filter.statistics(observation, 1.0, statistics);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
+    result.innovation_sigma[i] = std::sqrt(statistics.s[i * kStride + i]);
+  if (observation.each_alone || sensor.gate_mode == GateMode::per_component) {
+    // (GATE-1), each component on its own.
+    result.limit = limits.chi_square[1];
+    double worst_kept = 0.0;
+    double best_dropped = HUGE_VAL;
+    int row = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i) {
+      const double z = observation.innovation[static_cast<std::size_t>(row)];
+      const double squared = z * z / statistics.s[i * kStride + i];
+      const bool hopeless = squared > sensor.robust_reject_ratio * result.limit;
+      const double scale = hopeless ? 1.0 : noise_scale(sensor, squared, 1);
+      const double sigma = observation.sigma[static_cast<std::size_t>(row)];
+      const double s = statistics.s[i * kStride + i] + (scale - 1.0) * sigma * sigma;
+      const double ratio = z * z / s / result.limit;
+      if (ratio <= 1.0) {
+        observation.sigma[static_cast<std::size_t>(row)] = std::sqrt(scale) * sigma;
+        statistics.s[i * kStride + i] = s;
+        statistics.noise[i] = scale * sigma * sigma;
+        worst_kept = std::max(worst_kept, ratio);
+        ++row;
+      } else if (observation.rows == 1) {
+        result.refused |= 1U << i;
+        result.test_ratio = std::min(best_dropped, ratio);
+        return result;
+      } else {
+        result.refused |= 1U << i;
+        best_dropped = std::min(best_dropped, ratio);
+        drop_row(observation, row);
+      }
+    }
+    result.pass = true;
+    result.test_ratio = worst_kept;
+    if (result.refused != 0) keep_rows(statistics, result.refused);
+    statistics.squared_distance = squared_distance(observation, statistics);
+    return result;
+  }
+  result.limit = limits.chi_square[static_cast<std::size_t>(observation.rows)];
+  const bool hopeless = statistics.squared_distance > sensor.robust_reject_ratio * result.limit;
+  const double scale = hopeless ? 1.0 : noise_scale(sensor, statistics.squared_distance, observation.rows);
+  if (scale > 1.0 && std::isfinite(scale)) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i) {
+      statistics.s[i * kStride + i] += (scale - 1.0) * observation.sigma[i] * observation.sigma[i];
+      statistics.noise[i] *= scale;
+    }
+    statistics.squared_distance = squared_distance(observation, statistics);
+  }
+  result.test_ratio = statistics.squared_distance / result.limit;
+  result.pass = result.test_ratio <= 1.0;
+  if (!result.pass) result.refused = (1U << observation.rows) - 1U;
+  return result;
+}
+
+}  // namespace fathom::estimation

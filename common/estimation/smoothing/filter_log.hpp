@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "estimation/filter/adjoint.hpp"
+
+namespace fathom::estimation {
+
+/// Writes down what a filter of `states` states does, so that an Adjoint can go back along it.
+class FilterLog final : public FilterTape {
+ public:
+  explicit FilterLog(int states) : states_(states) {}
+
+  [[nodiscard]] std::size_t size() const { return entries_.size(); }
+  void clear() { entries_.clear(); }
+  /// From after entry `end` - 1 to before entry `begin`.
+  void back_through(std::size_t end, std::size_t begin, Adjoint& adjoint) const;
+
+  void propagated(const NavTransition& step, const ProcessNoise& noise) override {
+    entries_.emplace_back(transition(step, noise));
+  }
+  void updated(const Observation& observation, const InnovationStatistics& statistics) override {
+    entries_.emplace_back(UpdateRecord(observation, statistics, states_));
+  }
+  void forgot(int state) override { entries_.emplace_back(Forgotten{state}); }
+  void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) override {
+    entries_.emplace_back(DriftRecord(widened, variance));
+  }
+  void turned(const Eigen::Vector3d& change_N_m_s) override { entries_.emplace_back(turning(change_N_m_s)); }
+  void restarted() override { entries_.emplace_back(Restart{}); }
+
+ private:
+  struct Forgotten {
+    int state;
+  };
+  struct Restart {};
+
+  int states_;
+  std::vector<std::variant<Transition, UpdateRecord, DriftRecord, Forgotten, Restart>> entries_;
+};
+
+}  // namespace fathom::estimation
