@@ -14,14 +14,14 @@
 #include <netinet/in.h>
 #include <unistd.h>
 
-#include "bus/detail/dds_log.hpp"
-#include "bus/detail/discovery.hpp"
+#include "bus/detail/network/discovery.hpp"
 #include "bus/detail/participant_impl.hpp"
-#include "bus/detail/qos.hpp"
+#include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
-#include "bus/detail/scheduling.hpp"
-#include "bus/detail/security.hpp"
+#include "bus/detail/security/security.hpp"
 #include "bus/detail/versions/transports.hpp"
+#include "bus/detail/workarounds/dds_log.hpp"
+#include "bus/detail/workarounds/scheduling.hpp"
 
 namespace fathom::bus {
 namespace {
@@ -184,7 +184,8 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
   dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);
   auto& sockets = qos.transport().user_transports.front();
   sockets = std::make_shared<detail::TransportDescriptor>(
-      sockets, onlookers_, hearing, [this](const std::string& address) { refuse_datagram(address); });
+      sockets, low_priority_peers_, delivery_watch,
+      [this](const std::string& address) { refuse_datagram(address); });
   if (!options.security.folder.empty()) {
     credentials = detail::credentials_of(options);
     detail::protect(qos, *credentials);
@@ -297,9 +298,9 @@ void Participant::Impl::participant_seen(const detail::GuidPrefix& who,
                                          const detail::Announcement& announcement) {
   const Peer peer = to_peer(announcement);
   if (peer.looks_on) {
-    onlookers_->seen(who, announcement.samples_at);
+    low_priority_peers_->seen(who, announcement.samples_at);
   } else {
-    onlookers_->gone(who);
+    low_priority_peers_->gone(who);
   }
   if (credentials) {
     meet(who, peer, announcement);  // one of the peers when it has proved who it is
@@ -309,8 +310,8 @@ void Participant::Impl::participant_seen(const detail::GuidPrefix& who,
 }
 
 void Participant::Impl::participant_gone(const detail::GuidPrefix& who, bool fell_silent) {
-  onlookers_->gone(who);
-  hearing->gone(who);
+  low_priority_peers_->gone(who);
+  delivery_watch->gone(who);
   if (fell_silent) participant_dropped(who);
   peers.participant_gone(who);
   if (credentials) part(who);

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <array>
 
-#include "codec/ascii_air_data.hpp"
-#include "codec/ascii_depth.hpp"
-#include "codec/nmea.hpp"
-#include "codec/nmea_air_data.hpp"
-#include "codec/paroscientific.hpp"
-#include "codec/pd0.hpp"
-#include "codec/ubx.hpp"
-#include "codec/vectornav.hpp"
-#include "codec/waterlinked.hpp"
+#include "codec/air/ascii_air_data.hpp"
+#include "codec/air/nmea_air_data.hpp"
+#include "codec/depth/ascii_depth.hpp"
+#include "codec/depth/paroscientific.hpp"
+#include "codec/dvl/pd0.hpp"
+#include "codec/dvl/waterlinked.hpp"
+#include "codec/imu/vectornav.hpp"
+#include "codec/satellite/ubx.hpp"
+#include "codec/text/nmea.hpp"
 
 namespace fathom::codec {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "codec/air_report.hpp"
+#include "codec/air/air_report.hpp"
 #include "codec/codec.hpp"
 
 namespace fathom::codec {

@@ -2,15 +2,15 @@
 
 #include <array>
 
-#include "config/bridge_config.hpp"
+#include "config/bridge/bridge_config.hpp"
 #include "config/console_config.hpp"
 #include "config/discovery_config.hpp"
-#include "config/fusion_config.hpp"
+#include "config/fusion/fusion_config.hpp"
+#include "config/fusion/hydro_config.hpp"
 #include "config/guidance_config.hpp"
-#include "config/hydro_config.hpp"
 #include "config/monitor_config.hpp"
-#include "config/scenario_config.hpp"
-#include "config/simulator_config.hpp"
+#include "config/scenario/scenario_config.hpp"
+#include "config/scenario/simulator_config.hpp"
 
 namespace fathom::config {
 

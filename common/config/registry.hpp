@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "config/error.hpp"
+#include "config/json/error.hpp"
 
 namespace fathom::config {
 

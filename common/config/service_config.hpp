@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "config/error.hpp"
+#include "config/json/error.hpp"
 
 namespace fathom::config {
 

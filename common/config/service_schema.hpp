@@ -4,7 +4,7 @@
 // load_service_config(). A service's describe() says `s.include(&T::common);`.
 
 #include "config/common_config.hpp"
-#include "config/schema.hpp"
+#include "config/json/schema.hpp"
 #include "config/service_config.hpp"
 #include "runtime/build_info.hpp"
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "codec/air_data.hpp"
+#include "codec/air/air_data.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
-#include "sim/vehicle.hpp"
+#include "sim/vehicles/vehicle.hpp"
 
 namespace fathom::sim {
 

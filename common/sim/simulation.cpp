@@ -7,7 +7,7 @@
 #include "geo/so3.hpp"
 #include "sim/sensor_models.hpp"
 #include "sim/truth_generator.hpp"
-#include "sim/vehicle.hpp"
+#include "sim/vehicles/vehicle.hpp"
 
 namespace fathom::sim {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "geo/wgs84.hpp"
 #include "sim/random.hpp"
-#include "sim/vehicle.hpp"
+#include "sim/vehicles/vehicle.hpp"
 
 namespace fathom::sim {
 namespace {

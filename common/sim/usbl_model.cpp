@@ -4,7 +4,7 @@
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 #include "sim/sensor_models.hpp"
-#include "sim/vehicle.hpp"
+#include "sim/vehicles/vehicle.hpp"
 
 namespace fathom::sim {
 

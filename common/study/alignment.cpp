@@ -11,7 +11,7 @@
 #include "sim/random.hpp"
 #include "sim/triad_error.hpp"
 #include "sim/truth_generator.hpp"
-#include "sim/vehicle.hpp"
+#include "sim/vehicles/vehicle.hpp"
 
 namespace fathom::study {
 namespace {

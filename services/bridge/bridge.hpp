@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bridge/sensor_channel.hpp"
-#include "config/bridge_config.hpp"
+#include "config/bridge/bridge_config.hpp"
 #include "host/run.hpp"
 #include "host/service_host.hpp"
 

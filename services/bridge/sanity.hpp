@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "codec/codec.hpp"
-#include "config/bridge_config.hpp"
+#include "config/bridge/bridge_config.hpp"
 
 namespace fathom::bridge {
 

@@ -14,7 +14,7 @@
 #include "bridge/channel_health.hpp"
 #include "bridge/sanity.hpp"
 #include "codec/codec.hpp"
-#include "config/bridge_config.hpp"
+#include "config/bridge/bridge_config.hpp"
 #include "runtime/byte_source.hpp"
 #include "runtime/log.hpp"
 

@@ -7,7 +7,7 @@
 #include "base/exit_code.hpp"
 #include "bus/participant.hpp"
 #include "cli/command.hpp"
-#include "config/error.hpp"
+#include "config/json/error.hpp"
 #include "runtime/build_info.hpp"
 
 namespace {

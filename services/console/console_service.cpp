@@ -12,12 +12,12 @@
 #include "base/clock.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
-#include "console/http_server.hpp"
-#include "console/picture.hpp"
-#include "console/picture_json.hpp"
-#include "console/precautions.hpp"
-#include "console/refusal_log.hpp"
+#include "console/http/http_server.hpp"
+#include "console/http/precautions.hpp"
+#include "console/http/refusal_log.hpp"
 #include "console/site.hpp"
+#include "console/view/vehicle_view.hpp"
+#include "console/view/vehicle_view_json.hpp"
 #include "health/text.hpp"
 
 namespace fathom::console {
@@ -73,7 +73,7 @@ struct ConsoleService::Impl {
       : host(host_in),
         config(config_in),
         http(server_options(config)),
-        picture({config.common.vehicle, config.common.bus.domain, config.fresh_s}),
+        view({config.common.vehicle, config.common.bus.domain, config.fresh_s}),
         events(stream_limits(config)),
         commands(host.participant()),
         site(site_options(config),
@@ -121,14 +121,14 @@ struct ConsoleService::Impl {
     readers.push_back(
         std::make_shared<bus::Reader<T>>(host.participant(), [this](const T& sample, const bus::SampleInfo&) {
           const std::lock_guard lock(mutex);
-          picture.add(sample, now());
+          view.add(sample, now());
         }));
   }
 
   /// Any thread of the bus.
   void take(const Route& route, const std::string& writer) {
     std::unique_lock lock(mutex);
-    const auto fault = picture.add(route, now());
+    const auto fault = view.add(route, now());
     lock.unlock();
     if (!fault) return;
     if (const auto line = bad_routes.add({0, *fault}, writer, monotonic.monotonic_ns()))
@@ -152,7 +152,7 @@ struct ConsoleService::Impl {
   void tick() {
     if (!server.running() && monotonic.monotonic_ns() - tried_ns >= kRetryNs) listen();
     std::unique_lock lock(mutex);
-    const Tick fresh = picture.tick(now());
+    const Tick fresh = view.tick(now());
     lock.unlock();
     if (events.clients() == 0) return;  // the text would be for nobody
     // Written once, whole, and shared: the bytes on the wire are the same for everyone.
@@ -162,14 +162,14 @@ struct ConsoleService::Impl {
   /// Any thread. The history is copied under the lock and written without it: samples do not wait for text.
   std::string snapshot() {
     std::unique_lock lock(mutex);
-    const Snapshot taken = picture.snapshot();
+    const Snapshot taken = view.snapshot();
     lock.unlock();
     return snapshot_json(taken);
   }
 
   [[nodiscard]] std::optional<health::Departure> departure_of(const Command& order) {
     const std::lock_guard lock(mutex);
-    return picture.departure_of(order);
+    return view.departure_of(order);
   }
 
   /// Any thread.
@@ -235,7 +235,7 @@ struct ConsoleService::Impl {
   /// All of them, and each reason that there was. Precondition: mutex held.
   void count_refused_routes(ServiceStatus& status) const {
     std::uint64_t all = 0;
-    const auto& refused = picture.routes().refused();
+    const auto& refused = view.routes().refused();
     for (std::size_t i = 0; i < refused.size(); ++i) {
       all += refused[i];
       if (refused[i] == 0) continue;
@@ -266,8 +266,8 @@ struct ConsoleService::Impl {
   std::string exposure;             ///< what is risky about where this listens; empty: nothing
   std::optional<TimeNs> warned_ns;  ///< of the certificate's end; monotonic
   SystemClock monotonic;
-  std::mutex mutex;  ///< of the picture and of what was said
-  Picture picture;
+  std::mutex mutex;  ///< of the view and of what was said
+  VehicleView view;
   std::string said;  ///< why nobody can reach the console; empty: all is well
   TimeNs tried_ns = 0;
   RefusalLog refusals{kRefusalPeriodNs, "a request"};

@@ -1,6 +1,6 @@
 #include "config/console_config.hpp"
 #include "console/console_service.hpp"
-#include "console/precautions.hpp"
+#include "console/http/precautions.hpp"
 #include "host/run.hpp"
 
 int main(int argc, char** argv) {

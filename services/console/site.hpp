@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
-#include "console/answer.hpp"
-#include "console/fan_out.hpp"
-#include "console/orders.hpp"
-#include "console/request.hpp"
-#include "console/roles.hpp"
+#include "console/http/answer.hpp"
+#include "console/http/fan_out.hpp"
+#include "console/http/request.hpp"
+#include "console/orders/orders.hpp"
+#include "console/orders/roles.hpp"
 
 namespace fathom::console {
 

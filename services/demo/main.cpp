@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "base/exit_code.hpp"
-#include "config/error.hpp"
+#include "config/json/error.hpp"
 #include "dataset/dataset.hpp"
 #include "demo/options.hpp"
 #include "demo/run.hpp"

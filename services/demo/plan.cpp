@@ -8,8 +8,8 @@
 
 #include "base/clock.hpp"
 #include "config/monitor_config.hpp"
-#include "config/scenario_config.hpp"
-#include "config/scenario_wiring.hpp"
+#include "config/scenario/scenario_config.hpp"
+#include "config/scenario/scenario_wiring.hpp"
 #include "config/service_config.hpp"
 #include "dataset/dataset.hpp"
 #include "demo/recording.hpp"

@@ -16,13 +16,13 @@
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "estimation/engine/fusion_engine.hpp"
-#include "fusion/arrival_log.hpp"
-#include "fusion/checkpoint.hpp"
-#include "fusion/checkpoint_keeper.hpp"
-#include "fusion/checkpoint_start.hpp"
+#include "fusion/checkpoint/checkpoint.hpp"
+#include "fusion/checkpoint/keeper.hpp"
+#include "fusion/checkpoint/start.hpp"
 #include "fusion/imu_source.hpp"
 #include "fusion/life_sign.hpp"
-#include "fusion/replica_link.hpp"
+#include "fusion/replica/arrival_log.hpp"
+#include "fusion/replica/link.hpp"
 #include "fusion/verdict_desk.hpp"
 
 namespace fathom::fusion {

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "config/fusion_config.hpp"
+#include "config/fusion/fusion_config.hpp"
 #include "host/service_host.hpp"
 
 namespace fathom::fusion {

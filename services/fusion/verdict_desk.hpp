@@ -10,7 +10,7 @@
 #include "bus/writer.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "fusion/life_sign.hpp"
-#include "fusion/verdict_relay.hpp"
+#include "fusion/replica/verdict_relay.hpp"
 #include "host/service_host.hpp"
 
 namespace fathom::fusion {

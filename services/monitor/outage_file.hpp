@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "health/gps_outage.hpp"
+#include "health/gps/gps_outage.hpp"
 
 namespace fathom::monitor {
 

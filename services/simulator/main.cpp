@@ -1,4 +1,4 @@
-#include "config/simulator_config.hpp"
+#include "config/scenario/simulator_config.hpp"
 #include "host/run.hpp"
 #include "simulator/simulator_service.hpp"
 

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "bus/writer.hpp"
-#include "config/simulator_config.hpp"
+#include "config/scenario/simulator_config.hpp"
 #include "host/service_host.hpp"
 #include "samples/truth.hpp"
 #include "simulator/player.hpp"

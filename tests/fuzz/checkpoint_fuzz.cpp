@@ -4,7 +4,7 @@
 #include <zlib.h>
 
 #include "driver.hpp"
-#include "fusion/checkpoint.hpp"
+#include "fusion/checkpoint/checkpoint.hpp"
 #include "state_fuzz.hpp"
 
 namespace {

@@ -11,8 +11,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "config/json/strict_json.hpp"
 #include "config/registry.hpp"
-#include "config/strict_json.hpp"
 #include "driver.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "bus/detail/datagram_check.hpp"
+#include "bus/detail/security/datagram_check.hpp"
 #include "driver.hpp"
 #include "support/rtps_datagram.hpp"
 

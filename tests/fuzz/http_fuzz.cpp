@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "console/orders.hpp"
-#include "console/request.hpp"
+#include "console/http/request.hpp"
+#include "console/orders/orders.hpp"
 #include "console/site.hpp"
 #include "driver.hpp"
 

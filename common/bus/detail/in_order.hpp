@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "base/time.hpp"
-#include "bus/detail/peer_book.hpp"
+#include "bus/detail/network/peer_book.hpp"
 
 namespace fathom::bus::detail {
 

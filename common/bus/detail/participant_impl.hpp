@@ -12,16 +12,16 @@
 
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 
-#include "bus/detail/dds_log.hpp"
-#include "bus/detail/errands.hpp"
 #include "bus/detail/event_book.hpp"
-#include "bus/detail/hearing.hpp"
-#include "bus/detail/peer_book.hpp"
-#include "bus/detail/scheduling.hpp"
-#include "bus/detail/stranger_book.hpp"
+#include "bus/detail/network/delivery_watch.hpp"
+#include "bus/detail/network/peer_book.hpp"
+#include "bus/detail/network/transport.hpp"
+#include "bus/detail/security/stranger_book.hpp"
 #include "bus/detail/topic_ops.hpp"
-#include "bus/detail/transport.hpp"
 #include "bus/detail/versions/discovery_listener.hpp"
+#include "bus/detail/workarounds/dds_log.hpp"
+#include "bus/detail/workarounds/scheduling.hpp"
+#include "bus/detail/workarounds/work_queue.hpp"
 #include "bus/participant.hpp"
 #include "security/credentials.hpp"
 
@@ -68,8 +68,8 @@ struct Participant::Impl final : detail::DiscoveryListener {
 
   detail::EventBook events;
   detail::PeerBook peers;
-  const std::shared_ptr<detail::Hearing> hearing = std::make_shared<detail::Hearing>();
-  detail::Errands errands;
+  const std::shared_ptr<detail::DeliveryWatch> delivery_watch = std::make_shared<detail::DeliveryWatch>();
+  detail::WorkQueue work_queue;
   detail::StrangerBook strangers;
   std::optional<detail::Scheduling> samples_as;      ///< of threads that carry samples; nothing: as chores
   std::optional<security::Credentials> credentials;  ///< nothing: the network is not protected
@@ -91,7 +91,8 @@ struct Participant::Impl final : detail::DiscoveryListener {
   void on_dds_error(const std::string& message);
   void close();
 
-  const std::shared_ptr<detail::Onlookers> onlookers_ = std::make_shared<detail::Onlookers>();
+  const std::shared_ptr<detail::LowPriorityPeers> low_priority_peers_ =
+      std::make_shared<detail::LowPriorityPeers>();
   std::atomic<int> lower_ids_ = 0;  // given
   int number_ = -1;                 // among the participants of this process
 

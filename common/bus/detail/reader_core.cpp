@@ -14,12 +14,12 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 
 #include "base/clock.hpp"
-#include "bus/detail/dds_log.hpp"
 #include "bus/detail/endpoint.hpp"
 #include "bus/detail/in_order.hpp"
 #include "bus/detail/participant_impl.hpp"
-#include "bus/detail/qos.hpp"
+#include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
+#include "bus/detail/workarounds/dds_log.hpp"
 
 namespace fathom::bus::detail {
 using rtps::InstanceHandle_t;
@@ -30,7 +30,7 @@ using std::chrono::milliseconds;
 
 constexpr std::chrono::seconds kRest(30);  // from one renewal of a reader to the next
 
-// Errands.
+// WorkQueue.
 constexpr int kRenew = 0;
 constexpr int kHandOver = 1;
 constexpr int kHandOverAtLast = 2;
@@ -68,9 +68,9 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   }
 
   ~Impl() override {
-    bus.hearing->leave(this);
+    bus.delivery_watch->leave(this);
     stop();
-    bus.errands.forget(this);
+    bus.work_queue.forget(this);
     close();
     ops.destroy(slot.sample);
   }
@@ -83,14 +83,14 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     dds::Topic* topic = bus.topic(ops);
     closed = false;
     // Joined before Fast DDS knows it, for writers may be matched at once.
-    bus.hearing->join(this, requested.ownership == dds::EXCLUSIVE_OWNERSHIP_QOS, [this] {
-      bus.errands.run(
+    bus.delivery_watch->join(this, requested.ownership == dds::EXCLUSIVE_OWNERSHIP_QOS, [this] {
+      bus.work_queue.run(
           this, [this] { renew(); }, kRenew);
     });
     reader = bus.subscriber->create_datareader(topic, qos, this, mask);
-    if (reader == nullptr) return bus.hearing->leave(this);
+    if (reader == nullptr) return bus.delivery_watch->leave(this);
     const WriterGuid guid = to_guid(reader->guid());
-    bus.hearing->is_entity(this, to_entity_id(std::span(guid).subspan(12)));
+    bus.delivery_watch->is_entity(this, to_entity_id(std::span(guid).subspan(12)));
   }
 
   /// Whoever is in the handler now is waited for; whoever comes later sees `closed`.
@@ -113,7 +113,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     const auto now = std::chrono::steady_clock::now();
     if (renewed && now - *renewed < kRest) return;
     renewed = now;
-    bus.hearing->leave(this);
+    bus.delivery_watch->leave(this);
     close();
     {
       const std::lock_guard lock(mutex);
@@ -145,7 +145,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     dds::SampleInfo info;
     while (!closed && done(from->take_next_sample(&slot, &info))) {
       const WriterGuid guid = to_guid(info.sample_identity.writer_guid());
-      bus.hearing->heard(this, guid);
+      bus.delivery_watch->heard(this, guid);
       if (!info.valid_data) continue;  // an instance ended
       if (!slot.valid) {
         const std::string name = bus.peers.name(guid);
@@ -204,12 +204,12 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   }
 
   /// Precondition: mutex held.
-  void hand_over_later(int errand, milliseconds delay) {
+  void hand_over_later(int task, milliseconds delay) {
     if (closed) return;
     const auto work = [this] {
       if (reader != nullptr) receive(reader);
     };
-    bus.errands.run(this, work, errand, delay);
+    bus.work_queue.run(this, work, task, delay);
   }
 
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
@@ -229,10 +229,10 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
       if (order.keeps()) hand_over_later(kHandOver, milliseconds(0));
     }
     if (status.current_count_change > 0) {
-      bus.hearing->matched(this, guid);
+      bus.delivery_watch->matched(this, guid);
       bus.writer_matched(guid, ops.topic);
     } else {
-      bus.hearing->unmatched(this, guid);
+      bus.delivery_watch->unmatched(this, guid);
       bus.writer_unmatched(guid, ops.topic);
     }
   }
@@ -277,7 +277,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   }
 
   void on_sample_rejected(dds::DataReader*, const dds::SampleRejectedStatus& status) override {
-    bus.hearing->refused(this);
+    bus.delivery_watch->refused(this);
     bus.events.report(BusEventKind::resource_limit, ops.topic, "",
                       "this reader has no room for more samples or keys", status.total_count_change);
   }

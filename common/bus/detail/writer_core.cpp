@@ -14,12 +14,12 @@
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 
-#include "bus/detail/dds_log.hpp"
 #include "bus/detail/endpoint.hpp"
 #include "bus/detail/participant_impl.hpp"
-#include "bus/detail/qos.hpp"
+#include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
-#include "bus/detail/scheduling.hpp"
+#include "bus/detail/workarounds/dds_log.hpp"
+#include "bus/detail/workarounds/scheduling.hpp"
 
 namespace fathom::bus::detail {
 namespace {
@@ -78,7 +78,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
 
   ~Impl() override {
     closing = true;
-    bus.errands.forget(this);
+    bus.work_queue.forget(this);
     retire(old);
     retire(next);
     retire(writer);
@@ -125,7 +125,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   using Step = void (Impl::*)();
   void then(Step step, milliseconds delay = kLook) {
     if (!closing)
-      bus.errands.run(
+      bus.work_queue.run(
           this, [this, step] { (this->*step)(); }, 0, delay);
   }
 
@@ -176,7 +176,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     for (const WriterGuid& reader : readers) {
       const GuidPrefix of = prefix_of(reader);
       const bool own = of == prefix_of(to_guid(next->guid()));
-      all = (own || bus.hearing->is_heard(of, kBreak_ns)) && all;
+      all = (own || bus.delivery_watch->is_heard(of, kBreak_ns)) && all;
     }
     return all;
   }
@@ -334,7 +334,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   /// The last sample of the old one, while that is there; else unknown.
   rtps::SampleIdentity predecessor = rtps::SampleIdentity::unknown();
 
-  // Of the errands.
+  // Of the work_queue.
   std::atomic<bool> succeeding = false;
   dds::DataWriter* next = nullptr;  // created, and not writing yet
   dds::DataWriter* old = nullptr;   // no longer writing

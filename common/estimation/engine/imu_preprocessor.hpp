@@ -28,7 +28,7 @@ class ImuPreprocessor {
   [[nodiscard]] Result take(const ImuSample& sample);
   /// The newest sample that was taken, 0 before the first.
   [[nodiscard]] TimeNs newest_ns() const { return last_ns_; }
-  /// For archives: see fields/intake.hpp.
+  /// For archives: see fields/imu_preprocessor.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
 

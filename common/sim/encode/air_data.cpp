@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "codec/air_data.hpp"
-#include "codec/nmea_sentence.hpp"
+#include "codec/air/air_data.hpp"
+#include "codec/text/nmea_sentence.hpp"
 #include "sim/encode/nmea.hpp"
 
 namespace fathom::sim::encode {

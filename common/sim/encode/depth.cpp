@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdio>
 
-#include "codec/pressure.hpp"
+#include "codec/depth/pressure.hpp"
 
 namespace fathom::sim::encode {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "codec/nmea_sentence.hpp"
+#include "codec/text/nmea_sentence.hpp"
 #include "geo/so3.hpp"
 
 namespace fathom::sim::encode {

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "codec/bytes.hpp"
-#include "codec/pd0_geometry.hpp"
-#include "codec/pd0_layout.hpp"
+#include "codec/dvl/pd0_geometry.hpp"
+#include "codec/dvl/pd0_layout.hpp"
 
 namespace fathom::sim::encode {
 namespace {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "codec/bytes.hpp"
-#include "codec/ubx.hpp"
+#include "codec/satellite/ubx.hpp"
 
 namespace fathom::sim::encode {
 namespace {

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "codec/bytes.hpp"
-#include "codec/vectornav.hpp"
-#include "codec/vectornav_layout.hpp"
+#include "codec/imu/vectornav.hpp"
+#include "codec/imu/vectornav_layout.hpp"
 
 namespace fathom::sim::encode {
 namespace {

@@ -36,7 +36,6 @@ struct FlightCase {
 
 enum class FlightFilter : std::uint8_t { ekf15, ekf24, ekf36 };
 [[nodiscard]] estimation::EngineConfig flight_config(FlightFilter filter, double gps_latency_s);
-[[nodiscard]] fixed_gain::Navigator::Config flight_config(
-    fixed_gain::OutageMode mode);
+[[nodiscard]] fixed_gain::Navigator::Config flight_config(fixed_gain::OutageMode mode);
 
 }  // namespace fathom::study

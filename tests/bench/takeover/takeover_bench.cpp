@@ -26,7 +26,7 @@
 #include "base/clock.hpp"
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
-#include "config/fusion_config.hpp"
+#include "config/fusion/fusion_config.hpp"
 #include "config/service_config.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/wgs84.hpp"

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "codec/pd0.hpp"
-#include "codec/pd0_geometry.hpp"
-#include "codec/vectornav.hpp"
-#include "codec/waterlinked.hpp"
+#include "codec/dvl/pd0.hpp"
+#include "codec/dvl/pd0_geometry.hpp"
+#include "codec/dvl/waterlinked.hpp"
+#include "codec/imu/vectornav.hpp"
 #include "sim/encode/pd0.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/waterlinked.hpp"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/detail/event_book.hpp"
-#include "bus/detail/peer_book.hpp"
+#include "bus/detail/network/peer_book.hpp"
 
 namespace fathom::bus::detail {
 namespace {

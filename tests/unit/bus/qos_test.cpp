@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bus/detail/effective_qos.hpp"
+#include "bus/detail/qos/effective_qos.hpp"
 #include "bus/reader.hpp"
 #include "bus/topics.hpp"
 #include "bus/writer.hpp"

@@ -1,4 +1,4 @@
-#include "bus/detail/scheduling.hpp"
+#include "bus/detail/workarounds/scheduling.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/detail/stranger_book.hpp"
+#include "bus/detail/security/stranger_book.hpp"
 
 namespace fathom::bus::detail {
 namespace {

@@ -1,6 +1,6 @@
 // What stands between Fast DDS and the sockets: who is sent a datagram first, and what is not let in.
 
-#include "bus/detail/transport.hpp"
+#include "bus/detail/network/transport.hpp"
 
 #include <cstdint>
 #include <memory>
@@ -10,8 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bus/detail/datagram_check.hpp"
-#include "bus/detail/onlookers.hpp"
+#include "bus/detail/network/low_priority_peers.hpp"
+#include "bus/detail/security/datagram_check.hpp"
 #include "support/dds_socket.hpp"
 #include "support/rtps_datagram.hpp"
 
@@ -50,35 +50,35 @@ std::vector<std::uint32_t> ports(const Locators& locators) {
   return out;
 }
 
-std::vector<std::uint32_t> ordered(const Onlookers& onlookers, Locators destinations) {
-  onlookers.to_the_back(destinations);
+std::vector<std::uint32_t> ordered(const LowPriorityPeers& low_priority_peers, Locators destinations) {
+  low_priority_peers.to_the_back(destinations);
   return ports(destinations);
 }
 
-TEST(Onlookers, ComeLastAndTheOrderStaysOtherwise) {
-  Onlookers onlookers;
+TEST(LowPriorityPeers, ComeLastAndTheOrderStaysOtherwise) {
+  LowPriorityPeers low_priority_peers;
   const Locators all{locator(1), locator(2), locator(3), locator(4), locator(5)};
-  EXPECT_THAT(ordered(onlookers, all), ElementsAre(1, 2, 3, 4, 5));
-  onlookers.seen(prefix(1), {locator(4)});
-  onlookers.seen(prefix(2), {locator(1), locator(1, "10.0.0.9")});
-  EXPECT_THAT(ordered(onlookers, all), ElementsAre(2, 3, 5, 1, 4));
-  EXPECT_THAT(ordered(onlookers, {locator(1), locator(4)}), ElementsAre(1, 4));
-  EXPECT_THAT(ordered(onlookers, {}), IsEmpty());
+  EXPECT_THAT(ordered(low_priority_peers, all), ElementsAre(1, 2, 3, 4, 5));
+  low_priority_peers.seen(prefix(1), {locator(4)});
+  low_priority_peers.seen(prefix(2), {locator(1), locator(1, "10.0.0.9")});
+  EXPECT_THAT(ordered(low_priority_peers, all), ElementsAre(2, 3, 5, 1, 4));
+  EXPECT_THAT(ordered(low_priority_peers, {locator(1), locator(4)}), ElementsAre(1, 4));
+  EXPECT_THAT(ordered(low_priority_peers, {}), IsEmpty());
 }
 
-TEST(Onlookers, AnotherAddressIsAnotherReceiver) {
-  Onlookers onlookers;
-  onlookers.seen(prefix(1), {locator(1, "10.0.0.9")});
-  EXPECT_THAT(ordered(onlookers, {locator(1), locator(2)}), ElementsAre(1, 2));
+TEST(LowPriorityPeers, AnotherAddressIsAnotherReceiver) {
+  LowPriorityPeers low_priority_peers;
+  low_priority_peers.seen(prefix(1), {locator(1, "10.0.0.9")});
+  EXPECT_THAT(ordered(low_priority_peers, {locator(1), locator(2)}), ElementsAre(1, 2));
 }
 
-TEST(Onlookers, OneThatMovedOrLeftIsNotAskedForWhereItWas) {
-  Onlookers onlookers;
-  onlookers.seen(prefix(1), {locator(1)});
-  onlookers.seen(prefix(1), {locator(2)});
-  EXPECT_THAT(ordered(onlookers, {locator(1), locator(2), locator(3)}), ElementsAre(1, 3, 2));
-  onlookers.gone(prefix(1));
-  EXPECT_THAT(ordered(onlookers, {locator(1), locator(2), locator(3)}), ElementsAre(1, 2, 3));
+TEST(LowPriorityPeers, OneThatMovedOrLeftIsNotAskedForWhereItWas) {
+  LowPriorityPeers low_priority_peers;
+  low_priority_peers.seen(prefix(1), {locator(1)});
+  low_priority_peers.seen(prefix(1), {locator(2)});
+  EXPECT_THAT(ordered(low_priority_peers, {locator(1), locator(2), locator(3)}), ElementsAre(1, 3, 2));
+  low_priority_peers.gone(prefix(1));
+  EXPECT_THAT(ordered(low_priority_peers, {locator(1), locator(2), locator(3)}), ElementsAre(1, 2, 3));
 }
 
 TEST(Harmless, WhatFastDdsAndOthersSend) {
@@ -190,18 +190,19 @@ class Transports : public testing::Test {
  protected:
   Transports()
       : transport(dynamic_cast<fastdds::ChainingTransport*>(
-            TransportDescriptor(std::make_shared<fastdds::UDPv4TransportDescriptor>(), onlookers, hearing,
+            TransportDescriptor(std::make_shared<fastdds::UDPv4TransportDescriptor>(), low_priority_peers,
+                                delivery_watch,
                                 [this](const std::string& address) { refused.push_back(address); })
                 .create_transport())) {}
 
-  const std::shared_ptr<Onlookers> onlookers = std::make_shared<Onlookers>();
-  const std::shared_ptr<Hearing> hearing = std::make_shared<Hearing>();
+  const std::shared_ptr<LowPriorityPeers> low_priority_peers = std::make_shared<LowPriorityPeers>();
+  const std::shared_ptr<DeliveryWatch> delivery_watch = std::make_shared<DeliveryWatch>();
   std::vector<std::string> refused;
   const std::unique_ptr<fastdds::ChainingTransport> transport;
 };
 
 TEST_F(Transports, SendToOnlookersLast) {
-  onlookers->seen(prefix(1), {locator(7413)});
+  low_priority_peers->seen(prefix(1), {locator(7413)});
   rtps::LocatorList_t list;
   for (const std::uint32_t port : {7411, 7413, 7415}) list.push_back(locator(port));
   fastdds::Locators from(list.begin());

@@ -1,6 +1,6 @@
 // The standard atmosphere, pitot tubes, and the codecs of air data.
 
-#include "codec/air_data.hpp"
+#include "codec/air/air_data.hpp"
 
 #include <cmath>
 #include <fstream>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "codec/air_report.hpp"
+#include "codec/air/air_report.hpp"
 #include "nmea_text.hpp"
 
 namespace fathom::codec {

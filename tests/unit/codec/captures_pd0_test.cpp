@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "capture.hpp"
-#include "codec/pd0_geometry.hpp"
+#include "codec/dvl/pd0_geometry.hpp"
 #include "support/data.hpp"
 
 namespace fathom::codec::capture {

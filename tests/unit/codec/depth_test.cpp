@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "codec/pressure.hpp"
+#include "codec/depth/pressure.hpp"
 #include "nmea_text.hpp"
 
 namespace fathom::codec {

@@ -1,4 +1,4 @@
-#include "codec/nmea_sentence.hpp"
+#include "codec/text/nmea_sentence.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "codec/nmea_sentence.hpp"
+#include "codec/text/nmea_sentence.hpp"
 #include "support/codec/decode_run.hpp"
 
 namespace fathom::test {

@@ -1,4 +1,4 @@
-#include "codec/pd0.hpp"
+#include "codec/dvl/pd0.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 
 #include "capture.hpp"
 #include "codec/bytes.hpp"
-#include "codec/pd0_layout.hpp"
+#include "codec/dvl/pd0_layout.hpp"
 
 namespace fathom::codec {
 namespace {

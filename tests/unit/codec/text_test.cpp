@@ -1,8 +1,8 @@
-#include "codec/text.hpp"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "codec/text/numbers.hpp"
 
 namespace fathom::codec {
 namespace {

@@ -1,4 +1,4 @@
-#include "codec/ubx.hpp"
+#include "codec/satellite/ubx.hpp"
 
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "codec/bytes.hpp"
-#include "codec/ubx_interference.hpp"
+#include "codec/satellite/ubx_interference.hpp"
 #include "support/codec/decode_run.hpp"
 
 namespace fathom::codec {

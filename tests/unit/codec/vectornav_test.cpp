@@ -1,4 +1,4 @@
-#include "codec/vectornav.hpp"
+#include "codec/imu/vectornav.hpp"
 
 #include <cmath>
 #include <limits>

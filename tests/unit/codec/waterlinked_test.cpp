@@ -1,4 +1,4 @@
-#include "codec/waterlinked.hpp"
+#include "codec/dvl/waterlinked.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "config/bridge_config.hpp"
+#include "config/bridge/bridge_config.hpp"
 
 #include <cstdio>
 #include <fstream>

@@ -1,4 +1,4 @@
-#include "config/fusion_config.hpp"
+#include "config/fusion/fusion_config.hpp"
 
 #include <cstdio>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "config/hydro_config.hpp"
+#include "config/fusion/hydro_config.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "config/bridge_config.hpp"
-#include "config/fusion_config.hpp"
-#include "config/scenario_config.hpp"
-#include "config/scenario_wiring.hpp"
+#include "config/bridge/bridge_config.hpp"
+#include "config/fusion/fusion_config.hpp"
+#include "config/scenario/scenario_config.hpp"
+#include "config/scenario/scenario_wiring.hpp"
 #include "config/service_config.hpp"
 
 namespace fathom::config {

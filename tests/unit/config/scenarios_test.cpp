@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "config/scenario_config.hpp"
-#include "config/scenario_wiring.hpp"
-#include "config/simulator_config.hpp"
+#include "config/scenario/scenario_config.hpp"
+#include "config/scenario/scenario_wiring.hpp"
+#include "config/scenario/simulator_config.hpp"
 #include "sim/device_encoder.hpp"
 #include "sim/simulation.hpp"
 

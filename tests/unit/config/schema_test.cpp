@@ -1,4 +1,4 @@
-#include "config/schema.hpp"
+#include "config/json/schema.hpp"
 
 #include <fstream>
 

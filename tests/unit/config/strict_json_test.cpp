@@ -1,6 +1,6 @@
 // What a configuration file may be at all, before anybody looks for a key in it.
 
-#include "config/strict_json.hpp"
+#include "config/json/strict_json.hpp"
 
 #include <fstream>
 

@@ -1,11 +1,11 @@
-#include "console/history.hpp"
+#include "console/view/history.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "console/picture.hpp"
-#include "console/picture_json.hpp"
+#include "console/view/vehicle_view.hpp"
+#include "console/view/vehicle_view_json.hpp"
 
 namespace fathom::console {
 namespace {

@@ -1,4 +1,4 @@
-#include "console/orders.hpp"
+#include "console/orders/orders.hpp"
 
 #include <cmath>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "console/refusal_log.hpp"
+#include "console/http/refusal_log.hpp"
 
 namespace fathom::console {
 namespace {

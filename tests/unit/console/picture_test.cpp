@@ -1,12 +1,11 @@
-#include "console/picture.hpp"
-
 #include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "console/fan_out.hpp"
-#include "console/picture_json.hpp"
+#include "console/http/fan_out.hpp"
+#include "console/view/vehicle_view.hpp"
+#include "console/view/vehicle_view_json.hpp"
 
 namespace fathom::console {
 namespace {
@@ -16,7 +15,7 @@ constexpr double kDegree = M_PI / 180.0;
 
 /// A vehicle seen by a console, with its own clock.
 struct Scene {
-  Picture picture{{"auv", 3, 0.7}};
+  VehicleView view{{"auv", 3, 0.7}};
   health::Instant now{kNsPerSecond, kUtc};
 
   void wait(double seconds) {
@@ -29,7 +28,7 @@ struct Scene {
     sample.header.sensor = sensor;
     if (sample.header.stamp_ns == 0) sample.header.stamp_ns = now.utc_ns;
     if (sample.header.received_ns == 0) sample.header.received_ns = now.utc_ns;
-    picture.add(sample, now);
+    view.add(sample, now);
   }
   void nav() {
     NavState state;
@@ -64,11 +63,11 @@ struct Scene {
     out.test_ratio = 0.125;
     add(out, sensor);
   }
-  nlohmann::json tick() { return nlohmann::json::parse(tick_json(picture.tick(now))); }
-  nlohmann::json snapshot() { return nlohmann::json::parse(snapshot_json(picture.snapshot())); }
+  nlohmann::json tick() { return nlohmann::json::parse(tick_json(view.tick(now))); }
+  nlohmann::json snapshot() { return nlohmann::json::parse(snapshot_json(view.snapshot())); }
 };
 
-TEST(Picture, WithNothingHeardEverythingIsUnknownAndStillJson) {
+TEST(VehicleView, WithNothingHeardEverythingIsUnknownAndStillJson) {
   Scene scene;
   const auto tick = scene.tick();
   EXPECT_EQ(tick["tick"], 1);
@@ -82,7 +81,7 @@ TEST(Picture, WithNothingHeardEverythingIsUnknownAndStillJson) {
   EXPECT_EQ(snapshot["verdict_kinds"].size(), kVerdictKinds);
 }
 
-TEST(Picture, ATickSaysWhatDdsSaid) {
+TEST(VehicleView, ATickSaysWhatDdsSaid) {
   Scene scene;
   scene.nav();
   scene.wait(0.05);
@@ -98,7 +97,7 @@ TEST(Picture, ATickSaysWhatDdsSaid) {
   EXPECT_EQ(scene.snapshot()["nav"].size(), 1U);
 }
 
-TEST(Picture, NavigationThatStoppedIsGoneBeforeASecondIsOver) {
+TEST(VehicleView, NavigationThatStoppedIsGoneBeforeASecondIsOver) {
   Scene scene;
   scene.nav();
   scene.wait(0.6);
@@ -107,7 +106,7 @@ TEST(Picture, NavigationThatStoppedIsGoneBeforeASecondIsOver) {
   EXPECT_EQ(scene.tick()["trust"]["sentence"].get<std::string>().find("No navigation"), 0U);
 }
 
-TEST(Picture, AFixIsShownWithItsVerdictWhicheverCameFirst) {
+TEST(VehicleView, AFixIsShownWithItsVerdictWhicheverCameFirst) {
   Scene scene;
   scene.gps(kUtc);
   EXPECT_TRUE(scene.tick()["fixes"].empty()) << "waits for its verdict";
@@ -124,7 +123,7 @@ TEST(Picture, AFixIsShownWithItsVerdictWhicheverCameFirst) {
   EXPECT_TRUE(scene.tick()["fixes"][0][6].is_null()) << "fusion never mentioned it";
 }
 
-TEST(Picture, SourcesAreCountedAndAged) {
+TEST(VehicleView, SourcesAreCountedAndAged) {
   Scene scene;
   scene.verdict(kUtc, VerdictKind::used);
   scene.wait(1.5);
@@ -142,7 +141,7 @@ TEST(Picture, SourcesAreCountedAndAged) {
   EXPECT_EQ(series["rows"][0][4], 0.5);
 }
 
-TEST(Picture, AMeasurementThatIsJudgedAgainIsShownAsJudgedLastAndCountedOnce) {
+TEST(VehicleView, AMeasurementThatIsJudgedAgainIsShownAsJudgedLastAndCountedOnce) {
   Scene scene;
   scene.gps(kUtc);
   scene.verdict(kUtc, VerdictKind::used);
@@ -175,7 +174,7 @@ TEST(Picture, AMeasurementThatIsJudgedAgainIsShownAsJudgedLastAndCountedOnce) {
   EXPECT_EQ(snapshot["verdicts"][0]["rows"][0][1], static_cast<int>(VerdictKind::rejected));
 }
 
-TEST(Picture, OtherVehiclesAreNotShown) {
+TEST(VehicleView, OtherVehiclesAreNotShown) {
   Scene scene;
   NavState foreign;
   scene.add(foreign, "fusion", "other");
@@ -189,7 +188,7 @@ TEST(Picture, OtherVehiclesAreNotShown) {
   EXPECT_TRUE(tick["fixes"].empty());
 }
 
-TEST(Picture, ARestartIsCounted) {
+TEST(VehicleView, ARestartIsCounted) {
   Scene scene;
   ServiceStatus status;
   status.pid = 100;
@@ -205,19 +204,19 @@ TEST(Picture, ARestartIsCounted) {
   EXPECT_EQ(service["counters"][0][1], 2);
 }
 
-TEST(Picture, TextFromTheNetworkIsEscaped) {
+TEST(VehicleView, TextFromTheNetworkIsEscaped) {
   Scene scene;
   Alarm alarm;
   alarm.alarm = "odd";
   alarm.active = true;
   alarm.text = "<script>\"\n\xff";
   scene.add(alarm, "monitor");
-  EXPECT_EQ(tick_json(scene.picture.tick(scene.now)).find('\n'), std::string::npos)
+  EXPECT_EQ(tick_json(scene.view.tick(scene.now)).find('\n'), std::string::npos)
       << "one line: an event ends with the line";
   EXPECT_EQ(scene.tick()["status"]["alarms"].size(), 1U);
 }
 
-TEST(Picture, ARelativeFixIsPlacedFromItsStation) {
+TEST(VehicleView, ARelativeFixIsPlacedFromItsStation) {
   Scene scene;
   UsblSample sample;
   sample.frame = UsblFrame::vessel_frd;

@@ -1,4 +1,4 @@
-#include "console/request.hpp"
+#include "console/http/request.hpp"
 
 #include <algorithm>
 

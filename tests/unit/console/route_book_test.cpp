@@ -1,12 +1,12 @@
-#include "console/route_book.hpp"
+#include "console/view/route_book.hpp"
 
 #include <numbers>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "console/picture.hpp"
-#include "console/picture_json.hpp"
+#include "console/view/vehicle_view.hpp"
+#include "console/view/vehicle_view_json.hpp"
 
 namespace fathom::console {
 namespace {
@@ -16,7 +16,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A vehicle with programs that guide it, seen by a console with its own clock.
 struct Scene {
-  Picture picture{{"auv", 3, 0.7}};
+  VehicleView view{{"auv", 3, 0.7}};
   health::Instant now{kNsPerSecond, kUtc};
 
   void wait(double seconds) {
@@ -37,8 +37,8 @@ struct Scene {
                       .speed_m_s = 1.5}};
     return out;
   }
-  std::optional<std::string> say(const Route& route) { return picture.add(route, now); }
-  nlohmann::json tick() { return nlohmann::json::parse(tick_json(picture.tick(now))); }
+  std::optional<std::string> say(const Route& route) { return view.add(route, now); }
+  nlohmann::json tick() { return nlohmann::json::parse(tick_json(view.tick(now))); }
   /// The routes of the next tick that has them.
   nlohmann::json routes() {
     for (int i = 0; i < 10; ++i) {
@@ -163,7 +163,7 @@ TEST(Routes, HostileOnesAreRefusedAndCountedByReason) {
   }
   EXPECT_FALSE(scene.say(scene.route("p3")).has_value()) << "those who are there stay";
   EXPECT_EQ(scene.routes().size(), RouteBook::kMostRoutes);
-  const auto& refused = scene.picture.routes().refused();
+  const auto& refused = scene.view.routes().refused();
   EXPECT_EQ(refused[static_cast<std::size_t>(RouteFault::position)], 1U);
   EXPECT_EQ(refused[static_cast<std::size_t>(RouteFault::active)], 2U);
   EXPECT_EQ(refused[RouteBook::kTooMany], 1000U);

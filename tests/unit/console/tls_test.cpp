@@ -1,4 +1,4 @@
-#include "console/tls.hpp"
+#include "console/http/tls.hpp"
 
 #include <fstream>
 #include <functional>

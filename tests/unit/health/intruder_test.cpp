@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "health/intruder_watch.hpp"
+#include "health/writers/intruder_watch.hpp"
 #include "timeline.hpp"
 
 namespace fathom::health {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "health/gps_outage.hpp"
-#include "health/outage_clock.hpp"
+#include "health/gps/gps_outage.hpp"
+#include "health/gps/outage_clock.hpp"
 #include "timeline.hpp"
 
 namespace fathom::health {

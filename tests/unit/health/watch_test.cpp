@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include "health/alignment_watch.hpp"
-#include "health/dispute_watch.hpp"
-#include "health/nav_watch.hpp"
-#include "health/refusal_watch.hpp"
-#include "health/sensor_watch.hpp"
-#include "health/service_watch.hpp"
+#include "health/gps/dispute_watch.hpp"
+#include "health/instruments/refusal_watch.hpp"
+#include "health/instruments/sensor_watch.hpp"
+#include "health/navigation/alignment_watch.hpp"
+#include "health/navigation/nav_watch.hpp"
+#include "health/writers/service_watch.hpp"
 #include "samples/uncertainty.hpp"
 #include "timeline.hpp"
 

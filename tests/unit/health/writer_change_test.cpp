@@ -1,9 +1,9 @@
-#include "health/writer_change.hpp"
+#include "health/writers/writer_change.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "health/order_watch.hpp"
+#include "health/navigation/order_watch.hpp"
 #include "unit/health/timeline.hpp"
 
 namespace fathom::health {

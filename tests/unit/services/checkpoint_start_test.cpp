@@ -1,13 +1,12 @@
 // Whatever the file of a checkpoint holds: fusion starts, and does not meet it for ever.
 
-#include "fusion/checkpoint_start.hpp"
-
 #include <algorithm>
 #include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "fusion/checkpoint/start.hpp"
 #include "support/survey_run.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include "fusion/checkpoint.hpp"
+#include "fusion/checkpoint/checkpoint.hpp"
 
 #include <array>
 #include <cstdio>

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "cli/doctor_checks.hpp"
-#include "cli/doctor_host.hpp"
+#include "cli/doctor/checks.hpp"
+#include "cli/doctor/host.hpp"
 
 namespace fathom::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "fusion/leader_watch.hpp"
+#include "fusion/replica/leader_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // When one of several fusion services speaks, and when it knows that another one knows better.
 
-#include "fusion/replica.hpp"
+#include "fusion/replica/replica.hpp"
 
 #include <gtest/gtest.h>
 

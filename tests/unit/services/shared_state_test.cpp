@@ -1,4 +1,4 @@
-#include "fusion/shared_state.hpp"
+#include "fusion/replica/shared_state.hpp"
 
 #include <algorithm>
 #include <string>

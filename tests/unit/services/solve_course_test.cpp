@@ -1,8 +1,8 @@
-#include "cli/solve_course.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "cli/solve/course.hpp"
 
 namespace fathom::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "fusion/state_parts.hpp"
+#include "fusion/replica/state_parts.hpp"
 
 #include <vector>
 

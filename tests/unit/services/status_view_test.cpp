@@ -1,5 +1,3 @@
-#include "cli/status_view.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <string>
@@ -7,8 +5,17 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "cli/status/table.hpp"
+#include "status/json.hpp"
+#include "status/judgement.hpp"
+
 namespace fathom::cli {
 namespace {
+
+using status::Condition;
+using status::Heard;
+using status::StatusView;
+using status::VerdictCounts;
 
 StatusView healthy_view() {
   StatusView view;

@@ -1,4 +1,4 @@
-#include "fusion/verdict_relay.hpp"
+#include "fusion/replica/verdict_relay.hpp"
 
 #include <gtest/gtest.h>
 

@@ -11,10 +11,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "cli/device_path.hpp"
-#include "config/fusion_config.hpp"
-#include "config/scenario_config.hpp"
-#include "config/scenario_wiring.hpp"
+#include "cli/study/device_path.hpp"
+#include "config/fusion/fusion_config.hpp"
+#include "config/scenario/scenario_config.hpp"
+#include "config/scenario/scenario_wiring.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/wgs84.hpp"
 #include "samples/nav_detail.hpp"

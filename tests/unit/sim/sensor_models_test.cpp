@@ -6,7 +6,7 @@
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
-#include "sim/vehicle.hpp"
+#include "sim/vehicles/vehicle.hpp"
 #include "vehicles.hpp"
 
 namespace fathom::sim {

@@ -8,7 +8,7 @@
 #include "ecef_integrator.hpp"
 #include "geo/wgs84.hpp"
 #include "sim/truth_generator.hpp"
-#include "sim/vehicle.hpp"
+#include "sim/vehicles/vehicle.hpp"
 #include "vehicles.hpp"
 
 namespace fathom::sim {

@@ -6,7 +6,7 @@
 
 #include "estimation/hydro/vehicle_model.hpp"
 #include "geo/so3.hpp"
-#include "sim/vehicle.hpp"
+#include "sim/vehicles/vehicle.hpp"
 #include "study/hydro/experiment.hpp"
 #include "study/hydro/hydro_study.hpp"
 #include "study/runner.hpp"

@@ -14,8 +14,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using estimation::hydro::HydroCoefficients;
-using estimation::hydro::Vector6;
 using estimation::hydro::runge_kutta;
+using estimation::hydro::Vector6;
 using nlohmann::json;
 using test::matrix;
 using test::vector3;

@@ -1,8 +1,9 @@
 #include "study/baselines/ukf.hpp"
-#include "support/analytic_vehicle.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
+
+#include "support/analytic_vehicle.hpp"
 
 namespace fathom::study {
 namespace {

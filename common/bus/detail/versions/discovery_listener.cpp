@@ -18,7 +18,7 @@
 #include <fastdds/rtps/writer/WriterDiscoveryStatus.hpp>
 #endif
 
-#include "bus/detail/qos.hpp"
+#include "bus/detail/qos/profiles.hpp"
 
 namespace fathom::bus::detail {
 namespace {

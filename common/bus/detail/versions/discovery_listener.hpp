@@ -5,7 +5,7 @@
 
 #include <fastdds/dds/domain/DomainParticipantListener.hpp>
 
-#include "bus/detail/peer_book.hpp"
+#include "bus/detail/network/peer_book.hpp"
 #include "bus/detail/versions/names.hpp"
 
 namespace fathom::bus::detail {

@@ -1,0 +1,240 @@
+#include "config/bridge/bridge_config.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "config/bridge/byte_source_config.hpp"
+#include "config/scenario/sensor_schema.hpp"
+#include "config/service_schema.hpp"
+
+namespace fathom::config {
+namespace {
+
+using Violation = std::pair<std::string, std::string>;
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+bool is_rotation(const std::array<double, 9>& m) {
+  constexpr double kTolerance = 1e-6;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      double dot = 0.0;
+      for (std::size_t k = 0; k < 3; ++k) dot += m[3 * i + k] * m[3 * j + k];
+      if (std::abs(dot - (i == j ? 1.0 : 0.0)) > kTolerance) return false;
+    }
+  }
+  const double determinant = m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+                             m[2] * (m[3] * m[7] - m[4] * m[6]);
+  return determinant > 0.0;
+}
+
+std::string protocol_list() {
+  std::vector<std::string> names;
+  for (const auto& protocol : codec::protocols()) names.emplace_back(protocol.name);
+  return list_words(names);
+}
+
+template <class Sensor>
+void require_checksum(Schema<Sensor>& s) {
+  s.field("require_checksum", &Sensor::require_checksum,
+          "NMEA 0183 sentences without a checksum are refused");
+}
+
+}  // namespace
+
+void describe(Schema<SensorConfig>& s) {
+  s.field("name", &SensorConfig::name, "name of the instrument, the second key of its topic")
+      .name()
+      .required();
+  s.field("source", &SensorConfig::source, "where its bytes come from").required();
+  s.field("protocol", &SensorConfig::protocol, "what its bytes mean: " + protocol_list()).required();
+  s.field("time", &SensorConfig::time, "when its samples were valid").required();
+  s.field("rate_hz", &SensorConfig::rate_hz, "samples per second to expect")
+      .unit("Hz")
+      .range(0.001, 10'000)
+      .required();
+  s.field("stale_after_s", &SensorConfig::stale_after_s,
+          "without a sample for this long the bridge is degraded; 0: five periods, at least 2 s")
+      .unit("s")
+      .range(0, 86'400);
+  s.field(
+       "first_sample_s", &SensorConfig::first_sample_s,
+       "its first sample may take this long, e.g. where water switches the instrument on; 0: stale_after_s")
+      .unit("s")
+      .range(0, 86'400);
+  s.check([](const SensorConfig& c) -> Violation {
+    if (codec::find_protocol(c.protocol) == nullptr) return {"protocol", "one of " + protocol_list()};
+    return {};
+  });
+}
+
+void describe(Schema<MountingConfig>& s) {
+  s.field("frame", &MountingConfig::frame,
+          "how the instrument names its axes: forward-right-down, forward-left-up, or by matrix")
+      .words({{"frd", MountingFrame::frd}, {"flu", MountingFrame::flu}, {"matrix", MountingFrame::matrix}})
+      .required();
+  s.field("rpy_deg", &MountingConfig::rpy_rad,
+          "roll, pitch, yaw (about z, y, x in turn) of these axes in the body")
+      .unit("deg")
+      .range(-360, 360)
+      .scaled(kDegree);
+  s.field("R_BS", &MountingConfig::R_BS,
+          "frame matrix: rotation of instrument axes into body FRD, row by row");
+  s.check([](const MountingConfig& c) -> Violation {
+    if (c.frame != MountingFrame::matrix) {
+      if (c.R_BS) return {"R_BS", "nothing, because the frame is not matrix"};
+      return {};
+    }
+    if (!c.R_BS || !is_rotation(*c.R_BS)) return {"R_BS", "9 numbers of a right-handed rotation matrix"};
+    for (const double angle : c.rpy_rad) {
+      if (angle != 0.0) return {"rpy_deg", "zeros, because the frame is matrix"};
+    }
+    return {};
+  });
+}
+
+void describe(Schema<AsciiConfig>& s) {
+  s.field("prefix", &AsciiConfig::prefix, "text before the number");
+  s.field("scale", &AsciiConfig::scale, "the number times this, plus offset, is in the sensor's unit")
+      .range(-1e9, 1e9);
+  s.field("offset", &AsciiConfig::offset, "in the sensor's unit").range(-1e9, 1e9);
+}
+
+void describe(Schema<ImuSensorConfig>& s) {
+  s.include(&ImuSensorConfig::sensor);
+  s.field("mounting", &ImuSensorConfig::mounting, "how its axes lie in the vehicle").required();
+  s.field("max_angular_rate_deg_s", &ImuSensorConfig::max_angular_rate_rad_s, "samples beyond are refused")
+      .unit("deg/s")
+      .range(1, 100'000)
+      .scaled(kDegree);
+  s.field("max_specific_force_m_s2", &ImuSensorConfig::max_specific_force_m_s2, "samples beyond are refused")
+      .unit("m/s2")
+      .range(10, 1e6);
+}
+
+void describe(Schema<DvlSensorConfig>& s) {
+  s.include(&DvlSensorConfig::sensor);
+  s.field("heading_alignment_deg", &DvlSensorConfig::heading_alignment_rad,
+          "rotation of recorded instrument axes about down onto the vehicle")
+      .unit("deg")
+      .range(-360, 360)
+      .scaled(kDegree);
+  s.field("max_speed_m_s", &DvlSensorConfig::max_speed_m_s, "samples beyond are refused")
+      .unit("m/s")
+      .range(0.1, 1000);
+}
+
+void describe(Schema<GpsSensorConfig>& s) {
+  s.include(&GpsSensorConfig::sensor);
+  require_checksum(s);
+  s.field("max_speed_m_s", &GpsSensorConfig::max_speed_m_s, "samples beyond are refused")
+      .unit("m/s")
+      .range(0.1, 1e5);
+}
+
+void describe(Schema<DepthSensorConfig>& s) {
+  s.include(&DepthSensorConfig::sensor);
+  s.field("unit", &DepthSensorConfig::unit, "unit of the sensor's number; m: it is a depth already")
+      .words({{"m", DepthUnit::m},
+              {"psi", DepthUnit::psi},
+              {"dbar", DepthUnit::dbar},
+              {"bar", DepthUnit::bar},
+              {"mbar", DepthUnit::mbar},
+              {"kPa", DepthUnit::kPa},
+              {"Pa", DepthUnit::Pa}})
+      .required();
+  s.field("latitude_deg", &DepthSensorConfig::latitude_rad, "of the area of operation, for gravity")
+      .unit("deg")
+      .range(-90, 90)
+      .scaled(kDegree)
+      .required();
+  s.field("atmosphere_Pa", &DepthSensorConfig::atmosphere_Pa,
+          "air pressure at the surface, taken off the measured one")
+      .unit("Pa")
+      .range(0, 120'000);
+  s.field("ascii", &DepthSensorConfig::ascii, "protocol ascii_depth: the line's shape");
+  s.field("max_depth_m", &DepthSensorConfig::max_depth_m, "samples beyond are refused")
+      .unit("m")
+      .range(1, 12'000);
+}
+
+void describe(Schema<HeadingSensorConfig>& s) {
+  s.include(&HeadingSensorConfig::sensor);
+  require_checksum(s);
+}
+
+void describe(Schema<UsblSensorConfig>& s) {
+  s.include(&UsblSensorConfig::sensor);
+  require_checksum(s);
+  s.field("transponder", &UsblSensorConfig::transponder, "only fixes of this transponder; empty: of all");
+  s.field("sigma_floor_m", &UsblSensorConfig::sigma_floor_m, "no fix is believed to be better")
+      .unit("m")
+      .range(0, 1000);
+  s.field("max_range_m", &UsblSensorConfig::max_range_m, "relative fixes beyond are refused")
+      .unit("m")
+      .range(1, 1e5);
+}
+
+void describe(Schema<ActuatorSensorConfig>& s) {
+  s.include(&ActuatorSensorConfig::sensor);
+  require_checksum(s);
+  s.field("max_rpm", &ActuatorSensorConfig::max_rpm, "samples beyond are refused")
+      .unit("1/min")
+      .range(1, 1e6);
+  s.field("max_fin_deg", &ActuatorSensorConfig::max_fin_rad, "samples beyond are refused")
+      .unit("deg")
+      .range(1, 180)
+      .scaled(kDegree);
+}
+
+template <class Sensor>
+void describe(Schema<BridgeConfig<Sensor>>& s) {
+  using Config = BridgeConfig<Sensor>;
+  s.include(&Config::common);
+  s.field("sensors", &Config::sensors, "the instruments").required();
+  s.check([](const Config& config) -> Violation {
+    if (config.sensors.empty()) return {"sensors", "at least one instrument"};
+    std::set<std::string> names;
+    for (const Sensor& each : config.sensors) {
+      if (!names.insert(each.sensor.name.str()).second)
+        return {"sensors", "different names for its instruments"};
+    }
+    return {};
+  });
+}
+
+template LoadedConfig<ImuBridgeConfig> load_service_config(const LoadRequest& request);
+template LoadedConfig<DvlBridgeConfig> load_service_config(const LoadRequest& request);
+template LoadedConfig<GpsBridgeConfig> load_service_config(const LoadRequest& request);
+template LoadedConfig<DepthBridgeConfig> load_service_config(const LoadRequest& request);
+template LoadedConfig<HeadingBridgeConfig> load_service_config(const LoadRequest& request);
+template LoadedConfig<UsblBridgeConfig> load_service_config(const LoadRequest& request);
+template LoadedConfig<ActuatorBridgeConfig> load_service_config(const LoadRequest& request);
+template LoadedConfig<AirDataBridgeConfig> load_service_config(const LoadRequest& request);
+
+ConfigKind imu_bridge_kind() {
+  return make_kind<ImuBridgeConfig>("imu_bridge");
+}
+ConfigKind dvl_bridge_kind() {
+  return make_kind<DvlBridgeConfig>("dvl_bridge");
+}
+ConfigKind gps_bridge_kind() {
+  return make_kind<GpsBridgeConfig>("gps_bridge");
+}
+ConfigKind depth_bridge_kind() {
+  return make_kind<DepthBridgeConfig>("depth_bridge");
+}
+ConfigKind heading_bridge_kind() {
+  return make_kind<HeadingBridgeConfig>("heading_bridge");
+}
+ConfigKind usbl_bridge_kind() {
+  return make_kind<UsblBridgeConfig>("usbl_bridge");
+}
+ConfigKind actuator_bridge_kind() {
+  return make_kind<ActuatorBridgeConfig>("actuator_bridge");
+}
+ConfigKind air_data_bridge_kind() {
+  return make_kind<AirDataBridgeConfig>("air_data_bridge");
+}
+
+}  // namespace fathom::config

@@ -1,0 +1,255 @@
+#pragma once
+
+// Strict JSON configuration: one description per struct yields the loader, the canonical dump (for the
+// configuration hash) and the JSON Schema for editors. Included by config/*_config.cpp only; services include
+// the plain structs and the load_... functions declared beside them.
+//
+//   struct Link { std::string host; int port = 0; double timeout_s = 1.0; };
+//   inline void describe(Schema<Link>& s) {
+//     s.field("host", &Link::host, "address of the device").required();
+//     s.field("port", &Link::port, "TCP port").range(1, 65535);
+//     s.field("timeout_s", &Link::timeout_s, "give up after").unit("s").range(0.01, 60);
+//   }
+//   Link link = load<Link>({file, sets});
+//
+// `describe` is found by argument-dependent lookup: declare it in namespace fathom::config (or T's) before
+// use. Members may be bool, integers, double, std::string, Name, enums (with words), structs with a describe,
+// and std::vector, std::array, std::optional and std::map<std::string, ...> of these.
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "config/json/error.hpp"
+#include "config/json/value.hpp"
+#include "config/registry.hpp"
+
+namespace fathom::config {
+
+/// Handle to refine a field after naming it.
+template <class M>
+class FieldRef {
+ public:
+  FieldRef(FieldInfo& info, std::shared_ptr<Rules<Leaf<M>>> rules) : info_(&info), rules_(std::move(rules)) {}
+
+  /// Inclusive bounds of the number as written in the file.
+  FieldRef& range(double low, double high) {
+    rules_->low = low;
+    rules_->high = high;
+    return *this;
+  }
+  /// For documentation; the key should end in it as well.
+  FieldRef& unit(std::string text) {
+    info_->unit = std::move(text);
+    return *this;
+  }
+  /// The file must give it: there is no safe default (frames, units, paths).
+  FieldRef& required() {
+    info_->required = true;
+    return *this;
+  }
+  /// member = factor * number in the file; e.g. a key in degrees for a member in radians.
+  FieldRef& scaled(double factor) {
+    rules_->factor = factor;
+    return *this;
+  }
+  /// null in the file means "unknown" (NaN); numbers only.
+  FieldRef& nullable() {
+    rules_->nullable = true;
+    return *this;
+  }
+  /// A name (base/is_name.hpp).
+  FieldRef& name() {
+    rules_->text = TextForm::name;
+    return *this;
+  }
+  /// A name or nothing.
+  FieldRef& optional_name() {
+    rules_->text = TextForm::optional_name;
+    return *this;
+  }
+  /// The words of an enum, or the only strings allowed.
+  FieldRef& words(std::vector<std::pair<std::string, Leaf<M>>> list) {
+    rules_->words = std::move(list);
+    return *this;
+  }
+
+ private:
+  FieldInfo* info_;
+  std::shared_ptr<Rules<Leaf<M>>> rules_;
+};
+
+/// How members of one type are converted, their type forgotten: every field of that type in every struct
+/// shares the code. `rules` points to the Rules of the member's leaf type.
+struct MemberOps {
+  void (*load)(const nlohmann::json& json, void* member, const void* rules, const Place& place);
+  nlohmann::json (*dump)(const void* member, const void* rules);
+  nlohmann::json (*schema)(const void* rules);
+};
+
+template <class M>
+[[nodiscard]] const MemberOps& ops_of() {
+  static constexpr MemberOps kOps{
+      [](const nlohmann::json& json, void* member, const void* rules, const Place& place) {
+        load_value(json, *static_cast<M*>(member), *static_cast<const Rules<Leaf<M>>*>(rules), place);
+      },
+      [](const void* member, const void* rules) {
+        return dump_value(*static_cast<const M*>(member), *static_cast<const Rules<Leaf<M>>*>(rules));
+      },
+      [](const void* rules) { return value_schema<M>(*static_cast<const Rules<Leaf<M>>*>(rules)); }};
+  return kOps;
+}
+
+// What nearly every struct has is compiled once, in schema.cpp.
+extern template const MemberOps& ops_of<bool>();
+extern template const MemberOps& ops_of<int>();
+extern template const MemberOps& ops_of<std::int64_t>();
+extern template const MemberOps& ops_of<std::uint8_t>();
+extern template const MemberOps& ops_of<std::uint32_t>();
+extern template const MemberOps& ops_of<std::uint64_t>();
+extern template const MemberOps& ops_of<double>();
+extern template const MemberOps& ops_of<std::string>();
+extern template const MemberOps& ops_of<Name>();
+extern template const MemberOps& ops_of<std::array<double, 2>>();
+extern template const MemberOps& ops_of<std::array<double, 3>>();
+extern template const MemberOps& ops_of<std::vector<double>>();
+extern template const MemberOps& ops_of<std::vector<std::string>>();
+
+/// The fields and rules of a struct whose type is forgotten: members are known by their offset.
+class SchemaCore {
+ public:
+  using Violation = std::pair<std::string, std::string>;  ///< key, expectation; both empty: none
+
+  FieldInfo& add(std::string key, std::string description, std::size_t offset, std::shared_ptr<void> rules,
+                 const MemberOps& ops);
+  /// Takes over the fields and rules of a struct that lies at `offset` in this one.
+  void absorb(const SchemaCore& inner, std::size_t offset);
+  void check(std::function<Violation(const void*)> rule) { checks_.push_back(std::move(rule)); }
+
+  void load(const nlohmann::json& json, void* whole, const Place& place) const;
+  [[nodiscard]] nlohmann::json dump(const void* whole) const;
+  [[nodiscard]] nlohmann::json json_schema(const void* defaults) const;
+
+ private:
+  struct Entry {
+    FieldInfo info;
+    std::size_t offset = 0;
+    std::shared_ptr<void> rules;
+    const MemberOps* ops = nullptr;
+  };
+
+  [[nodiscard]] const Entry* find(const std::string& key) const;
+  [[nodiscard]] std::string known_keys() const;
+  [[nodiscard]] Violation violation(const void* whole) const;
+
+  std::vector<std::unique_ptr<Entry>> entries_;  // FieldRef keeps references to their info
+  std::vector<std::function<Violation(const void*)>> checks_;
+};
+
+/// The description of a configuration struct.
+template <class T>
+class Schema {
+ public:
+  template <class M, class Base>
+  FieldRef<M> field(std::string key, M Base::*member, std::string description) {
+    auto rules = std::make_shared<Rules<Leaf<M>>>();
+    FieldInfo& info =
+        core_.add(std::move(key), std::move(description), offset_of(member), rules, ops_of<M>());
+    return FieldRef<M>(info, rules);
+  }
+
+  /// All fields of `member`'s struct as fields of this one, without a level of nesting.
+  template <class M, class Base>
+  void include(M Base::*member) {
+    Schema<M> inner;
+    describe(inner);
+    core_.absorb(inner.core_, offset_of(member));
+  }
+
+  /// A rule across fields. Returns {key, expectation} of the violated rule, or two empty strings.
+  void check(std::function<std::pair<std::string, std::string>(const T&)> rule) {
+    core_.check([rule = std::move(rule)](const void* whole) { return rule(*static_cast<const T*>(whole)); });
+  }
+
+  /// Throws ConfigError on anything that is not exactly as described. Fields that are absent keep their
+  /// value.
+  void load(const nlohmann::json& json, T& out, const Place& place) const { core_.load(json, &out, place); }
+  [[nodiscard]] nlohmann::json dump(const T& value) const { return core_.dump(&value); }
+  [[nodiscard]] nlohmann::json json_schema() const { return core_.json_schema(&probe_); }
+
+ private:
+  template <class>
+  friend class Schema;
+
+  template <class M, class Base>
+  [[nodiscard]] std::size_t offset_of(M Base::*member) const {
+    return static_cast<std::size_t>(reinterpret_cast<const char*>(&(probe_.*member)) -
+                                    reinterpret_cast<const char*>(&probe_));
+  }
+
+  T probe_{};  // the defaults
+  SchemaCore core_;
+};
+
+/// The description of T.
+template <class T>
+[[nodiscard]] Schema<T> schema_of() {
+  Schema<T> schema;
+  describe(schema);
+  return schema;
+}
+
+template <class M>
+requires is_described<M>
+void load_value(const nlohmann::json& json, M& out, const Rules<M>&, const Place& place) {
+  schema_of<M>().load(json, out, place);
+}
+template <class M>
+requires is_described<M> nlohmann::json dump_value(const M& value, const Rules<M>&) {
+  return schema_of<M>().dump(value);
+}
+template <class M>
+requires is_described<M> nlohmann::json described_schema() {
+  return schema_of<M>().json_schema();
+}
+
+/// Reads the file, applies the overrides, checks everything. Throws ConfigError.
+template <class T>
+[[nodiscard]] T load(const LoadRequest& request) {
+  const nlohmann::json json = read_json(request);
+  T out{};
+  schema_of<T>().load(json, out, Place{request.file, ""});
+  return out;
+}
+
+/// The effective configuration as one canonical line: what the configuration hash is taken of.
+template <class T>
+[[nodiscard]] std::string canonical(const T& value) {
+  return schema_of<T>().dump(value).dump();
+}
+
+/// The JSON Schema (draft 2020-12) of a whole file.
+template <class T>
+[[nodiscard]] std::string schema_text(const std::string& title) {
+  nlohmann::json out = schema_of<T>().json_schema();
+  out["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  out["title"] = title;
+  out["properties"]["$schema"] = {{"type", "string"}, {"description", "this schema, for editors"}};
+  return out.dump(2) + "\n";
+}
+
+/// The entry of a file kind for registry.cpp; call it in that kind's *_config.cpp.
+template <class T>
+[[nodiscard]] ConfigKind make_kind(std::string_view name) {
+  return {name, [] { return schema_text<T>("fathom"); },
+          [](const LoadRequest& request) { (void)load<T>(request); }};
+}
+
+}  // namespace fathom::config

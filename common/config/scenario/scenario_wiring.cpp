@@ -1,0 +1,77 @@
+#include "config/scenario/scenario_wiring.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "codec/registry.hpp"
+#include "sim/device_encoder.hpp"
+
+namespace fathom::config {
+namespace {
+
+using nlohmann::json;
+
+// The bridge's end of a device's link.
+json source_of(const sim::LinkConfig& link, const Wiring& wiring) {
+  switch (link.type) {
+    case sim::LinkConfig::Type::pty:
+      return {{"type", "serial"}, {"path", wiring.link_dir + "/" + link.path}, {"baud", 921600}};
+    case sim::LinkConfig::Type::tcp_server:
+      return {{"type", "tcp_client"}, {"address", link.address}, {"port", link.port + wiring.port_offset}};
+    case sim::LinkConfig::Type::udp:
+      break;
+  }
+  return {{"type", "udp"}, {"address", link.address}, {"port", link.port + wiring.port_offset}};
+}
+
+// Devices with UTC are trusted, counters are tracked, the rest is known by its latency.
+json time_of(const sim::SensorCommon& sensor) {
+  const codec::Protocol* protocol = codec::find_protocol(sensor.protocol);
+  const std::string_view name = protocol == nullptr ? std::string_view{} : protocol->name;
+  if (name == "vectornav" || name == "pd0" || name == "waterlinked") {
+    return {{"mode", "device_clock"}, {"minimum_latency_s", sensor.latency_s}};
+  }
+  if (name == "ubx" || name == "psimssb") return {{"mode", "device_utc"}};
+  return {{"mode", "arrival"}, {"latency_s", sensor.latency_s + 0.5 * sensor.jitter_s}};
+}
+
+}  // namespace
+
+std::map<std::string, std::vector<std::string>> service_overrides(const sim::Scenario& scenario,
+                                                                  const Wiring& wiring) {
+  constexpr std::array<std::pair<const char*, const char*>, 8> kBridges{{{"imu", "imu_bridge"},
+                                                                         {"gps", "gps_bridge"},
+                                                                         {"dvl", "dvl_bridge"},
+                                                                         {"depth", "depth_bridge"},
+                                                                         {"heading", "heading_bridge"},
+                                                                         {"usbl", "usbl_bridge"},
+                                                                         {"propulsion", "actuator_bridge"},
+                                                                         {"airspeed", "air_data_bridge"}}};
+  std::map<std::string, std::vector<std::string>> out;
+  for (const auto& [kind, bridge] : kBridges) {
+    const sim::SensorCommon& sensor = *sim::find_sensor(scenario.sensors, kind);
+    if (!sensor.enabled || sensor.protocol.empty()) continue;
+    auto& sets = out[bridge];
+    json time = time_of(sensor);
+    // NMEA receivers say the time of day of their fix.
+    if (std::string_view(kind) == "gps") time = {{"mode", "device_utc"}};
+    sets.push_back("sensors.0.source=" + source_of(sensor.link, wiring).dump());
+    sets.push_back("sensors.0.protocol=" + sensor.protocol);
+    sets.push_back("sensors.0.rate_hz=" + json(sensor.rate_hz).dump());
+    sets.push_back("sensors.0.time=" + time.dump());
+    if (std::string_view(kind) == "depth") {
+      const double latitude_deg = scenario.start.latitude_rad * 180.0 / std::numbers::pi;
+      sets.push_back("sensors.0.latitude_deg=" + json(latitude_deg).dump());
+    }
+  }
+  for (const auto& [service, values] : scenario.services) {
+    for (const auto& [key, value] : values) out[service].push_back(key + "=" + value);
+  }
+  return out;
+}
+
+}  // namespace fathom::config

@@ -1,0 +1,75 @@
+#include "health/navigation/alignment_watch.hpp"
+
+#include <algorithm>
+
+#include "health/text.hpp"
+
+namespace fathom::health {
+
+void AlignmentWatch::add(const AlignmentStatus& status, const Instant& now) {
+  last_ = status;
+  last_known_ = true;
+  const bool nav_speaks = nav_heard_ && now.monotonic_ns - nav_heard_ns_ < kNsPerSecond;
+  if (!nav_speaks) phase(status.phase, now);
+}
+
+void AlignmentWatch::add(const NavState& state, const Instant& now) {
+  nav_heard_ = true;
+  nav_heard_ns_ = now.monotonic_ns;
+  phase(state.alignment, now);
+}
+
+void AlignmentWatch::phase(AlignmentPhase phase, const Instant& now) {
+  if (!heard_) {
+    heard_ = true;
+    heard_since_ns_ = now.monotonic_ns;
+  }
+  if (phase == AlignmentPhase::aligned) {
+    ever_aligned_ = true;
+  } else if (phase_ == AlignmentPhase::aligned) {
+    lost_since_ns_ = now.monotonic_ns;
+  }
+  phase_ = phase;
+}
+
+std::string AlignmentWatch::unmet() const {
+  if (!last_known_) return "";
+  const auto count = std::min<std::size_t>(last_.condition_count, AlignmentStatus::kMaxConditions);
+  for (std::size_t i = 0; i < count; ++i) {
+    const AlignmentCondition& condition = last_.conditions[i];
+    if (!condition.met) {
+      return sentence(", waiting for %s: %.3g, limit %.3g", condition.name.c_str(), condition.value,
+                      condition.limit);
+    }
+  }
+  return "";
+}
+
+void AlignmentWatch::report(AlarmBook& book, const Instant& now) const {
+  const bool aligned = phase_ == AlignmentPhase::aligned;
+  const std::string phase_word(to_string(phase_));
+  const double waiting_s = heard_ ? to_seconds(now.monotonic_ns - heard_since_ns_) : 0.0;
+  const bool timed_out = phase_ == AlignmentPhase::timed_out;
+  book.set(heard_ && !ever_aligned_ && (timed_out || waiting_s > config_.limit_s),
+           {.key = "not_aligned",
+            .severity = Severity::warning,
+            .text = sentence("Navigation is not aligned after %s: phase %s%s (limit %s).",
+                             duration_text(waiting_s).c_str(), phase_word.c_str(), unmet().c_str(),
+                             duration_text(config_.limit_s).c_str()),
+            .value = waiting_s,
+            .limit = config_.limit_s,
+            .began_ago_s = waiting_s},
+           now);
+  const double lost_s = ever_aligned_ && !aligned ? to_seconds(now.monotonic_ns - lost_since_ns_) : 0.0;
+  book.set(ever_aligned_ && !aligned,
+           {.key = "alignment_lost",
+            .severity = Severity::critical,
+            .text = sentence("Alignment was lost %s ago: phase %s%s.", duration_text(lost_s).c_str(),
+                             phase_word.c_str(), unmet().c_str()),
+            .value = lost_s,
+            .began_ago_s = lost_s,
+            .clear_hold_s = config_.regain_hold_s},
+           now);
+}
+
+}  // namespace fathom::health

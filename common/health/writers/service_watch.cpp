@@ -1,0 +1,125 @@
+#include "health/writers/service_watch.hpp"
+
+#include <algorithm>
+
+#include "health/text.hpp"
+
+namespace fathom::health {
+namespace {
+
+StreamLimits life_sign_limits(const ServiceWatchConfig& config) {
+  // One life sign is enough to be back: it carries the state.
+  return {kUnknown, std::min(2.0, config.missing_s), config.missing_s, 1};
+}
+
+}  // namespace
+
+ServiceWatch::ServiceWatch(const std::vector<ExpectedService>& expected, const ServiceWatchConfig& config,
+                           double startup_s, const Instant& start)
+    : config_(config), startup_s_(startup_s) {
+  for (const ExpectedService& service : expected) {
+    if (services_.size() >= kMaxServices) break;
+    index_.emplace(service.name, services_.size());
+    services_.push_back({service, true, StreamWatch(life_sign_limits(config), start.monotonic_ns)});
+  }
+}
+
+void ServiceWatch::add(const ServiceStatus& status, const Instant& now) {
+  const Name& name = status.header.sensor;
+  auto found = index_.find(name);
+  if (found == index_.end()) {
+    if (services_.size() >= kMaxServices) return;
+    found = index_.emplace(name, services_.size()).first;
+    services_.push_back({{name}, false, StreamWatch(life_sign_limits(config_), now.monotonic_ns)});
+  }
+  Service& service = services_[found->second];
+  const bool known_before = service.stream.ever_heard();
+  if (known_before && (status.pid != service.pid || status.started_ns != service.started_ns)) {
+    service.restarted = true;
+  }
+  service.stream.heard(now.monotonic_ns);
+  service.pid = status.pid;
+  service.started_ns = status.started_ns;
+  service.state = status.state;
+  service.text = status.text;
+  const bool unwell = status.state == ServiceState::degraded;
+  if (unwell && !service.unwell) service.unwell_since_ns = now.monotonic_ns;
+  service.unwell = unwell;
+}
+
+void ServiceWatch::evaluate(const Instant& now) {
+  for (Service& service : services_) service.stream.evaluate(now.monotonic_ns);
+}
+
+bool ServiceWatch::all_heard() const {
+  return std::all_of(services_.begin(), services_.end(),
+                     [](const Service& service) { return !service.expected || service.stream.ever_heard(); });
+}
+
+void ServiceWatch::report(AlarmBook& book, const Instant& now) {
+  for (Service& service : services_) {
+    if (service.expected) {
+      report_missing(service, book, now);
+      report_unwell(service, book, now);
+      if (service.restarted) {
+        book.event({.key = alarm_key("service_restarted", service.what.name.view()),
+                    .severity = Severity::notice,
+                    .text = sentence("Service %s was restarted and is now process %u.",
+                                     service.what.name.c_str(), service.pid)},
+                   now);
+      }
+    }
+    service.restarted = false;
+  }
+}
+
+void ServiceWatch::report_missing(const Service& service, AlarmBook& book, const Instant& now) const {
+  const bool unseen = !service.stream.ever_heard();
+  const double limit_s = unseen ? std::max(startup_s_, config_.missing_s) : config_.missing_s;
+  const double silent_s = service.stream.silent_s(now.monotonic_ns);
+  const char* how = unseen                                    ? ", never since the start"
+                    : service.state == ServiceState::stopping ? " after it had announced its end"
+                                                              : "";
+  book.set(unseen ? silent_s > limit_s : service.stream.presence() == Presence::missing,
+           {.key = alarm_key("service_missing", service.what.name.view()),
+            .severity = service.what.severity,
+            .text = sentence("There was no life sign of service %s for %s%s (limit %s).",
+                             service.what.name.c_str(), duration_text(silent_s).c_str(), how,
+                             duration_text(limit_s).c_str()),
+            .value = silent_s,
+            .limit = limit_s,
+            .began_ago_s = silent_s},
+           now);
+}
+
+void ServiceWatch::report_unwell(const Service& service, AlarmBook& book, const Instant& now) const {
+  const double for_s = service.unwell ? to_seconds(now.monotonic_ns - service.unwell_since_ns) : 0.0;
+  const bool present = service.stream.presence() == Presence::present;
+  const Name key = alarm_key("service_unwell", service.what.name.view());
+  if (!service.unwell || !present || for_s < config_.degraded_hold_s) {
+    book.release(key, now);
+    return;
+  }
+  std::string why = service.text.empty() ? "without giving a reason" : service.text.substr(0, 120);
+  if (why.back() == '.') why.pop_back();
+  book.hold({.key = key,
+             .severity = Severity::warning,
+             .text = sentence("Service %s has been unwell for %s: %s.", service.what.name.c_str(),
+                              duration_text(for_s).c_str(), why.c_str()),
+             .value = for_s,
+             .limit = config_.degraded_hold_s,
+             .began_ago_s = for_s},
+            now);
+}
+
+std::vector<WatchedItem> ServiceWatch::items(const Instant& now) const {
+  std::vector<WatchedItem> items;
+  items.reserve(services_.size());
+  for (const Service& service : services_) {
+    items.push_back({service.what.name, service.stream.presence(), service.stream.age_s(now.monotonic_ns),
+                     service.stream.rate_hz(now.monotonic_ns)});
+  }
+  return items;
+}
+
+}  // namespace fathom::health

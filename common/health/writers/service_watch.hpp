@@ -1,0 +1,63 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "health/alarm_book.hpp"
+#include "health/instant.hpp"
+#include "health/instruments/stream_watch.hpp"
+
+namespace fathom::health {
+
+/// A service that has to be there.
+struct ExpectedService {
+  Name name;
+  Severity severity = Severity::warning;
+};
+
+struct ServiceWatchConfig {
+  double missing_s = 3.0;        ///< life signs come once a second
+  double degraded_hold_s = 5.0;  ///< a service must call itself unwell this long before it is an alarm
+};
+
+/// Every service by its life signs. Services that nobody expected are listed too, without alarms.
+class ServiceWatch {
+ public:
+  static constexpr std::size_t kMaxServices = 32;
+
+  ServiceWatch(const std::vector<ExpectedService>& expected, const ServiceWatchConfig& config,
+               double startup_s, const Instant& start);
+
+  void add(const ServiceStatus& status, const Instant& now);
+  void evaluate(const Instant& now);
+  /// Whether each expected service has been heard at least once.
+  [[nodiscard]] bool all_heard() const;
+  /// "service_missing:<name>", "service_unwell:<name>", and the momentary notice "service_restarted:<name>".
+  void report(AlarmBook& book, const Instant& now);
+  [[nodiscard]] std::vector<WatchedItem> items(const Instant& now) const;
+
+ private:
+  struct Service {
+    ExpectedService what;
+    bool expected = false;
+    StreamWatch stream;
+    ServiceState state = ServiceState::starting;
+    std::string text{};
+    std::uint32_t pid = 0;
+    TimeNs started_ns = 0;
+    bool unwell = false;
+    TimeNs unwell_since_ns = 0;
+    bool restarted = false;  ///< since the last report
+  };
+
+  void report_missing(const Service& service, AlarmBook& book, const Instant& now) const;
+  void report_unwell(const Service& service, AlarmBook& book, const Instant& now) const;
+
+  ServiceWatchConfig config_;
+  double startup_s_;
+  std::vector<Service> services_;
+  std::map<Name, std::size_t> index_;
+};
+
+}  // namespace fathom::health

@@ -1,0 +1,232 @@
+#include "cli/solve/metrics.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include <nlohmann/json.hpp>
+
+#include "runtime/build_info.hpp"
+
+namespace fathom::cli {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+json number(double value) {
+  return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json figures(const dataset::ErrorFigures& f, double factor = 1.0) {
+  return {{"rms", number(f.rms * factor)},
+          {"p95", number(f.p95 * factor)},
+          {"max", number(f.max * factor)},
+          {"end", number(f.end * factor)}};
+}
+
+json figures3(const std::array<dataset::ErrorFigures, 3>& f, const std::array<const char*, 3>& names,
+              double factor = 1.0) {
+  json out = json::object();
+  for (std::size_t i = 0; i < 3; ++i) out[names[i]] = figures(f[i], factor);
+  return out;
+}
+
+json nees(const dataset::Nees& n) {
+  return {{"degrees_of_freedom", n.dof},
+          {"mean", number(n.mean)},
+          {"band_95", {n.band_95[0], n.band_95[1]}},
+          {"inside_band", number(n.inside)},
+          {"count", n.count}};
+}
+
+json verdicts(const VerdictCounts& counts) {
+  json out = json::object();
+  for (const auto& [source, kinds] : counts) {
+    json& entry = out[std::string(to_string(source))];
+    for (std::size_t i = 0; i < kVerdictKinds; ++i) {
+      entry[std::string(to_string(static_cast<VerdictKind>(i)))] = kinds[i];
+    }
+  }
+  return out;
+}
+
+json outage(const OutageFigures& f) {
+  json list = json::array();
+  for (const OutageWindow& window : f.windows) {
+    json limits = json::object();
+    for (const auto& [name, time_s] : window.time_to_limit_s) limits[name] = number(time_s);
+    list.push_back({{"start_s", number(window.start_s)},
+                    {"end_s", number(window.end_s)},
+                    {"horizontal_error_m", number(window.horizontal_error_m)},
+                    {"inside_rms_m", number(window.inside.rms_m())},
+                    {"smoothed_inside_rms_m", number(window.smoothed_inside.rms_m())},
+                    {"predicted_95_m", number(window.predicted_95_m)},
+                    {"forecast_95_m", number(window.forecast_95_m)},
+                    {"forecast_time_to_limit_s", limits}});
+  }
+  return {
+      {"duration_s", f.duration_s},
+      {"count", f.windows.size()},
+      {"horizontal_error_m", {{"rms", number(f.rms_m)}, {"p95", number(f.p95_m)}, {"max", number(f.max_m)}}},
+      {"inside_horizontal_error_m", {{"rms", number(f.inside_rms_m)}}},
+      {"smoothed_inside_horizontal_error_m", {{"rms", number(f.smoothed_inside_rms_m)}}},
+      {"forecast_coverage", number(f.forecast_coverage)},
+      {"predicted_coverage", number(f.predicted_coverage)},
+      {"windows", list}};
+}
+
+double percent(double part, double whole) {
+  return whole > 0.0 ? 100.0 * part / whole : kUnknown;
+}
+
+json errors(const dataset::Score& score, double distance_m) {
+  return {{"horizontal_error_m", figures(score.horizontal_m)},
+          {"position_error_m", figures3(score.position_N_m, {"north", "east", "down"})},
+          {"distance_3d_error_m", figures(score.distance_3d_m)},
+          {"velocity_error_m_s", figures3(score.velocity_N_m_s, {"north", "east", "down"})},
+          {"attitude_error_deg", figures3(score.rpy_rad, {"roll", "pitch", "yaw"}, kDegPerRad)},
+          {"horizontal_error_percent",
+           {{"end", number(percent(score.horizontal_m.end, distance_m))},
+            {"rms", number(percent(score.horizontal_m.rms, distance_m))},
+            {"max", number(percent(score.horizontal_m.max, distance_m))}}},
+          {"nees",
+           {{"horizontal", nees(score.nees_horizontal)},
+            {"position", nees(score.nees_position)},
+            {"velocity", nees(score.nees_velocity)}}}};
+}
+
+json heading(const HeadingErrors& errors) {
+  return {{"count", errors.count()},
+          {"mean_deg", number(errors.mean_rad() * kDegPerRad)},
+          {"rms_deg", number(errors.rms_rad() * kDegPerRad)},
+          {"worst_sigma", number(errors.worst())},
+          {"beyond_3_sigma", errors.beyond()},
+          {"worst_own_sigma", number(errors.worst_own())},
+          {"beyond_3_own_sigma", errors.beyond_own()}};
+}
+
+json heading(const HeadingFigures& figures) {
+  json out = {{"aligned_after_s", number(figures.aligned_after_s)}};
+  if (figures.course.count() > 0) {
+    out["course_made_good"] = heading(figures.course);
+    out["course_made_good"]["through"] = figures.through_medium ? "medium" : "ground";
+    out["course_made_good"]["aligned"] = heading(figures.course_aligned);
+  }
+  if (figures.reference.count() > 0) out["reference"] = heading(figures.reference);
+  return out;
+}
+
+double us_per_sample(const PassageResult& passage) {
+  return passage.imu_samples > 0 ? 1e6 * passage.wall_s / static_cast<double>(passage.imu_samples) : kUnknown;
+}
+
+template <class... Arguments>
+std::string line(const char* format, Arguments... arguments) {
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), format, arguments...);
+  return std::string(text.data()) + "\n";
+}
+
+}  // namespace
+
+std::string to_json(const SolveReport& report) {
+  json out;
+  out["dataset"] = report.dataset;
+  out["config"] = report.config;
+  out["config_hash"] = report.config_hash;
+  out["version"] = std::string(runtime::version());
+  out["start"] = report.start;
+  out["smoothed"] = report.smoothed;
+  out["imu_samples"] = report.passage.imu_samples;
+  out["nav_states"] = report.passage.nav_states;
+  out["positions"] = report.positions;
+  out["alignment"] = std::string(to_string(report.alignment));
+  out["wall_time_s"] = report.passage.wall_s;
+  out["time_per_imu_sample_us"] = number(us_per_sample(report.passage));
+  out["verdicts"] = verdicts(report.passage.verdicts);
+  if (!report.smoothed) out["heading"] = heading(report.heading);
+  const dataset::Score& score = report.score;
+  out["scored"] = score.count;
+  if (score.count > 0) {
+    out["scored_s"] = to_seconds(score.last_ns - score.first_ns);
+    out["distance_m"] = number(report.distance_m);
+    out.update(errors(score, report.distance_m));
+  }
+  if (report.filtered.count > 0) out["filtered"] = errors(report.filtered, report.distance_m);
+  if (report.at_fixes.count > 0) {
+    out["at_fixes"] = {{"count", report.at_fixes.count},
+                       {"latency_found_s", report.passage.gps_latency_s},
+                       {"horizontal_error_m", {{"rms", number(report.at_fixes.rms_m())}}}};
+    if (report.smoothed)
+      out["at_fixes"]["filtered"] = {
+          {"horizontal_error_m", {{"rms", number(report.filtered_at_fixes.rms_m())}}}};
+  }
+  if (!report.outages.empty()) {
+    out["gps_outages"] = json::array();
+    for (const OutageFigures& f : report.outages) out["gps_outages"].push_back(outage(f));
+  }
+  return out.dump(2) + "\n";
+}
+
+std::string to_text(const SolveReport& report) {
+  std::string out = line("%s: %llu inertial samples in %.2f s, %.1f us each", report.dataset.c_str(),
+                         static_cast<unsigned long long>(report.passage.imu_samples), report.passage.wall_s,
+                         us_per_sample(report.passage));
+  for (const auto& [source, kinds] : report.passage.verdicts) {
+    std::string words = std::string(to_string(source)) + ":";
+    for (std::size_t i = 0; i < kVerdictKinds; ++i) {
+      if (kinds[i] == 0) continue;
+      words += " " + std::to_string(kinds[i]) + " " + std::string(to_string(static_cast<VerdictKind>(i)));
+    }
+    out += words + "\n";
+  }
+  if (report.positions == 0)
+    out +=
+        "no position was found: alignment is " + std::string(to_string(report.alignment)) + " at the end\n";
+  const dataset::Score& score = report.score;
+  if (score.count > 0) {
+    out += line("horizontal error: rms %.2f m, 95 %% %.2f m, end %.2f m, %.3f %% of %.0f m",
+                score.horizontal_m.rms, score.horizontal_m.p95, score.horizontal_m.end,
+                percent(score.horizontal_m.end, report.distance_m), report.distance_m);
+    if (known(score.rpy_rad[2].rms))
+      out +=
+          line("attitude error rms: roll %.3f, pitch %.3f, yaw %.3f deg", score.rpy_rad[0].rms * kDegPerRad,
+               score.rpy_rad[1].rms * kDegPerRad, score.rpy_rad[2].rms * kDegPerRad);
+    out += line("horizontal NEES %.2f, consistent from %.2f to %.2f", score.nees_horizontal.mean,
+                score.nees_horizontal.band_95[0], score.nees_horizontal.band_95[1]);
+  }
+  if (known(report.heading.aligned_after_s))
+    out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
+  if (const HeadingErrors& course = report.heading.course; course.count() > 0)
+    out += line(
+        "heading against the course made good%s, straight ahead: rms %.2f deg, worst %.2f sigma, "
+        "%zu of %zu beyond 3 sigma",
+        report.heading.through_medium ? " through the medium" : "", course.rms_rad() * kDegPerRad,
+        course.worst(), course.beyond(), course.count());
+  if (const HeadingErrors& reference = report.heading.reference; reference.count() > 0)
+    out += line("heading against the reference: worst %.2f sigma, %zu of %zu states beyond 3 sigma",
+                reference.worst(), reference.beyond(), reference.count());
+  if (report.filtered.count > 0)
+    out += line("before smoothing: horizontal error rms %.2f m, 95 %% %.2f m",
+                report.filtered.horizontal_m.rms, report.filtered.horizontal_m.p95);
+  if (report.smoothed && report.at_fixes.count > 0)
+    out += line("at the fixes it was given, each at its own instant: rms %.2f m, before smoothing %.2f m",
+                report.at_fixes.rms_m(), report.filtered_at_fixes.rms_m());
+  for (const OutageFigures& f : report.outages) {
+    out += f.duration_s > 0.0 ? line("GPS outage %g s:", f.duration_s) : "GPS outages at random:\n";
+    out += line("  horizontal error at its end rms %.2f m, 95 %% %.2f m, max %.2f m, %zu windows", f.rms_m,
+                f.p95_m, f.max_m, f.windows.size());
+    out +=
+        line("  inside the 95 %% forecast when GPS was lost: %.1f %%, inside the 95 %% at the end: %.1f %%",
+             100.0 * f.forecast_coverage, 100.0 * f.predicted_coverage);
+    if (known(f.smoothed_inside_rms_m))
+      out += line("  over all withheld fixes: rms %.2f m, smoothed %.2f m", f.inside_rms_m,
+                  f.smoothed_inside_rms_m);
+  }
+  return out;
+}
+
+}  // namespace fathom::cli

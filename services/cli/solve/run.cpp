@@ -1,0 +1,125 @@
+#include "cli/solve/run.hpp"
+
+#include <algorithm>
+
+#include "base/clock.hpp"
+#include "base/unknown.hpp"
+#include "cli/command.hpp"
+#include "cli/solve/progress.hpp"
+#include "estimation/engine/fusion_engine.hpp"
+
+namespace fathom::cli {
+namespace {
+
+template <class T>
+void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig& config) {
+  for (const estimation::SensorConfig& sensor : config.engine.sensors) {
+    if (sensor.kind != kind) continue;
+    for (T& sample : stream) sample.header.sensor = Name(sensor.sensor);
+    return;
+  }
+}
+
+}  // namespace
+
+bool Passage::removes(const GpsSample& fix) const {
+  return std::any_of(gps_removed.begin(), gps_removed.end(),
+                     [&](const GpsWindow& window) { return window.contains(fix.header.stamp_ns); });
+}
+
+std::optional<estimation::InitialState> start_of(const Passage& passage) {
+  if (passage.start) return passage.start;
+  if (config::starts_from_state(passage.config->start.mode)) return config::initial_state(*passage.config);
+  return std::nullopt;
+}
+
+PassageResult run(const Passage& passage) {
+  estimation::FusionEngine engine(config::engine_config(*passage.config));
+  if (const auto start = start_of(passage)) engine.start_from(*start);
+  PassageResult result;
+  Progress progress(passage.label, passage.arrivals->size());
+  const SystemClock clock;
+  const TimeNs begin_ns = clock.monotonic_ns();
+  const auto take_verdicts = [&] {
+    Verdict verdict;
+    while (engine.next_verdict(verdict))
+      if (verdict.is_final) ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+  };
+  std::uint64_t done = 0;
+  for_each_sample(passage, [&](const auto& sample) {
+    progress.update(++done);
+    if constexpr (std::is_same_v<std::decay_t<decltype(sample)>, ImuSample>) {
+      ++result.imu_samples;
+      if (engine.add(sample)) {
+        ++result.nav_states;
+        if (passage.on_state) passage.on_state(engine.nav_state(), engine);
+      }
+    } else {
+      engine.add(sample);
+    }
+    take_verdicts();
+  });
+  engine.finish();
+  take_verdicts();
+  result.wall_s = to_seconds(clock.monotonic_ns() - begin_ns);
+  NavDetail detail;
+  engine.fill(detail);
+  result.gps_latency_s = gps_latency_s(detail);
+  return result;
+}
+
+double gps_latency_s(const NavDetail& detail) {
+  for (std::uint32_t i = 0; i < detail.count; ++i)
+    if (detail.states[i].name == Name("gps_latency_s") && known(detail.states[i].value))
+      return detail.states[i].value;
+  return 0.0;
+}
+
+void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config) {
+  rename(data.gps, SourceKind::gps, config);
+  rename(data.dvl, SourceKind::dvl, config);
+  rename(data.depth, SourceKind::depth, config);
+  rename(data.heading, SourceKind::heading, config);
+  rename(data.usbl, SourceKind::usbl, config);
+  rename(data.airspeed, SourceKind::airspeed, config);
+  rename(data.propulsion, SourceKind::propulsion, config);
+  rename(data.fins, SourceKind::fins, config);
+}
+
+estimation::InitialState start_from_reference(const dataset::Dataset& data,
+                                              const config::FusionConfig& config,
+                                              const std::string& directory) {
+  const TimeNs first_ns = data.imu.front().header.stamp_ns;
+  const auto row = std::find_if(data.reference.begin(), data.reference.end(),
+                                [first_ns](const Truth& truth) { return truth.header.stamp_ns >= first_ns; });
+  const std::string file = directory + "/reference.csv: ";
+  if (data.reference.empty())
+    throw Failure(ExitCode::bad_input, file + "no rows, expected a reference to start from");
+  if (row == data.reference.end()) {
+    throw Failure(ExitCode::bad_input,
+                  file + "no row at or after the first inertial sample, expected one to start from");
+  }
+  estimation::InitialState state;
+  state.stamp_ns = row->header.stamp_ns;
+  state.latitude_rad = row->latitude_rad;
+  state.longitude_rad = row->longitude_rad;
+  state.altitude_m = row->altitude_m;
+  state.velocity_N_m_s = row->velocity_N_m_s;
+  state.rpy_rad = row->rpy_rad;
+  state.position_sigma_N_m = config.start.sigma.position_N_m;
+  state.velocity_sigma_N_m_s = config.start.sigma.velocity_N_m_s;
+  state.attitude_sigma_rad = config.start.sigma.attitude_rad;
+  bool complete = known(state.latitude_rad) && known(state.longitude_rad) && known(state.altitude_m);
+  for (std::size_t i = 0; i < 3; ++i)
+    complete = complete && known(state.velocity_N_m_s[i]) && known(state.rpy_rad[i]);
+  if (!complete) {
+    throw Failure(
+        ExitCode::bad_input,
+        file +
+            "the first row after the first inertial sample has blanks, expected position, velocity and "
+            "attitude to start from");
+  }
+  return state;
+}
+
+}  // namespace fathom::cli

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "base/time.hpp"
+#include "config/fusion/fusion_config.hpp"
+#include "dataset/dataset.hpp"
+#include "estimation/engine_config.hpp"
+#include "samples/forecast.hpp"
+#include "samples/nav_detail.hpp"
+#include "samples/nav_state.hpp"
+#include "samples/verdict.hpp"
+
+namespace fathom::estimation {
+class FusionEngine;
+}
+
+namespace fathom::cli {
+
+/// Verdicts counted per kind of source.
+using VerdictCounts = std::map<SourceKind, std::array<std::uint64_t, kVerdictKinds>>;
+
+/// A span of time without GPS, [begin_ns, end_ns).
+struct GpsWindow {
+  TimeNs begin_ns = 0;
+  TimeNs end_ns = 0;
+  [[nodiscard]] bool contains(TimeNs stamp_ns) const { return stamp_ns >= begin_ns && stamp_ns < end_ns; }
+};
+
+/// One passage of a data set through the engine.
+struct Passage {
+  const config::FusionConfig* config = nullptr;
+  const dataset::Dataset* data = nullptr;
+  const std::vector<dataset::Arrival>* arrivals = nullptr;
+  std::optional<estimation::InitialState> start;  ///< instead of what the configuration says
+  std::vector<GpsWindow> gps_removed;             ///< fixes with stamps in these never reach the engine
+  std::string label;                              ///< of the progress bar
+  /// Called with each navigation state. The engine may be asked for more.
+  std::function<void(const NavState&, estimation::FusionEngine&)> on_state;
+
+  [[nodiscard]] bool removes(const GpsSample& fix) const;
+};
+
+/// Calls `consumer` with each sample in the order of arrival, without the removed fixes.
+template <class Consumer>
+void for_each_sample(const Passage& passage, Consumer&& consumer) {
+  for (const dataset::Arrival& arrival : *passage.arrivals) {
+    dataset::visit(*passage.data, arrival, [&](const auto& sample) {
+      if constexpr (std::is_same_v<std::decay_t<decltype(sample)>, GpsSample>)
+        if (passage.removes(sample)) return;
+      consumer(sample);
+    });
+  }
+}
+
+/// The state that the passage or its configuration gives to start from, if any.
+[[nodiscard]] std::optional<estimation::InitialState> start_of(const Passage& passage);
+
+struct PassageResult {
+  VerdictCounts verdicts;
+  std::uint64_t imu_samples = 0;
+  std::uint64_t nav_states = 0;
+  double wall_s = 0.0;
+  double gps_latency_s = 0.0;  ///< found beyond the configured one, at the end
+};
+
+/// Of a filter that estimates it; 0 of others.
+[[nodiscard]] double gps_latency_s(const NavDetail& detail);
+
+/// Hands every sample to the engine in the order of its arrival: what the fusion service does on the network.
+[[nodiscard]] PassageResult run(const Passage& passage);
+
+/// Gives each stream the name of the first configured sensor of its kind, so that one configuration serves
+/// the vehicle and its recordings.
+void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config);
+
+/// The state at the first row of the reference at or after the first inertial sample, with the configured
+/// sigmas. Throws Failure when the reference cannot give it.
+[[nodiscard]] estimation::InitialState start_from_reference(const dataset::Dataset& data,
+                                                            const config::FusionConfig& config,
+                                                            const std::string& directory);
+
+}  // namespace fathom::cli

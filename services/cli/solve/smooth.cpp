@@ -1,0 +1,41 @@
+#include "cli/solve/smooth.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "base/clock.hpp"
+#include "cli/solve/progress.hpp"
+#include "estimation/smoothing/smoother.hpp"
+
+namespace fathom::cli {
+
+PassageResult run_smoothed(const Passage& passage, const SmoothedStates& states) {
+  constexpr double kProgressSteps = 1000.0;
+  estimation::Smoother smoother(config::engine_config(*passage.config));
+  if (const auto start = start_of(passage)) smoother.start_from(*start);
+  PassageResult result;
+  Progress progress(passage.label, static_cast<std::uint64_t>(kProgressSteps));
+  const SystemClock clock;
+  const TimeNs begin_ns = clock.monotonic_ns();
+  for_each_sample(passage, [&](const auto& sample) { smoother.add(sample); });
+  result.imu_samples = passage.data->imu.size();
+  std::vector<NavState> smoothed;
+  smoothed.reserve(passage.data->imu.size());
+  estimation::Smoother::Output output;
+  output.verdict = [&](const Verdict& verdict) {
+    ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+  };
+  output.filtered = states.filtered;
+  output.smoothed = [&](const NavState& state) { smoothed.push_back(state); };
+  output.detail = [&](const NavDetail& detail) { result.gps_latency_s = gps_latency_s(detail); };
+  output.progress = [&](double share) {
+    progress.update(static_cast<std::uint64_t>(kProgressSteps * share));
+  };
+  smoother.run(output);
+  result.nav_states = smoothed.size();
+  result.wall_s = to_seconds(clock.monotonic_ns() - begin_ns);
+  if (states.smoothed) std::for_each(smoothed.rbegin(), smoothed.rend(), states.smoothed);
+  return result;
+}
+
+}  // namespace fathom::cli

@@ -1,0 +1,231 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.hpp"
+#include "cli/solve/calibrate.hpp"
+#include "cli/solve/course.hpp"
+#include "cli/solve/fixes.hpp"
+#include "cli/solve/metrics.hpp"
+#include "cli/solve/outage.hpp"
+#include "cli/solve/run.hpp"
+#include "cli/solve/smooth.hpp"
+#include "config/fusion/fusion_config.hpp"
+#include "dataset/dataset.hpp"
+#include "dataset/nav_csv.hpp"
+#include "dataset/score.hpp"
+#include "estimation/engine/fusion_engine.hpp"
+
+namespace fathom::cli {
+namespace {
+
+struct SolveOptions {
+  std::string directory;
+  std::string config;
+  std::vector<std::string> sets;
+  std::string out;
+  std::string metrics;
+  std::string outages;
+  std::string start;
+  std::string calibrate_hydro;
+  double rate_hz = 0.0;
+  bool smooth = false;
+  bool json = false;
+};
+
+// Passes every n-th state so that rows come at a steady rate; all of them at rate 0.
+class Thinning {
+ public:
+  explicit Thinning(double rate_hz) : period_ns_(rate_hz > 0.0 ? from_seconds(1.0 / rate_hz) : 0) {}
+  bool pass(TimeNs stamp_ns) {
+    if (period_ns_ == 0) return true;
+    if (next_ns_ && stamp_ns < *next_ns_) return false;
+    const TimeNs due_ns = next_ns_.value_or(stamp_ns);
+    // The grid stays where it began; a gap does not cause a burst behind it.
+    next_ns_ = due_ns + period_ns_ * ((stamp_ns - due_ns) / period_ns_ + 1);
+    return true;
+  }
+
+ private:
+  DurationNs period_ns_;
+  std::optional<TimeNs> next_ns_;
+};
+
+dataset::Dataset read_dataset(const std::string& directory, const config::FusionConfig& config) {
+  dataset::Dataset data;
+  try {
+    data = dataset::read(directory, {dataset::kDefaultEpochNs, Name(config.common.vehicle)});
+  } catch (const dataset::DatasetError& error) {
+    throw Failure(ExitCode::bad_input, error.what());
+  }
+  if (data.imu.empty()) {
+    throw Failure(ExitCode::bad_input,
+                  directory + "/imu.csv: no inertial samples, expected at least one row");
+  }
+  adopt_sensor_names(data, config);
+  return data;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written: " + std::strerror(errno));
+}
+
+SolveReport solve(const SolveOptions& options) {
+  std::optional<OutageRequest> outages;
+  if (!options.outages.empty()) outages = parse_outages(options.outages);
+
+  config::LoadedConfig<config::FusionConfig> loaded;
+  try {
+    loaded = config::load_service_config<config::FusionConfig>({options.config, options.sets});
+  } catch (const config::ConfigError& error) {
+    throw Failure(ExitCode::bad_configuration, error.what());
+  }
+  const dataset::Dataset data = read_dataset(options.directory, loaded.value);
+  const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
+
+  Passage passage;
+  passage.config = &loaded.value;
+  passage.data = &data;
+  passage.arrivals = &arrivals;
+  passage.label = "solve";
+  if (options.start == "reference")
+    passage.start = start_from_reference(data, loaded.value, options.directory);
+  if (outages) {
+    passage.gps_removed = first_windows(data, *outages, dataset::kDefaultEpochNs, options.directory);
+  }
+
+  const dataset::TruthTrack truth(data.reference);
+  const auto score = [&truth](const NavState& state, dataset::Scorer& scorer) {
+    if (state.mode == NavMode::none || state.mode == NavMode::aligning) return;
+    if (const auto at = truth.at(state.header.stamp_ns)) scorer.add(dataset::error_of(state, *at));
+  };
+  dataset::Scorer scorer;
+  dataset::NavCsv csv(options.out, dataset::kDefaultEpochNs);
+  Thinning rows(options.rate_hz);
+  SolveReport report;
+  Path path;
+  Path filtered_path;
+  const auto take = [&](const NavState& state) {
+    report.alignment = state.alignment;
+    // The file begins with the first position.
+    if (!known(state.latitude_rad)) return;
+    ++report.positions;
+    if (rows.pass(state.header.stamp_ns)) csv.add(state);
+    score(state, scorer);
+    if (!data.gps.empty()) path.add(state);
+  };
+
+  report.dataset = options.directory;
+  report.config = options.config;
+  report.config_hash = loaded.hash;
+  report.start = passage.start ? "reference" : "configured";
+  report.smoothed = options.smooth;
+  if (options.smooth) {
+    dataset::Scorer filtered;
+    const auto take_filtered = [&](const NavState& state) {
+      score(state, filtered);
+      if (!data.gps.empty()) filtered_path.add(state);
+    };
+    report.passage = run_smoothed(passage, {take_filtered, take});
+    report.filtered = filtered.score();
+  } else {
+    HeadingWatch heading(loaded.value, data.gps);
+    NavDetail detail;
+    passage.on_state = [&](const NavState& state, const estimation::FusionEngine& engine) {
+      take(state);
+      if (heading.wants_detail(state)) engine.fill(detail);
+      heading.add(state, detail);
+      if (const auto at = truth.at(state.header.stamp_ns)) heading.add(state, *at);
+    };
+    report.passage = run(passage);
+    report.heading = heading.figures();
+  }
+  csv.close();
+  report.score = scorer.score();
+  if (report.score.count > 0)
+    report.distance_m = truth.distance_m(report.score.first_ns, report.score.last_ns);
+  const Antenna antenna = antenna_of(loaded.value, report.passage.gps_latency_s);
+  for (const GpsSample& fix : data.gps) {
+    if (fix.fix == GpsFix::none || passage.removes(fix)) continue;
+    report.at_fixes.add(path.error_m(fix, antenna));
+    if (options.smooth) report.filtered_at_fixes.add(filtered_path.error_m(fix, antenna));
+  }
+  if (outages) {
+    report.outages =
+        run_outages(passage, *outages, options.smooth, dataset::kDefaultEpochNs, options.directory);
+  }
+  if (!options.calibrate_hydro.empty())
+    report.calibration = calibrate_hydro(passage, options.directory, options.config, options.calibrate_hydro);
+  return report;
+}
+
+}  // namespace
+
+void add_solve(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<SolveOptions>();
+  CLI::App* command =
+      app.add_subcommand("solve", "Run a recorded data set through the fusion engine, offline.");
+  command->footer(
+      "The data set: imu.csv (t_s, gx_rad_s gy_rad_s gz_rad_s, ax_m_s2 ay_m_s2 az_m_s2, body axes forward, "
+      "right,\n"
+      "down) and any of gps, dvl, depth, heading, usbl, airspeed, propulsion, fins, reference (.csv or "
+      ".csv.gz),\n"
+      "each with t_s in seconds. Their columns: common/dataset/README.md, installed as data-sets.md; one "
+      "that is\n"
+      "missing is named. Configurations to begin from: deploy/config/fusion.json, "
+      "deploy/config/solve/*.json.");
+  command
+      ->add_option("directory", options->directory,
+                   "data set: a folder with imu.csv and others, plain or .gz")
+      ->required();
+  command->add_option("--config", options->config, "configuration of the fusion service")->required();
+  command->add_option("--set", options->sets, "override: key.sub=value, may be repeated")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--out", options->out, "navigation solution (CSV); compressed when the name ends in .gz")
+      ->required();
+  command->add_option("--metrics", options->metrics,
+                      "errors against the reference, consistency, verdicts, timing (JSON)");
+  command->add_option(
+      "--gps-outage", options->outages,
+      "T1,T2,...[@start[:recover]] or random:N[@start]: remove GPS for T s at a time from `start` on "
+      "(seconds of the data "
+      "set; default 60 s after motion begins), with `recover` s of GPS in between (default 40), and "
+      "compare with the removed fixes, pooled over start, +13, +26 and +39 s; the solution written is "
+      "that of the first duration and start; random: N windows of 5 to 60 s");
+  command->add_option("--start", options->start, "\"reference\": from the first row of reference.csv")
+      ->check(CLI::IsMember({"reference"}));
+  command
+      ->add_option("--rate", options->rate_hz,
+                   "rows per second of the solution; one per inertial sample otherwise")
+      ->check(CLI::Range(1e-3, 1e5));
+  command->add_flag(
+      "--smooth", options->smooth,
+      "every state from all measurements before and after it: filter forward, each measurement at its own "
+      "instant, then backward");
+  command->add_option("--calibrate-hydro", options->calibrate_hydro,
+                      "fit the coefficients of the configured vehicle model to the velocities that the DVL "
+                      "gave and write them, each with its sigma (JSON)");
+  command->add_flag("--json", options->json, "print the metrics as JSON");
+  command->callback([options, &exit_code] {
+    const SolveReport report = solve(*options);
+    if (!options->metrics.empty()) write_text(options->metrics, to_json(report));
+    std::fputs((options->json ? to_json(report) : to_text(report)).c_str(), stdout);
+    if (!options->json) std::fputs(report.calibration.c_str(), stdout);
+    if (report.positions == 0) exit_code = ExitCode::no;
+  });
+}
+
+}  // namespace fathom::cli

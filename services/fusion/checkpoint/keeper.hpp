@@ -1,0 +1,57 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "config/fusion/fusion_config.hpp"
+#include "fusion/checkpoint/checkpoint.hpp"
+#include "runtime/log.hpp"
+
+namespace fathom::fusion {
+
+/// Writes a checkpoint each period on a thread of its own, and one more at the end: the disk may be slow,
+/// full or gone, navigation does not wait for it. A failure is said once, counted, and tried again.
+class CheckpointKeeper {
+ public:
+  struct Counts {
+    std::uint64_t written = 0;
+    std::uint64_t failed = 0;
+    std::string failure;  ///< why the last one could not be written; empty when it was
+  };
+  /// Fills the stamp and the image; false when there is nothing to save yet. Called on the keeper's thread,
+  /// and by the destructor's caller.
+  using Save = std::function<bool(TimeNs& stamp_ns, std::vector<std::byte>& image)>;
+
+  /// `label` without its stamp.
+  CheckpointKeeper(const config::CheckpointConfig& config, CheckpointLabel label, runtime::Log& log,
+                   Save save);
+  ~CheckpointKeeper();
+  CheckpointKeeper(const CheckpointKeeper&) = delete;
+  CheckpointKeeper& operator=(const CheckpointKeeper&) = delete;
+
+  [[nodiscard]] Counts counts() const;
+
+ private:
+  void run();
+  void write();
+
+  config::CheckpointConfig config_;
+  CheckpointLabel label_;
+  runtime::Log& log_;
+  Save save_;
+  std::vector<std::byte> image_;  // of the keeper's thread, with their capacity
+  std::vector<std::byte> file_;
+
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  bool stop_ = false;
+  Counts counts_;
+  std::thread thread_;  ///< last: it uses everything above
+};
+
+}  // namespace fathom::fusion

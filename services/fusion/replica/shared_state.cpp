@@ -1,0 +1,99 @@
+#include "fusion/replica/shared_state.hpp"
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <variant>
+
+#include "archive/reader.hpp"
+#include "archive/writer.hpp"
+
+namespace fathom::fusion {
+namespace {
+
+constexpr std::uint32_t kVersion = 1;
+/// Streams that are watched, several times over.
+constexpr std::uint64_t kMostStreams = 1024;
+
+struct Head {
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive("version", self.version, fathom::archive::Whole{1, kVersion});
+    archive("stamp_ns", self.stamp_ns, fathom::archive::kInstant);
+    archive("imu_sensor", self.imu_sensor);
+    archive("streams", self.streams);
+  }
+  std::uint32_t version = kVersion;
+  TimeNs stamp_ns = 0;
+  Name imu_sensor;
+  std::uint64_t streams = 0;
+};
+struct Row {
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self) {
+    archive("source", self.source, SourceKind::fins);
+    archive("sensor", self.sensor);
+    archive("sequence", self.sequence);
+  }
+  SourceKind source{};
+  Name sensor;
+  std::uint64_t sequence = 0;
+};
+
+}  // namespace
+
+void encode(const SharedState& state, std::vector<std::byte>& out) {
+  out.clear();
+  archive::Writer writer(out, kVersion);
+  const Head head{kVersion, state.stamp_ns, state.imu_sensor, state.last.size()};
+  writer("head", head);
+  std::size_t index = 0;
+  for (const auto& [stream, sequence] : state.last) {
+    const Row row{stream.first, stream.second, sequence};
+    writer.element("streams", index++, row);
+  }
+  out.insert(out.end(), state.image.begin(), state.image.end());
+}
+
+Result<SharedState> decode_shared(std::span<const std::byte> bytes) {
+  archive::Reader reader(bytes, kVersion);
+  Head head;
+  reader("head", head);
+  reader.expect(head.streams <= kMostStreams, "head.streams", "at most " + std::to_string(kMostStreams));
+  SharedState out;
+  out.stamp_ns = head.stamp_ns;
+  out.imu_sensor = head.imu_sensor;
+  for (std::uint64_t i = 0; i < head.streams && reader.good(); ++i) {
+    Row row;
+    reader.element("streams", i, row);
+    out.last[{row.source, row.sensor}] = row.sequence;
+  }
+  if (!reader.good()) return Error{"is none: " + reader.complaint()};
+  out.image.assign(reader.rest().begin(), reader.rest().end());
+  return out;
+}
+
+std::string gap_between(const SharedState& state, const ArrivalLog& log) {
+  SampleGaps::Table first;
+  for (const ArrivalLog::Arrival& arrival : log.arrivals()) {
+    std::visit(
+        [&](const auto& one) {
+          first.try_emplace({source_of(one), one.header.sensor}, one.header.sequence);
+        },
+        arrival.sample);
+  }
+  for (const auto& [stream, sequence] : state.last) {
+    const auto found = first.find(stream);
+    const bool unit = stream.first == SourceKind::imu && stream.second == state.imu_sensor;
+    // Of an instrument that speaks seldom nothing may have come yet; its next sample will show.
+    if (found == first.end() && !unit) continue;
+    if (found == first.end()) return "nothing of " + stream.second.str() + " has arrived here yet";
+    if (found->second > sequence + 1) {
+      return std::to_string(found->second - sequence - 1) + " samples of " + stream.second.str() +
+             " between it and the first that arrived here";
+    }
+  }
+  return {};
+}
+
+}  // namespace fathom::fusion
