@@ -96,6 +96,9 @@ class ScenarioStudy final : public study::Study {
  public:
   ScenarioStudy() : directory_(std::filesystem::path(config::scenario_directory()).parent_path()) {
     for (const std::string& name : config::scenario_names()) cases_.push_back(load_case(name, directory_));
+    if (cases_.empty())
+      throw config::ConfigError("scenarios", "FATHOM_SCENARIO_DIR", config::scenario_directory(),
+                                "a folder with scenarios (*.json); the executable has none beside it");
   }
 
   [[nodiscard]] std::string_view name() const override { return "scenarios"; }

@@ -98,5 +98,16 @@ TEST_F(StudyCommand, SaysWhatIsWrong) {
   EXPECT_EQ(run("rotating_arm --runs 1 --json /nowhere/at/all.json").code, 4);
 }
 
+TEST_F(StudyCommand, ScenariosThatAreNotThereAreAnError) {
+  const auto empty = std::filesystem::path(file_).replace_extension(".empty");
+  std::filesystem::create_directory(empty);
+  ::setenv("FATHOM_SCENARIO_DIR", empty.c_str(), 1);
+  const Answer answer = run("scenarios");
+  ::unsetenv("FATHOM_SCENARIO_DIR");
+  std::filesystem::remove(empty);
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_THAT(answer.text, testing::HasSubstr(empty.string()));
+}
+
 }  // namespace
 }  // namespace fathom
