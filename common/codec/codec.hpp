@@ -7,19 +7,9 @@
 #include <variant>
 
 #include "base/device_time.hpp"
-#include "samples/actuator.hpp"
-#include "samples/airspeed.hpp"
-#include "samples/depth.hpp"
-#include "samples/dvl.hpp"
-#include "samples/gps.hpp"
-#include "samples/heading.hpp"
-#include "samples/imu.hpp"
-#include "samples/usbl.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::codec {
-
-using AnySample = std::variant<ImuSample, DvlSample, GpsSample, DepthSample, HeadingSample, UsblSample,
-                               PropulsionSample, FinsSample, AirspeedSample>;
 
 /// The bridge turns it into stamp_ns (runtime/device_time.hpp); codecs leave the stamps of the header at 0.
 using DeviceTime = fathom::DeviceTime;

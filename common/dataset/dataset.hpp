@@ -5,19 +5,13 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "base/name.hpp"
 #include "base/time.hpp"
-#include "samples/actuator.hpp"
-#include "samples/airspeed.hpp"
-#include "samples/depth.hpp"
-#include "samples/dvl.hpp"
-#include "samples/gps.hpp"
-#include "samples/heading.hpp"
-#include "samples/imu.hpp"
+#include "samples/kinds.hpp"
 #include "samples/truth.hpp"
-#include "samples/usbl.hpp"
 #include "samples/verdict.hpp"
 
 /// A recorded or simulated vehicle as a folder of CSV files, one per sensor, each plain or .gz. README.md
@@ -31,8 +25,8 @@ class DatasetError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Sensor streams in the order of their files. header.sensor is the name of the kind ("imu", "gps", "dvl",
-/// "depth", "heading", "usbl", "airspeed", "propulsion", "fins", "reference"), header.sequence counts from 0.
+/// Sensor streams in the order of their files. header.sensor is the word of the kind, or "reference";
+/// header.sequence counts from 0.
 struct Dataset {
   std::vector<ImuSample> imu;
   std::vector<GpsSample> gps;
@@ -45,6 +39,17 @@ struct Dataset {
   std::vector<FinsSample> fins;
   std::vector<Truth> reference;
 };
+
+/// The stream of a kind.
+template <OfAKind Sample>
+std::vector<Sample>& stream(Dataset& data) {
+  return std::get<std::vector<Sample>&>(std::tie(data.imu, data.gps, data.dvl, data.depth, data.heading,
+                                                 data.usbl, data.airspeed, data.propulsion, data.fins));
+}
+template <OfAKind Sample>
+const std::vector<Sample>& stream(const Dataset& data) {
+  return stream<Sample>(const_cast<Dataset&>(data));  // NOLINT: nothing is written through it
+}
 
 /// The instant that t_s = 0 means where nothing else is said: 2020-01-01T00:00:00Z.
 inline constexpr TimeNs kDefaultEpochNs = 1'577'836'800 * kNsPerSecond;
@@ -82,27 +87,10 @@ struct Arrival {
 /// Calls `consumer` with the sample that `arrival` names.
 template <class Consumer>
 void visit(const Dataset& data, const Arrival& arrival, Consumer&& consumer) {
-  const auto index = static_cast<std::size_t>(arrival.index);
-  switch (arrival.source) {
-    case SourceKind::imu:
-      return consumer(data.imu[index]);
-    case SourceKind::gps:
-      return consumer(data.gps[index]);
-    case SourceKind::dvl:
-      return consumer(data.dvl[index]);
-    case SourceKind::depth:
-      return consumer(data.depth[index]);
-    case SourceKind::heading:
-      return consumer(data.heading[index]);
-    case SourceKind::usbl:
-      return consumer(data.usbl[index]);
-    case SourceKind::airspeed:
-      return consumer(data.airspeed[index]);
-    case SourceKind::propulsion:
-      return consumer(data.propulsion[index]);
-    case SourceKind::fins:
-      return consumer(data.fins[index]);
-  }
+  for_each_kind([&](auto kind) {
+    if (kind.kSource == arrival.source)
+      consumer(stream<typename decltype(kind)::Sample>(data)[static_cast<std::size_t>(arrival.index)]);
+  });
 }
 
 }  // namespace fathom::dataset

@@ -340,38 +340,20 @@ Dataset read(const std::filesystem::path& directory, const ReadOptions& options)
     throw DatasetError(directory.string() + ": is not a folder, expected a data set with imu.csv and others");
   }
   Dataset data;
-  read_stream(directory, "imu", options, data.imu);
-  read_stream(directory, "gps", options, data.gps);
-  read_stream(directory, "dvl", options, data.dvl);
-  read_stream(directory, "depth", options, data.depth);
-  read_stream(directory, "heading", options, data.heading);
-  read_stream(directory, "usbl", options, data.usbl);
-  read_stream(directory, "airspeed", options, data.airspeed);
-  read_stream(directory, "propulsion", options, data.propulsion);
-  read_stream(directory, "fins", options, data.fins);
+  for_each_kind([&](auto kind) {
+    read_stream(directory, kind.kWord, options, stream<typename decltype(kind)::Sample>(data));
+  });
   read_stream(directory, "reference", options, data.reference);
   return data;
 }
 
 std::vector<Arrival> arrivals(const Dataset& data) {
   std::vector<Arrival> order;
-  order.reserve(data.imu.size() + data.gps.size() + data.dvl.size() + data.depth.size() +
-                data.heading.size() + data.usbl.size() + data.airspeed.size() + data.propulsion.size() +
-                data.fins.size());
-  const auto append = [&order](const auto& stream, SourceKind source) {
-    for (std::size_t i = 0; i < stream.size(); ++i) {
-      order.push_back({stream[i].header.received_ns, source, static_cast<std::uint32_t>(i)});
-    }
-  };
-  append(data.imu, SourceKind::imu);
-  append(data.gps, SourceKind::gps);
-  append(data.dvl, SourceKind::dvl);
-  append(data.depth, SourceKind::depth);
-  append(data.heading, SourceKind::heading);
-  append(data.usbl, SourceKind::usbl);
-  append(data.airspeed, SourceKind::airspeed);
-  append(data.propulsion, SourceKind::propulsion);
-  append(data.fins, SourceKind::fins);
+  for_each_kind([&](auto kind) {
+    const auto& samples = stream<typename decltype(kind)::Sample>(data);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      order.push_back({samples[i].header.received_ns, kind.kSource, static_cast<std::uint32_t>(i)});
+  });
   std::stable_sort(order.begin(), order.end(),
                    [](const Arrival& a, const Arrival& b) { return a.received_ns < b.received_ns; });
   return order;

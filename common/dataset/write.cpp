@@ -47,8 +47,8 @@ void write_stream(const std::filesystem::path& directory, const char* kind, cons
   csv.close();
 }
 
-void write_gps(const std::filesystem::path& directory, const WriteOptions& options,
-               const std::vector<GpsSample>& stream) {
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<GpsSample>& stream) {
   const bool sigmas = any(stream, [](const GpsSample& s) { return known(s.velocity_sigma_N_m_s[0]); });
   const bool satellites = any(stream, [](const GpsSample& s) { return s.satellites >= 0; });
   const std::string header =
@@ -64,8 +64,8 @@ void write_gps(const std::filesystem::path& directory, const WriteOptions& optio
   });
 }
 
-void write_dvl(const std::filesystem::path& directory, const WriteOptions& options,
-               const std::vector<DvlSample>& stream) {
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<DvlSample>& stream) {
   const bool beams = any(stream, [](const DvlSample& s) {
     return any(std::vector<double>(s.beam_velocity_m_s.begin(), s.beam_velocity_m_s.end()), known);
   });
@@ -86,8 +86,8 @@ void write_dvl(const std::filesystem::path& directory, const WriteOptions& optio
   });
 }
 
-void write_depth(const std::filesystem::path& directory, const WriteOptions& options,
-                 const std::vector<DepthSample>& stream) {
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<DepthSample>& stream) {
   const bool sigma = any(stream, [](const DepthSample& s) { return known(s.sigma_m); });
   write_stream(directory, "depth", options, stream, sigma ? "depth_m,sigma_m" : "depth_m",
                [&](CsvWriter& csv, const DepthSample& s) {
@@ -96,8 +96,8 @@ void write_depth(const std::filesystem::path& directory, const WriteOptions& opt
                });
 }
 
-void write_heading(const std::filesystem::path& directory, const WriteOptions& options,
-                   const std::vector<HeadingSample>& stream) {
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<HeadingSample>& stream) {
   const bool sigma = any(stream, [](const HeadingSample& s) { return known(s.sigma_rad); });
   const bool magnetic = any(stream, [](const HeadingSample& s) { return s.north == North::magnetic; });
   const std::string header =
@@ -123,7 +123,7 @@ const char* word(UsblFrame frame) {
   return "geodetic";
 }
 
-void write_usbl(const std::filesystem::path& directory, const WriteOptions& options,
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
                 const std::vector<UsblSample>& stream) {
   const bool relative = any(stream, [](const UsblSample& s) { return s.frame != UsblFrame::geodetic; });
   const std::string header =
@@ -144,8 +144,8 @@ void write_usbl(const std::filesystem::path& directory, const WriteOptions& opti
   });
 }
 
-void write_airspeed(const std::filesystem::path& directory, const WriteOptions& options,
-                    const std::vector<AirspeedSample>& stream) {
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<AirspeedSample>& stream) {
   const bool altitude = any(stream, [](const AirspeedSample& s) { return known(s.baro_altitude_m); });
   const bool is_true = any(stream, [](const AirspeedSample& s) { return known(s.true_airspeed_m_s); });
   std::string columns = "airspeed_m_s";
@@ -158,27 +158,35 @@ void write_airspeed(const std::filesystem::path& directory, const WriteOptions& 
   });
 }
 
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<ImuSample>& stream) {
+  write_stream(directory, "imu", options, stream, "gx_rad_s,gy_rad_s,gz_rad_s,ax_m_s2,ay_m_s2,az_m_s2",
+               [](CsvWriter& csv, const ImuSample& s) {
+                 numbers3(csv, s.angular_rate_B_rad_s);
+                 numbers3(csv, s.specific_force_B_m_s2);
+               });
+}
+
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<PropulsionSample>& stream) {
+  write_stream(directory, "propulsion", options, stream, "rpm",
+               [](CsvWriter& csv, const PropulsionSample& s) { csv.number(s.rpm); });
+}
+
+void write_rows(const std::filesystem::path& directory, const WriteOptions& options,
+                const std::vector<FinsSample>& stream) {
+  write_stream(directory, "fins", options, stream, "rudder_rad,stern_rad",
+               [](CsvWriter& csv, const FinsSample& s) { csv.number(s.rudder_rad).number(s.stern_rad); });
+}
+
 }  // namespace
 
 void write(const std::filesystem::path& directory, const Dataset& data, const WriteOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) throw DatasetError(directory.string() + ": cannot be created: " + error.message());
-  write_stream(directory, "imu", options, data.imu, "gx_rad_s,gy_rad_s,gz_rad_s,ax_m_s2,ay_m_s2,az_m_s2",
-               [](CsvWriter& csv, const ImuSample& s) {
-                 numbers3(csv, s.angular_rate_B_rad_s);
-                 numbers3(csv, s.specific_force_B_m_s2);
-               });
-  write_gps(directory, options, data.gps);
-  write_dvl(directory, options, data.dvl);
-  write_depth(directory, options, data.depth);
-  write_heading(directory, options, data.heading);
-  write_usbl(directory, options, data.usbl);
-  write_airspeed(directory, options, data.airspeed);
-  write_stream(directory, "propulsion", options, data.propulsion, "rpm",
-               [](CsvWriter& csv, const PropulsionSample& s) { csv.number(s.rpm); });
-  write_stream(directory, "fins", options, data.fins, "rudder_rad,stern_rad",
-               [](CsvWriter& csv, const FinsSample& s) { csv.number(s.rudder_rad).number(s.stern_rad); });
+  for_each_kind(
+      [&](auto kind) { write_rows(directory, options, stream<typename decltype(kind)::Sample>(data)); });
   write_stream(
       directory, "reference", options, data.reference,
       "lat_deg,lon_deg,alt_m,vn_m_s,ve_m_s,vd_m_s,roll_deg,pitch_deg,yaw_deg",

@@ -23,12 +23,6 @@ std::string_view to_string(VerdictKind kind) {
   return pick(kWords, kind);
 }
 
-std::string_view to_string(SourceKind source) {
-  static constexpr std::array<std::string_view, kSourceKinds> kWords{
-      "imu", "gps", "dvl", "depth", "heading", "usbl", "airspeed", "propulsion", "fins"};
-  return pick(kWords, source);
-}
-
 std::string_view to_string(NavMode mode) {
   static constexpr std::array<std::string_view, 6> kWords{"none",           "aligning",       "gps_aided",
                                                           "acoustic_aided", "dead_reckoning", "inertial"};

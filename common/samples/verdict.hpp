@@ -6,6 +6,7 @@
 
 #include "base/unknown.hpp"
 #include "samples/header.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom {
 
@@ -30,20 +31,6 @@ inline constexpr std::size_t kVerdictKinds = 12;
 
 /// The word used on the command line and in reports, e.g. "not_aligned".
 [[nodiscard]] std::string_view to_string(VerdictKind kind);
-
-enum class SourceKind : std::uint8_t {
-  imu = 0,
-  gps = 1,
-  dvl = 2,
-  depth = 3,
-  heading = 4,
-  usbl = 5,
-  airspeed = 6,
-  propulsion = 7,
-  fins = 8,
-};
-inline constexpr std::size_t kSourceKinds = 9;
-[[nodiscard]] std::string_view to_string(SourceKind source);
 
 /// A judgement of one measurement. The first one (revision 0) is given as soon as the measurement has been
 /// judged. A late neighbour may change the judgement: then another verdict of the same measurement follows.

@@ -1,102 +1,106 @@
 #include "security/roles.hpp"
 
 #include <algorithm>
-#include <array>
+#include <vector>
+
+#include "samples/kinds.hpp"
 
 namespace fathom::security {
 namespace {
 
-using Topics = std::span<const std::string_view>;
+using Topics = std::vector<std::string_view>;
 
-template <class... Names>
-constexpr std::array<std::string_view, sizeof...(Names)> list(Names... names) {
-  return {std::string_view(names)...};
+constexpr std::string_view kLifeSign = "fathom/v1/service_status";  // every service writes it
+
+/// The topics of all instruments, and these.
+Topics instruments_and(std::initializer_list<std::string_view> others) {
+  Topics topics;
+  for_each_kind([&](auto kind) { topics.push_back(kind.kTopic); });
+  topics.insert(topics.end(), others);
+  return topics;
 }
 
-// Every service writes its life sign.
-constexpr auto kImu = list("fathom/v1/imu", "fathom/v1/service_status");
-constexpr auto kDvl = list("fathom/v1/dvl", "fathom/v1/service_status");
-constexpr auto kGps = list("fathom/v1/gps", "fathom/v1/service_status");
-constexpr auto kDepth = list("fathom/v1/depth", "fathom/v1/service_status");
-constexpr auto kHeading = list("fathom/v1/heading", "fathom/v1/service_status");
-constexpr auto kUsbl = list("fathom/v1/usbl", "fathom/v1/service_status");
-constexpr auto kActuator = list("fathom/v1/propulsion", "fathom/v1/fins", "fathom/v1/service_status");
-constexpr auto kAirData = list("fathom/v1/airspeed", "fathom/v1/service_status");
-
-constexpr auto kFusionWrites = list("fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict",
-                                    "fathom/v1/alignment", "fathom/v1/forecast", "fathom/v1/replica_status",
-                                    "fathom/v1/engine_state", "fathom/v1/service_status");
-// What the others of its kind say, too: of several fusion services each knows how far it is from the one that
-// leads.
-constexpr auto kFusionReads = list(
-    "fathom/v1/imu", "fathom/v1/gps", "fathom/v1/dvl", "fathom/v1/depth", "fathom/v1/heading",
-    "fathom/v1/usbl", "fathom/v1/airspeed", "fathom/v1/propulsion", "fathom/v1/fins", "fathom/v1/command",
-    "fathom/v1/nav_state", "fathom/v1/verdict", "fathom/v1/replica_status", "fathom/v1/engine_state");
-
-constexpr auto kMonitorWrites =
-    list("fathom/v1/alarm", "fathom/v1/monitor_status", "fathom/v1/service_status");
-constexpr auto kMonitorReads =
-    list("fathom/v1/imu", "fathom/v1/gps", "fathom/v1/dvl", "fathom/v1/depth", "fathom/v1/heading",
-         "fathom/v1/usbl", "fathom/v1/airspeed", "fathom/v1/propulsion", "fathom/v1/fins",
-         "fathom/v1/nav_state", "fathom/v1/alignment", "fathom/v1/verdict", "fathom/v1/forecast",
-         "fathom/v1/service_status", "fathom/v1/command");
-
-constexpr auto kConsoleWrites = list("fathom/v1/command", "fathom/v1/service_status");
-constexpr auto kConsoleReads =
-    list("fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
-         "fathom/v1/monitor_status", "fathom/v1/forecast", "fathom/v1/service_status", "fathom/v1/alarm",
-         "fathom/v1/gps", "fathom/v1/usbl", "fathom/v1/route");
-
-constexpr auto kGuidanceWrites = list("fathom/v1/route", "fathom/v1/service_status");
-constexpr auto kGuidanceReads =
-    list("fathom/v1/nav_state", "fathom/v1/alignment", "fathom/v1/monitor_status", "fathom/v1/alarm");
-
-constexpr auto kSimulatorWrites = list("fathom/v1/truth", "fathom/v1/service_status");
-constexpr auto kLifeSign = list("fathom/v1/service_status");
-constexpr auto kCommand = list("fathom/v1/command");
-// A black box: all that was measured, said and ordered. The engine's state is for those who may take over.
-constexpr auto kRecorderReads =
-    list("fathom/v1/imu", "fathom/v1/gps", "fathom/v1/dvl", "fathom/v1/depth", "fathom/v1/heading",
-         "fathom/v1/usbl", "fathom/v1/airspeed", "fathom/v1/propulsion", "fathom/v1/fins",
-         "fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
-         "fathom/v1/forecast", "fathom/v1/alarm", "fathom/v1/monitor_status", "fathom/v1/service_status",
-         "fathom/v1/replica_status", "fathom/v1/command", "fathom/v1/route", "fathom/v1/truth");
-// What status shows and what a run is judged by; who exists at all doctor learns from discovery.
-constexpr auto kCliReads = list("fathom/v1/nav_state", "fathom/v1/verdict", "fathom/v1/alignment",
-                                "fathom/v1/forecast", "fathom/v1/alarm", "fathom/v1/monitor_status",
-                                "fathom/v1/service_status", "fathom/v1/gps", "fathom/v1/truth");
-constexpr std::array<std::string_view, 0> kNothing{};
-
-constexpr std::array kRoles{
-    Role{"imu_bridge", kImu, kNothing},
-    Role{"dvl_bridge", kDvl, kNothing},
-    Role{"gps_bridge", kGps, kNothing},
-    Role{"depth_bridge", kDepth, kNothing},
-    Role{"heading_bridge", kHeading, kNothing},
-    Role{"usbl_bridge", kUsbl, kNothing},
-    Role{"actuator_bridge", kActuator, kNothing},
-    Role{"air_data_bridge", kAirData, kNothing},
-    Role{"fusion", kFusionWrites, kFusionReads},
-    Role{"monitor", kMonitorWrites, kMonitorReads},
-    Role{"console", kConsoleWrites, kConsoleReads},
-    Role{"guidance", kGuidanceWrites, kGuidanceReads},
-    Role{"guidance_example", kGuidanceWrites, kGuidanceReads},
-    Role{"discovery", kLifeSign, kNothing},
-    Role{"recorder", kLifeSign, kRecorderReads},
-    Role{"simulator", kSimulatorWrites, kNothing},
-    Role{"cli", kCommand, kCliReads},  // status, doctor, and the referee of a demonstration
+struct Entry {
+  std::string_view name;
+  Topics writes;
+  Topics reads;
 };
+
+/// One for each role of the table of kinds: it writes all topics that name it.
+void add_bridges(std::vector<Entry>& entries) {
+  for_each_kind([&](auto kind) {
+    const auto known = std::find_if(entries.begin(), entries.end(),
+                                    [&](const Entry& entry) { return entry.name == kind.kRole; });
+    if (known == entries.end()) {
+      entries.push_back({kind.kRole, {kind.kTopic, kLifeSign}, {}});
+    } else {
+      known->writes.insert(known->writes.end() - 1, kind.kTopic);
+    }
+  });
+}
+
+std::vector<Entry> make_entries() {
+  const Topics guidance_writes{"fathom/v1/route", kLifeSign};
+  const Topics guidance_reads{"fathom/v1/nav_state", "fathom/v1/alignment", "fathom/v1/monitor_status",
+                              "fathom/v1/alarm"};
+  std::vector<Entry> entries;
+  add_bridges(entries);
+  // What the others of its kind say, too: of several fusion services each knows how far it is from the one
+  // that leads.
+  entries.push_back(
+      {"fusion",
+       {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
+        "fathom/v1/forecast", "fathom/v1/replica_status", "fathom/v1/engine_state", kLifeSign},
+       instruments_and({"fathom/v1/command", "fathom/v1/nav_state", "fathom/v1/verdict",
+                        "fathom/v1/replica_status", "fathom/v1/engine_state"})});
+  entries.push_back({"monitor",
+                     {"fathom/v1/alarm", "fathom/v1/monitor_status", kLifeSign},
+                     instruments_and({"fathom/v1/nav_state", "fathom/v1/alignment", "fathom/v1/verdict",
+                                      "fathom/v1/forecast", kLifeSign, "fathom/v1/command"})});
+  entries.push_back(
+      {"console",
+       {"fathom/v1/command", kLifeSign},
+       {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
+        "fathom/v1/monitor_status", "fathom/v1/forecast", kLifeSign, "fathom/v1/alarm",
+        KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic, "fathom/v1/route"}});
+  entries.push_back({"guidance", guidance_writes, guidance_reads});
+  entries.push_back({"guidance_example", guidance_writes, guidance_reads});
+  entries.push_back({"discovery", {kLifeSign}, {}});
+  // A black box: all that was measured, said and ordered. The engine's state is for those who may take over.
+  entries.push_back({"recorder",
+                     {kLifeSign},
+                     instruments_and({"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict",
+                                      "fathom/v1/alignment", "fathom/v1/forecast", "fathom/v1/alarm",
+                                      "fathom/v1/monitor_status", kLifeSign, "fathom/v1/replica_status",
+                                      "fathom/v1/command", "fathom/v1/route", "fathom/v1/truth"})});
+  entries.push_back({"simulator", {"fathom/v1/truth", kLifeSign}, {}});
+  // status, doctor, and the referee of a demonstration. What status shows and what a run is judged by; who
+  // exists at all doctor learns from discovery.
+  entries.push_back({"cli",
+                     {"fathom/v1/command"},
+                     {"fathom/v1/nav_state", "fathom/v1/verdict", "fathom/v1/alignment", "fathom/v1/forecast",
+                      "fathom/v1/alarm", "fathom/v1/monitor_status", kLifeSign, KindOf<GpsSample>::kTopic,
+                      "fathom/v1/truth"}});
+  return entries;
+}
 
 }  // namespace
 
 std::span<const Role> roles() {
-  return kRoles;
+  static const std::vector<Entry> entries = make_entries();
+  static const std::vector<Role> roles = [] {
+    std::vector<Role> out;
+    for (const Entry& entry : entries) out.push_back({entry.name, entry.writes, entry.reads});
+    return out;
+  }();
+  return roles;
 }
 
 const Role* find_role(std::string_view name) {
-  const auto* const found =
-      std::find_if(kRoles.begin(), kRoles.end(), [&](const Role& role) { return role.name == name; });
-  return found == kRoles.end() ? nullptr : found;
+  const std::span<const Role> all = roles();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Role& role) { return role.name == name; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace fathom::security

@@ -29,45 +29,52 @@ std::string_view canonical(std::string_view protocol) {
   return found == nullptr ? std::string_view{} : found->name;
 }
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kOutputs{{
-    {"imu", "vectornav"},
-    {"gps", "nmea0183"},
-    {"gps", "ubx"},
-    {"dvl", "pd0"},
-    {"dvl", "waterlinked"},
-    {"depth", "paroscientific"},
-    {"depth", "ascii_depth"},
-    {"heading", "nmea0183"},
-    {"usbl", "psimssb"},
-    {"propulsion", "nmea0183"},
-    {"fins", "nmea0183"},
-    {"airspeed", "ascii_air_data"},
-    {"airspeed", "nmea_air_data"},
+constexpr std::array<std::pair<SourceKind, std::string_view>, 13> kOutputs{{
+    {SourceKind::imu, "vectornav"},
+    {SourceKind::gps, "nmea0183"},
+    {SourceKind::gps, "ubx"},
+    {SourceKind::dvl, "pd0"},
+    {SourceKind::dvl, "waterlinked"},
+    {SourceKind::depth, "paroscientific"},
+    {SourceKind::depth, "ascii_depth"},
+    {SourceKind::heading, "nmea0183"},
+    {SourceKind::usbl, "psimssb"},
+    {SourceKind::propulsion, "nmea0183"},
+    {SourceKind::fins, "nmea0183"},
+    {SourceKind::airspeed, "ascii_air_data"},
+    {SourceKind::airspeed, "nmea_air_data"},
 }};
 
 }  // namespace
 
+std::array<std::pair<SourceKind, const SensorCommon*>, kSourceKinds> sensors_of(const SensorSuite& suite) {
+  return {{{SourceKind::imu, &suite.imu},
+           {SourceKind::gps, &suite.gps},
+           {SourceKind::dvl, &suite.dvl},
+           {SourceKind::depth, &suite.depth},
+           {SourceKind::heading, &suite.heading},
+           {SourceKind::usbl, &suite.usbl},
+           {SourceKind::airspeed, &suite.airspeed},
+           {SourceKind::propulsion, &suite.propulsion},
+           {SourceKind::fins, &suite.fins}}};
+}
+
 const SensorCommon* find_sensor(const SensorSuite& suite, std::string_view kind) {
-  const std::array<std::pair<std::string_view, const SensorCommon*>, 9> sensors{
-      {{"imu", &suite.imu},
-       {"gps", &suite.gps},
-       {"dvl", &suite.dvl},
-       {"depth", &suite.depth},
-       {"heading", &suite.heading},
-       {"usbl", &suite.usbl},
-       {"propulsion", &suite.propulsion},
-       {"fins", &suite.fins},
-       {"airspeed", &suite.airspeed}}};
-  for (const auto& [name, sensor] : sensors) {
-    if (name == kind) return sensor;
+  for (const auto& [source, sensor] : sensors_of(suite)) {
+    if (to_string(source) == kind) return sensor;
   }
   return nullptr;
 }
 
-bool can_encode(std::string_view kind, std::string_view protocol) {
+bool can_encode(SourceKind kind, std::string_view protocol) {
   const auto name = canonical(protocol);
   return std::any_of(kOutputs.begin(), kOutputs.end(),
                      [&](const auto& output) { return output.first == kind && output.second == name; });
+}
+
+bool can_encode(std::string_view kind, std::string_view protocol) {
+  const std::optional<SourceKind> source = kind_named(kind);
+  return source && can_encode(*source, protocol);
 }
 
 DeviceEncoder::DeviceEncoder(const Scenario& scenario, TimeNs power_on_ns)

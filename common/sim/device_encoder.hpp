@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/time.hpp"
@@ -11,11 +13,15 @@
 
 namespace fathom::sim {
 
-/// The sensor's part of a suite by the kind's name ("imu", "gps", ...); null for others.
+/// The parts of a suite, one a kind.
+[[nodiscard]] std::array<std::pair<SourceKind, const SensorCommon*>, kSourceKinds> sensors_of(
+    const SensorSuite& suite);
+/// The sensor's part of a suite by the kind's word; null for others.
 [[nodiscard]] const SensorCommon* find_sensor(const SensorSuite& suite, std::string_view kind);
 
 /// Whether the simulator speaks this protocol for this kind of sensor. Names and aliases of
 /// codec/registry.hpp.
+[[nodiscard]] bool can_encode(SourceKind kind, std::string_view protocol);
 [[nodiscard]] bool can_encode(std::string_view kind, std::string_view protocol);
 
 /// Turns measurements into the bytes that the configured devices send for them. Device clocks: the IMU counts

@@ -58,10 +58,6 @@ class Schedule {
 
 }  // namespace
 
-const SampleHeader& header_of(const Measurement& measurement) {
-  return std::visit([](const auto& sample) -> const SampleHeader& { return sample.header; }, measurement);
-}
-
 struct Simulation::Impl {
   Impl(const Scenario& s, const Options& o)
       : options(o),

@@ -7,26 +7,15 @@
 
 #include "base/name.hpp"
 #include "base/time.hpp"
-#include "samples/actuator.hpp"
-#include "samples/airspeed.hpp"
-#include "samples/depth.hpp"
-#include "samples/dvl.hpp"
-#include "samples/gps.hpp"
-#include "samples/heading.hpp"
-#include "samples/imu.hpp"
+#include "samples/kinds.hpp"
 #include "samples/truth.hpp"
-#include "samples/usbl.hpp"
 #include "sim/scenario.hpp"
 
 namespace fathom::sim {
 
 /// One measurement of a simulated sensor. The header says when it was valid and when its last byte arrives;
-/// header.sensor is the kind's name ("imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins",
-/// "airspeed"), header.sequence counts from 0 per sensor.
-using Measurement = std::variant<ImuSample, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
-                                 PropulsionSample, FinsSample, AirspeedSample>;
-
-[[nodiscard]] const SampleHeader& header_of(const Measurement& measurement);
+/// header.sensor is the kind's word, header.sequence counts from 0 per sensor.
+using Measurement = AnySample;
 
 /// A scenario running: truth and measurements, one inertial interval at a time. The same scenario and seed
 /// give the same numbers.

@@ -69,7 +69,7 @@ void carry_out(sim::Simulation& simulation, double duration_s, std::span<EngineR
     if (observe) observe(measurement);
   };
   const auto received = [](const sim::Measurement& measurement) {
-    return sim::header_of(measurement).received_ns;
+    return header_of(measurement).received_ns;
   };
   std::vector<sim::Measurement> fresh;
   std::vector<sim::Measurement> under_way;  // sampled, not yet arrived

@@ -1,6 +1,7 @@
 #include "bridge/bridge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -22,29 +23,36 @@ bus::WriterOptions writer_options(const host::ServiceHost& host, const config::S
   return out;
 }
 
-template <class... Samples>
 class BusOutlet : public Outlet {
  public:
-  BusOutlet(host::ServiceHost& host, const config::SensorPlan& plan)
-      : writers_{make<Samples>(host, plan)...} {}
-
-  [[nodiscard]] bool takes(std::size_t kind) const override {
-    return ((codec::AnySample(Samples{}).index() == kind) || ...);
+  BusOutlet(host::ServiceHost& host, const config::SensorPlan& plan, std::string_view role) {
+    for_each_kind([&](auto kind) {
+      using Sample = typename decltype(kind)::Sample;
+      if (kind.kRole != role) return;
+      std::get<Writer<Sample>>(writers_) =
+          std::make_unique<bus::Writer<Sample>>(host.participant(), writer_options(host, plan));
+      takes_[static_cast<std::size_t>(kind.kSource)] = true;
+    });
   }
-  bool publish(const codec::AnySample& sample) override { return (write_if<Samples>(sample) || ...); }
+
+  [[nodiscard]] bool takes(std::size_t kind) const override { return takes_[kind]; }
+  bool publish(const AnySample& sample) override {
+    return std::visit(
+        [&]<class Sample>(const Sample& value) {
+          const Writer<Sample>& writer = std::get<Writer<Sample>>(writers_);
+          return writer != nullptr && writer->write(value);
+        },
+        sample);
+  }
 
  private:
   template <class Sample>
-  static std::unique_ptr<bus::Writer<Sample>> make(host::ServiceHost& host, const config::SensorPlan& plan) {
-    return std::make_unique<bus::Writer<Sample>>(host.participant(), writer_options(host, plan));
-  }
-  template <class Sample>
-  bool write_if(const codec::AnySample& sample) {
-    const auto* value = std::get_if<Sample>(&sample);
-    return value != nullptr && std::get<std::unique_ptr<bus::Writer<Sample>>>(writers_)->write(*value);
-  }
+  using Writer = std::unique_ptr<bus::Writer<Sample>>;
+  template <class... Samples>
+  using Writers = std::tuple<Writer<Samples>...>;
 
-  std::tuple<std::unique_ptr<bus::Writer<Samples>>...> writers_;
+  Kinds::Samples<Writers> writers_;
+  std::array<bool, kSourceKinds> takes_{};
 };
 
 void add(ServiceStatus& status, const std::string& name, std::uint64_t value) {
@@ -128,11 +136,10 @@ void Bridge::Impl::count(ServiceStatus& status) const {
     add(status, "samples:" + channel->sensor().name.str(), channel->counters().samples);
 }
 
-template <class... Samples>
-Bridge::Bridge(host::ServiceHost& host, const std::vector<config::SensorPlan>& plans, Kinds<Samples...>)
+Bridge::Bridge(host::ServiceHost& host, const std::vector<config::SensorPlan>& plans, std::string_view role)
     : impl_(std::make_unique<Impl>(host)) {
   for (const config::SensorPlan& plan : plans) {
-    impl_->outlets.push_back(std::make_unique<BusOutlet<Samples...>>(host, plan));
+    impl_->outlets.push_back(std::make_unique<BusOutlet>(host, plan, role));
     impl_->channels.push_back(std::make_unique<SensorChannel>(plan, host.common().vehicle, host.clock(),
                                                               host.log(), *impl_->outlets.back()));
   }
@@ -147,15 +154,5 @@ ExitCode Bridge::run() {
   for (const auto& channel : impl_->channels) channel->start();
   return impl_->host.run();
 }
-
-template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<ImuSample>);
-template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<DvlSample>);
-template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<GpsSample>);
-template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<DepthSample>);
-template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<HeadingSample>);
-template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<UsblSample>);
-template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&,
-                        Kinds<PropulsionSample, FinsSample>);
-template Bridge::Bridge(host::ServiceHost&, const std::vector<config::SensorPlan>&, Kinds<AirspeedSample>);
 
 }  // namespace fathom::bridge

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "bridge/sensor_channel.hpp"
@@ -15,12 +16,9 @@ namespace fathom::bridge {
 /// wrong is said in the life sign, which is degraded then.
 class Bridge {
  public:
-  /// Publishes samples of the kinds Samples only; others in the same stream are counted and ignored.
-  template <class... Samples>
-  struct Kinds {};
-
-  template <class... Samples>
-  Bridge(host::ServiceHost& host, const std::vector<config::SensorPlan>& plans, Kinds<Samples...>);
+  /// Publishes samples of the kinds that name this service in the table of kinds; others in the same stream are
+  /// counted and ignored.
+  Bridge(host::ServiceHost& host, const std::vector<config::SensorPlan>& plans, std::string_view role);
   ~Bridge();
   Bridge(const Bridge&) = delete;
   Bridge& operator=(const Bridge&) = delete;
@@ -34,10 +32,10 @@ class Bridge {
 };
 
 /// The whole main of a bridge.
-template <class Config, class... Samples>
+template <class Config>
 [[nodiscard]] int run_bridge(int argc, char** argv, const host::ServiceInfo& info) {
-  return host::run<Config>(argc, argv, info, [](host::ServiceHost& host, const Config& config) {
-    Bridge bridge(host, config::sensor_plans(config), Bridge::Kinds<Samples...>{});
+  return host::run<Config>(argc, argv, info, [role = info.name](host::ServiceHost& host, const Config& config) {
+    Bridge bridge(host, config::sensor_plans(config), role);
     return bridge.run();
   });
 }

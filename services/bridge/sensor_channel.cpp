@@ -17,7 +17,7 @@ using runtime::SourceState;
 // A reason that was logged is logged again when it had not occurred for this long.
 constexpr DurationNs kQuiet = 60 * kNsPerSecond;
 
-SampleHeader& header_of(codec::AnySample& sample) {
+SampleHeader& header_of(AnySample& sample) {
   return std::visit([](auto& value) -> SampleHeader& { return value.header; }, sample);
 }
 
@@ -68,7 +68,7 @@ struct SensorChannel::Impl : codec::Sink {
   void on_sample(const codec::Decoded& decoded) override;
   void on_rejected(const codec::Rejected& rejected) override;
 
-  [[nodiscard]] bool is_ours(const codec::AnySample& sample) const;
+  [[nodiscard]] bool is_ours(const AnySample& sample) const;
   [[nodiscard]] bool paced() const;
   void stamp_and_publish(const codec::Decoded& decoded, const Arrival& at);
   void publish_waiting();
@@ -107,7 +107,7 @@ struct SensorChannel::Impl : codec::Sink {
   runtime::ByteSource source;  ///< last: its thread ends before what it uses goes
 };
 
-bool SensorChannel::Impl::is_ours(const codec::AnySample& sample) const {
+bool SensorChannel::Impl::is_ours(const AnySample& sample) const {
   if (!outlet.takes(sample.index())) return false;
   const auto* usbl = std::get_if<UsblSample>(&sample);
   return usbl == nullptr || plan.transponder.empty() ||
@@ -215,7 +215,7 @@ void SensorChannel::Impl::stamp_and_publish(const codec::Decoded& decoded, const
   const runtime::Stamp stamp = tracker.stamp(decoded.time, at);
   note_time(stamp);
 
-  codec::AnySample sample = decoded.sample;
+  AnySample sample = decoded.sample;
   if (auto* imu = std::get_if<ImuSample>(&sample)) rotate_into_body(*imu, plan.R_BS);
   if (const auto refusal = refuse(sample, plan.limits)) {
     const auto index = static_cast<std::size_t>(*refusal);

@@ -20,17 +20,17 @@
 
 namespace fathom::bridge {
 
-inline constexpr std::size_t kSampleKinds = std::variant_size_v<codec::AnySample>;
+inline constexpr std::size_t kSampleKinds = std::variant_size_v<AnySample>;
 inline constexpr std::size_t kRejectReasons = 8;
 
 /// Where a channel's samples go: the topics of the bridge.
 class Outlet {
  public:
   virtual ~Outlet() = default;
-  /// Whether samples of this alternative of codec::AnySample are the bridge's business.
+  /// Whether samples of this alternative of AnySample are the bridge's business.
   [[nodiscard]] virtual bool takes(std::size_t kind) const = 0;
   /// False when the network did not take it. Called by one thread at a time.
-  virtual bool publish(const codec::AnySample& sample) = 0;
+  virtual bool publish(const AnySample& sample) = 0;
 };
 
 struct ChannelCounters {

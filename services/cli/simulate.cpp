@@ -39,20 +39,7 @@ sim::Scenario load(const SimulateOptions& options) {
 }
 
 void keep(dataset::Dataset& data, const sim::Measurement& measurement) {
-  std::visit(
-      [&](const auto& sample) {
-        using T = std::decay_t<decltype(sample)>;
-        if constexpr (std::is_same_v<T, ImuSample>) data.imu.push_back(sample);
-        if constexpr (std::is_same_v<T, GpsSample>) data.gps.push_back(sample);
-        if constexpr (std::is_same_v<T, DvlSample>) data.dvl.push_back(sample);
-        if constexpr (std::is_same_v<T, DepthSample>) data.depth.push_back(sample);
-        if constexpr (std::is_same_v<T, HeadingSample>) data.heading.push_back(sample);
-        if constexpr (std::is_same_v<T, UsblSample>) data.usbl.push_back(sample);
-        if constexpr (std::is_same_v<T, PropulsionSample>) data.propulsion.push_back(sample);
-        if constexpr (std::is_same_v<T, FinsSample>) data.fins.push_back(sample);
-        if constexpr (std::is_same_v<T, AirspeedSample>) data.airspeed.push_back(sample);
-      },
-      measurement);
+  std::visit([&]<class T>(const T& sample) { dataset::stream<T>(data).push_back(sample); }, measurement);
 }
 
 dataset::Dataset run(const sim::Scenario& scenario, const SimulateOptions& options, double duration_s) {

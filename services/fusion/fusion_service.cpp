@@ -99,14 +99,7 @@ struct FusionService::Impl {
         forecasts(host.participant(), slow_options(config)),
         link(replica_link(config)),
         verdicts(host, mutex, engine, link ? [this] { return speaks(); } : std::function<bool()>()),
-        gps(host.participant(), aiding<GpsSample>()),
-        dvl(host.participant(), aiding<DvlSample>()),
-        depth(host.participant(), aiding<DepthSample>()),
-        heading(host.participant(), aiding<HeadingSample>()),
-        usbl(host.participant(), aiding<UsblSample>()),
-        airspeed(host.participant(), aiding<AirspeedSample>()),
-        propulsion(host.participant(), aiding<PropulsionSample>()),
-        fins(host.participant(), aiding<FinsSample>()),
+        aiding_readers(listen_to_aiding()),
         commands(host.participant(),
                  [this](const Command& command, const bus::SampleInfo&) { on_command(command); }),
         imu(host.participant(),
@@ -141,6 +134,15 @@ struct FusionService::Impl {
     verdicts.publish();
   }
 
+  std::vector<std::shared_ptr<void>> listen_to_aiding() {
+    std::vector<std::shared_ptr<void>> readers;
+    for_each_aiding_kind([&](auto kind) {
+      using T = typename decltype(kind)::Sample;
+      readers.push_back(std::make_shared<bus::Reader<T>>(host.participant(), aiding<T>()));
+    });
+    return readers;
+  }
+
   template <class T>
   typename bus::Reader<T>::Handler aiding() {
     return [this](const T& sample, const bus::SampleInfo& info) {
@@ -155,7 +157,7 @@ struct FusionService::Impl {
           return;
         }
         log.note(sample, writer);
-        missed = gaps.note(source_of(sample), sample.header);
+        missed = gaps.note(kSourceOf<T>, sample.header);
         engine.add(sample, writer);
       }
       if (link && missed > 0) link->missed(missed);
@@ -393,14 +395,7 @@ struct FusionService::Impl {
   VerdictDesk verdicts;
 
   // Readers end first: their handlers use everything above.
-  bus::Reader<GpsSample> gps;
-  bus::Reader<DvlSample> dvl;
-  bus::Reader<DepthSample> depth;
-  bus::Reader<HeadingSample> heading;
-  bus::Reader<UsblSample> usbl;
-  bus::Reader<AirspeedSample> airspeed;
-  bus::Reader<PropulsionSample> propulsion;
-  bus::Reader<FinsSample> fins;
+  std::vector<std::shared_ptr<void>> aiding_readers;
   bus::Reader<Command> commands;
   bus::Reader<ImuSample> imu;
 

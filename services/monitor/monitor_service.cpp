@@ -22,13 +22,7 @@
 #include "monitor/metrics.hpp"
 #include "monitor/outage_file.hpp"
 #include "runtime/build_info.hpp"
-#include "samples/actuator.hpp"
-#include "samples/airspeed.hpp"
-#include "samples/depth.hpp"
-#include "samples/dvl.hpp"
-#include "samples/heading.hpp"
-#include "samples/imu.hpp"
-#include "samples/usbl.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::monitor {
 namespace {
@@ -66,7 +60,12 @@ struct MonitorService::Impl {
     resume_outages(now());
     open_outputs(now());
     listen_to_sensors();
-    listen_closely<NavState>();
+    // Who writes it matters, too.
+    readers.push_back(std::make_shared<bus::Reader<NavState>>(
+        host.participant(), [this](const NavState& state, const bus::SampleInfo& info) {
+          const std::lock_guard lock(mutex);
+          health.add(state, now(), info.writer_guid);
+        }));
     listen<AlignmentStatus>();
     listen<ServiceStatus>();
     listen<Verdict>([this](const Verdict& verdict) { count(verdict); });
@@ -208,35 +207,20 @@ struct MonitorService::Impl {
     return out;
   }
 
-  /// What says more than that it came, and of which it matters who wrote it.
-  template <class T>
-  void listen_closely() {
-    readers.push_back(std::make_shared<bus::Reader<T>>(host.participant(),
-                                                       [this](const T& sample, const bus::SampleInfo& info) {
-                                                         const std::lock_guard lock(mutex);
-                                                         health.add(sample, now(), info.writer_guid);
-                                                       }));
-  }
-
-  template <class T>
-  void listen_to(SourceKind kind) {
-    readers.push_back(std::make_shared<bus::Reader<T>>(
-        host.participant(), [this, kind](const T& sample, const bus::SampleInfo& info) {
-          const std::lock_guard lock(mutex);
-          health.heard(kind, sample.header, now(), info.writer_guid);
-        }));
-  }
-
   void listen_to_sensors() {
-    listen_closely<GpsSample>();
-    listen_closely<DvlSample>();
-    listen_to<ImuSample>(SourceKind::imu);
-    listen_to<DepthSample>(SourceKind::depth);
-    listen_to<HeadingSample>(SourceKind::heading);
-    listen_to<UsblSample>(SourceKind::usbl);
-    listen_to<AirspeedSample>(SourceKind::airspeed);
-    listen_to<PropulsionSample>(SourceKind::propulsion);
-    listen_to<FinsSample>(SourceKind::fins);
+    for_each_kind([this](auto kind) {
+      using T = typename decltype(kind)::Sample;
+      readers.push_back(std::make_shared<bus::Reader<T>>(
+          host.participant(), [this](const T& sample, const bus::SampleInfo& info) {
+            const std::lock_guard lock(mutex);
+            // Of some the monitor wants to know more than that they came.
+            if constexpr (requires { health.add(sample, now(), info.writer_guid); }) {
+              health.add(sample, now(), info.writer_guid);
+            } else {
+              health.heard(kSourceOf<T>, sample.header, now(), info.writer_guid);
+            }
+          }));
+    });
   }
 
   void apply(const Command& command) {

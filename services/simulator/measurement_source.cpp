@@ -65,14 +65,14 @@ class Recorded final : public MeasurementSource {
       });
     }
     std::stable_sort(measurements_.begin(), measurements_.end(), [](const auto& a, const auto& b) {
-      return sim::header_of(a).stamp_ns < sim::header_of(b).stamp_ns;
+      return header_of(a).stamp_ns < header_of(b).stamp_ns;
     });
     truths_ = std::move(data.reference);
   }
 
   bool advance(TimeNs until_ns, std::vector<sim::Measurement>& measurements,
                std::vector<Truth>& truths) override {
-    while (next_ < measurements_.size() && sim::header_of(measurements_[next_]).stamp_ns <= until_ns) {
+    while (next_ < measurements_.size() && header_of(measurements_[next_]).stamp_ns <= until_ns) {
       measurements.push_back(measurements_[next_++]);
     }
     while (next_truth_ < truths_.size() && truths_[next_truth_].header.stamp_ns <= until_ns) {

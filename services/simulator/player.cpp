@@ -8,8 +8,6 @@
 namespace fathom::simulator {
 namespace {
 
-constexpr std::array<const char*, 9> kKinds{"imu",  "gps",        "dvl",  "depth",   "heading",
-                                            "usbl", "propulsion", "fins", "airspeed"};
 // The source is asked this far ahead of the clock, so that computing does not delay sending; host time.
 constexpr double kAhead_s = 0.03;
 // Longest sleep: how long stopping and new connections may have to wait, host time.
@@ -30,11 +28,11 @@ Player::Player(std::unique_ptr<MeasurementSource> source, const sim::Scenario& s
       // Instruments have been on for a while when the run starts.
       encoder_(scenario, epoch_ns - 30 * kNsPerSecond),
       on_truth_(std::move(on_truth)) {
-  for (const char* name : kKinds) {
-    const sim::SensorCommon* sensor = sim::find_sensor(scenario.sensors, name);
-    if (sensor == nullptr || !sensor->enabled || sensor->protocol.empty()) continue;
-    if (!sim::can_encode(name, sensor->protocol)) {
-      throw LinkError(std::string(name) + ": the simulator does not speak protocol " + sensor->protocol);
+  for (const auto& [kind, sensor] : sim::sensors_of(scenario.sensors)) {
+    const std::string name(to_string(kind));
+    if (!sensor->enabled || sensor->protocol.empty()) continue;
+    if (!sim::can_encode(kind, sensor->protocol)) {
+      throw LinkError(name + ": the simulator does not speak protocol " + sensor->protocol);
     }
     const auto& link = sensor->link;
     const std::string key =
@@ -42,7 +40,7 @@ Player::Player(std::unique_ptr<MeasurementSource> source, const sim::Scenario& s
     auto& slot = links_[key];  // sensors may share a link, like rpm and fins of one controller
     if (!slot) slot = make_link(link, link_dir, port_offset, clock);
     kinds_.push_back({name, slot.get()});
-    devices_.push_back(std::string(name) + ": " + sensor->protocol + " on " + slot->where());
+    devices_.push_back(name + ": " + sensor->protocol + " on " + slot->where());
   }
   thread_ = std::thread([this] { run(); });
 }
@@ -76,7 +74,7 @@ void Player::fetch(TimeNs until_ns) {
   std::vector<Truth> truths;
   exhausted_ = !source_->advance(until_ns, measurements, truths);
   for (auto& measurement : measurements) {
-    const auto& header = sim::header_of(measurement);
+    const auto& header = header_of(measurement);
     const auto kind = std::find_if(kinds_.begin(), kinds_.end(),
                                    [&](const Kind& each) { return each.name == header.sensor.view(); });
     auto bytes = encoder_.encode(measurement);

@@ -98,7 +98,7 @@ struct Fall {
       truth.push_back(simulation.truth());
     }
     std::stable_sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
-      return sim::header_of(a).received_ns < sim::header_of(b).received_ns;
+      return header_of(a).received_ns < header_of(b).received_ns;
     });
   }
   std::vector<sim::Measurement> samples;

@@ -113,7 +113,7 @@ inline EngineState drop_state(double at_s) {
   estimation::FusionEngine engine(out.config);
   engine.start_from(release());
   for (const sim::Measurement& sample : fall.samples) {
-    const bool after = sim::header_of(sample).received_ns > cut_ns;
+    const bool after = header_of(sample).received_ns > cut_ns;
     if (after && out.image.empty()) (void)engine.save(out.image);
     if (!after) {
       feed(engine, sample);

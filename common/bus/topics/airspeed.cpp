@@ -2,13 +2,14 @@
 
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<AirspeedSample> {
   using Wire = v1::AirspeedSample;
-  static constexpr const char* kTopic = "fathom/v1/airspeed";
+  static constexpr const char* kTopic = KindOf<AirspeedSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::AirspeedSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

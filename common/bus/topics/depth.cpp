@@ -2,13 +2,14 @@
 
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<DepthSample> {
   using Wire = v1::DepthSample;
-  static constexpr const char* kTopic = "fathom/v1/depth";
+  static constexpr const char* kTopic = KindOf<DepthSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::DepthSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

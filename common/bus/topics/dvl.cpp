@@ -2,13 +2,14 @@
 
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<DvlSample> {
   using Wire = v1::DvlSample;
-  static constexpr const char* kTopic = "fathom/v1/dvl";
+  static constexpr const char* kTopic = KindOf<DvlSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::DvlSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

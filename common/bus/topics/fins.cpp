@@ -1,13 +1,14 @@
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
 #include "samples/actuator.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<FinsSample> {
   using Wire = v1::FinsSample;
-  static constexpr const char* kTopic = "fathom/v1/fins";
+  static constexpr const char* kTopic = KindOf<FinsSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::FinsSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

@@ -2,13 +2,14 @@
 
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<GpsSample> {
   using Wire = v1::GpsSample;
-  static constexpr const char* kTopic = "fathom/v1/gps";
+  static constexpr const char* kTopic = KindOf<GpsSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::GpsSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

@@ -2,13 +2,14 @@
 
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<HeadingSample> {
   using Wire = v1::HeadingSample;
-  static constexpr const char* kTopic = "fathom/v1/heading";
+  static constexpr const char* kTopic = KindOf<HeadingSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::HeadingSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

@@ -2,13 +2,14 @@
 
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<ImuSample> {
   using Wire = v1::ImuSample;
-  static constexpr const char* kTopic = "fathom/v1/imu";
+  static constexpr const char* kTopic = KindOf<ImuSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::ImuSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

@@ -1,13 +1,14 @@
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
 #include "samples/actuator.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<PropulsionSample> {
   using Wire = v1::PropulsionSample;
-  static constexpr const char* kTopic = "fathom/v1/propulsion";
+  static constexpr const char* kTopic = KindOf<PropulsionSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::PropulsionSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

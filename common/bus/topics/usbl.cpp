@@ -2,13 +2,14 @@
 
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 
 template <>
 struct Mapping<UsblSample> {
   using Wire = v1::UsblSample;
-  static constexpr const char* kTopic = "fathom/v1/usbl";
+  static constexpr const char* kTopic = KindOf<UsblSample>::kTopic.data();
   static constexpr const char* kType = "fathom::v1::UsblSample";
 
   static void fields(auto& copy, auto& plain, auto& wire) {

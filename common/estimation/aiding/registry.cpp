@@ -26,28 +26,28 @@ Usable append(const Model& model, const AidingInput& in, Observation& out) {
   return out.rows > before ? Usable::yes : Usable::out_of_range;
 }
 
-Usable gps_position(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable gps_position(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<GpsSample>(any);
   if (!in.sensor.use_position) return Usable::not_estimated;
   const Usable usable = GpsPosition::usable(in.sensor, sample);
   return usable == Usable::yes ? append(GpsPosition(in.state, in.sensor, sample), in, out) : usable;
 }
 
-Usable gps_velocity(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable gps_velocity(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<GpsSample>(any);
   if (!in.sensor.use_velocity) return Usable::not_estimated;
   const Usable usable = GpsVelocity::usable(in.sensor, sample);
   return usable == Usable::yes ? append(GpsVelocity(in.state, in.sensor, sample), in, out) : usable;
 }
 
-Usable dvl_velocity(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable dvl_velocity(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<DvlSample>(any);
   if (DvlBeams::present(in.sensor, sample)) return Usable::other_model;
   const Usable usable = DvlVelocity::usable(in.state, sample);
   return usable == Usable::yes ? append(DvlVelocity(in.state, in.sensor, sample), in, out) : usable;
 }
 
-Usable dvl_beams(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable dvl_beams(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<DvlSample>(any);
   if (!DvlBeams::present(in.sensor, sample)) return Usable::other_model;
   const Usable usable = DvlBeams::usable(in.state, sample);
@@ -56,20 +56,20 @@ Usable dvl_beams(const AidingInput& in, const AnySample& any, Observation& out) 
   return append(DvlBeams(in.state, in.sensor, sample), in, out);
 }
 
-Usable depth(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable depth(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<DepthSample>(any);
   const Usable usable = Depth::usable(sample);
   return usable == Usable::yes ? append(Depth(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
                                : usable;
 }
 
-Usable heading(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable heading(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<HeadingSample>(any);
   const Usable usable = Heading::usable(in.state, sample);
   return usable == Usable::yes ? append(Heading(in.state, in.sensor, sample), in, out) : usable;
 }
 
-Usable usbl_position(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable usbl_position(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<UsblSample>(any);
   if (sample.frame != UsblFrame::geodetic) return Usable::other_model;
   const Usable usable = UsblPosition::usable(sample);
@@ -78,7 +78,7 @@ Usable usbl_position(const AidingInput& in, const AnySample& any, Observation& o
              : usable;
 }
 
-Usable usbl_vector(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable usbl_vector(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<UsblSample>(any);
   if (sample.frame == UsblFrame::geodetic || UsblRangeBearing::present(sample)) return Usable::other_model;
   const Usable usable = UsblVector::usable(in.sensor, sample);
@@ -87,7 +87,7 @@ Usable usbl_vector(const AidingInput& in, const AnySample& any, Observation& out
              : usable;
 }
 
-Usable usbl_range_bearing(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable usbl_range_bearing(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<UsblSample>(any);
   if (sample.frame == UsblFrame::geodetic || !UsblRangeBearing::present(sample)) return Usable::other_model;
   const Usable usable = UsblRangeBearing::usable(in.sensor, sample);
@@ -96,13 +96,13 @@ Usable usbl_range_bearing(const AidingInput& in, const AnySample& any, Observati
              : usable;
 }
 
-Usable airspeed(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable airspeed(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<AirspeedSample>(any);
   const Usable usable = Airspeed::usable(in.state, sample);
   return usable == Usable::yes ? append(Airspeed(in.state, in.sensor, sample, in.unused_s), in, out) : usable;
 }
 
-Usable flow_angles(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable flow_angles(const AidingInput& in, const EventSample& any, Observation& out) {
   if (!FlowAngles::wanted(in.sensor)) return Usable::not_estimated;
   const Usable usable = Airspeed::usable(in.state, std::get<AirspeedSample>(any));
   if (usable != Usable::yes) return usable;
@@ -110,7 +110,7 @@ Usable flow_angles(const AidingInput& in, const AnySample& any, Observation& out
   return append(FlowAngles(in.state, in.sensor, in.unused_s), in, out);
 }
 
-Usable baro_altitude(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable baro_altitude(const AidingInput& in, const EventSample& any, Observation& out) {
   const auto& sample = std::get<AirspeedSample>(any);
   const Usable usable = BaroAltitude::usable(in.sensor, sample);
   if (usable != Usable::yes) return usable;
@@ -118,7 +118,7 @@ Usable baro_altitude(const AidingInput& in, const AnySample& any, Observation& o
   return append(BaroAltitude(in.state, in.sensor, sample), in, out);
 }
 
-Usable speed_log(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable speed_log(const AidingInput& in, const EventSample& any, Observation& out) {
   // The model knows more of the same shaft speed.
   if (in.water != nullptr) return Usable::not_estimated;
   const auto& sample = std::get<PropulsionSample>(any);
@@ -126,7 +126,7 @@ Usable speed_log(const AidingInput& in, const AnySample& any, Observation& out) 
   return usable == Usable::yes ? append(SpeedLog(in.state, in.sensor, sample, in.unused_s), in, out) : usable;
 }
 
-Usable model_velocity(const AidingInput& in, const AnySample& any, Observation& out) {
+Usable model_velocity(const AidingInput& in, const EventSample& any, Observation& out) {
   if (in.water == nullptr || in.vehicle_model == nullptr) return Usable::not_estimated;
   const auto& sample = std::get<PropulsionSample>(any);
   const Usable usable =

@@ -23,7 +23,7 @@ struct AidingInput {
 struct AidingEntry {
   SourceKind source;
   const char* name;
-  Usable (*observe)(const AidingInput& input, const AnySample& sample, Observation& out);
+  Usable (*observe)(const AidingInput& input, const EventSample& sample, Observation& out);
 };
 
 /// Every aiding model there is. A new one is one header in this folder and one line in registry.cpp. A sample

@@ -70,7 +70,7 @@ double radius_50(double larger_sigma, double smaller_sigma) {
 
 Forecaster::Forecaster(const Setup& setup) : setup_(&setup), core_(setup), filter_(setup.index.size()) {}
 
-void Forecaster::remember(int sensor, const AnySample& sample) {
+void Forecaster::remember(int sensor, const EventSample& sample) {
   const int layer = setup_->water_layer[static_cast<std::size_t>(sensor)];
   const int instrument = is_of_water(sample) && layer >= 0 ? kMaxSensors + layer : sensor;
   past_.last[static_cast<std::size_t>(instrument)] = sample;

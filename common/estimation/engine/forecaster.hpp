@@ -20,7 +20,7 @@ class Forecaster {
  public:
   explicit Forecaster(const Setup& setup);
   /// Remembers the last sample of a sensor: it stands for those to come.
-  void remember(int sensor, const AnySample& sample);
+  void remember(int sensor, const EventSample& sample);
   /// After each inertial step.
   void watch(const Core& core) { past_.motion.watch(core); }
   /// From here the following look ahead.
@@ -38,7 +38,7 @@ class Forecaster {
   static constexpr int kInstruments = kMaxSensors + kMaxWaterLayers;
   struct Past {
     MotionMemory motion;
-    std::array<AnySample, kInstruments> last{};
+    std::array<EventSample, kInstruments> last{};
     std::array<bool, kInstruments> remembered{};
   };
 

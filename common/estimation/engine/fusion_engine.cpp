@@ -86,25 +86,25 @@ class FusionEngine::Impl final : public VerdictSink {
     return true;
   }
 
-  template <class Sample>
-  void add(const Sample& sample, SourceKind source, const Name& writer) {
+  void add(const EventSample& sample, SourceKind source, const Name& writer) {
     Judgement judgement;
-    const int sensor = find(sample.header.sensor, source);
-    if (sensor < 0 || !sound_stamp(sample.header.stamp_ns)) {
+    const SampleHeader& header = header_of(sample);
+    const int sensor = find(header.sensor, source);
+    if (sensor < 0 || !sound_stamp(header.stamp_ns)) {
       judgement.kind = sensor < 0 ? VerdictKind::source_disabled : VerdictKind::out_of_range;
-      refuse(sample.header, source, writer, judgement);
+      refuse(header, source, writer, judgement);
       return;
     }
     Measurement& one = incoming_;
-    one.stamp_ns = sample.header.stamp_ns -
-                   from_seconds(setup_.config.sensors[static_cast<std::size_t>(sensor)].latency_s);
+    one.stamp_ns =
+        header.stamp_ns - from_seconds(setup_.config.sensors[static_cast<std::size_t>(sensor)].latency_s);
     one.command = false;
     one.judged = one.settled = false;
     one.revision = 0;
     one.writer = writer;
     one.source = source;
     one.sensor = sensor;
-    one.sequence = sample.header.sequence;
+    one.sequence = header.sequence;
     one.sample = sample;
     switch (history_.insert(one, *this)) {
       case History::Placing::taken:
@@ -123,7 +123,7 @@ class FusionEngine::Impl final : public VerdictSink {
         judgement.kind = VerdictKind::not_aligned;
         break;
     }
-    refuse(sample.header, source, writer, judgement);
+    refuse(header, source, writer, judgement);
   }
 
   [[nodiscard]] std::string objection(const Command& command) const {
@@ -337,29 +337,8 @@ FusionEngine& FusionEngine::operator=(FusionEngine&&) noexcept = default;
 bool FusionEngine::add(const ImuSample& sample) {
   return impl_->add(sample);
 }
-void FusionEngine::add(const GpsSample& sample, const Name& writer) {
-  impl_->add(sample, SourceKind::gps, writer);
-}
-void FusionEngine::add(const DvlSample& sample, const Name& writer) {
-  impl_->add(sample, SourceKind::dvl, writer);
-}
-void FusionEngine::add(const DepthSample& sample, const Name& writer) {
-  impl_->add(sample, SourceKind::depth, writer);
-}
-void FusionEngine::add(const HeadingSample& sample, const Name& writer) {
-  impl_->add(sample, SourceKind::heading, writer);
-}
-void FusionEngine::add(const UsblSample& sample, const Name& writer) {
-  impl_->add(sample, SourceKind::usbl, writer);
-}
-void FusionEngine::add(const AirspeedSample& sample, const Name& writer) {
-  impl_->add(sample, SourceKind::airspeed, writer);
-}
-void FusionEngine::add(const PropulsionSample& sample, const Name& writer) {
-  impl_->add(sample, SourceKind::propulsion, writer);
-}
-void FusionEngine::add(const FinsSample& sample, const Name& writer) {
-  impl_->add(sample, SourceKind::fins, writer);
+void FusionEngine::take(const EventSample& sample, SourceKind source, const Name& writer) {
+  impl_->add(sample, source, writer);
 }
 std::string FusionEngine::objection(const Command& command) const {
   return impl_->objection(command);

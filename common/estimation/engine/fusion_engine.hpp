@@ -10,6 +10,7 @@
 
 #include "estimation/engine/order.hpp"
 #include "estimation/engine_config.hpp"
+#include "estimation/navigator/measurement.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
 #include "samples/alignment_status.hpp"
@@ -73,14 +74,10 @@ class FusionEngine {
   /// on; its mode says what it is worth.
   bool add(const ImuSample& sample);
   /// `writer`: who published it, for its verdicts.
-  void add(const GpsSample& sample, const Name& writer = {});
-  void add(const DvlSample& sample, const Name& writer = {});
-  void add(const DepthSample& sample, const Name& writer = {});
-  void add(const HeadingSample& sample, const Name& writer = {});
-  void add(const UsblSample& sample, const Name& writer = {});
-  void add(const AirspeedSample& sample, const Name& writer = {});
-  void add(const PropulsionSample& sample, const Name& writer = {});
-  void add(const FinsSample& sample, const Name& writer = {});
+  template <Aiding Sample>
+  void add(const Sample& sample, const Name& writer = {}) {
+    take(EventSample(sample), kSourceOf<Sample>, writer);
+  }
 
   /// Why a command is none that this engine follows, in words; empty when it is one.
   [[nodiscard]] std::string objection(const Command& command) const;
@@ -139,6 +136,8 @@ class FusionEngine {
   [[nodiscard]] Eigen::Matrix<double, 9, 9> navigation_covariance() const;
 
  private:
+  void take(const EventSample& sample, SourceKind source, const Name& writer);
+
   class Impl;
   std::unique_ptr<Impl> impl_;
 };

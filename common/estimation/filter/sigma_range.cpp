@@ -30,7 +30,7 @@ struct Sigmas {
 
 }  // namespace
 
-bool sound_sigmas(const AnySample& sample) {
+bool sound_sigmas(const EventSample& sample) {
   return std::visit(Sigmas{}, sample);
 }
 

@@ -18,6 +18,6 @@ inline constexpr double kMostSigma = 1e6;
 }
 
 /// No sigma that the sample states lies outside; unknown ones do not.
-[[nodiscard]] bool sound_sigmas(const AnySample& sample);
+[[nodiscard]] bool sound_sigmas(const EventSample& sample);
 
 }  // namespace fathom::estimation

@@ -36,7 +36,7 @@ VerdictKind verdict_of(Usable usable) {
 }
 
 /// What a frozen instrument would keep repeating; NaN where the sample has nothing to say.
-std::array<double, 3> reading_of(const AnySample& any) {
+std::array<double, 3> reading_of(const EventSample& any) {
   if (const auto* gps = std::get_if<GpsSample>(&any))
     return {gps->latitude_rad, gps->longitude_rad, gps->altitude_m};
   if (const auto* dvl = std::get_if<DvlSample>(&any)) {

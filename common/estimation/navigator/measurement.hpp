@@ -3,26 +3,32 @@
 #include <tuple>
 #include <variant>
 
-#include "samples/actuator.hpp"
-#include "samples/airspeed.hpp"
+#include "samples/kinds.hpp"
 #include "samples/command.hpp"
-#include "samples/depth.hpp"
-#include "samples/dvl.hpp"
-#include "samples/gps.hpp"
-#include "samples/heading.hpp"
-#include "samples/usbl.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::estimation {
 
-using AnySample = std::variant<Command, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
-                               AirspeedSample, PropulsionSample, FinsSample>;
+namespace detail {
+template <class... Samples>
+using CommandOr = std::variant<Command, Samples...>;
+}  // namespace detail
+
+/// An order, or a sample of a kind that aids. Its index is the number of the kind, 0 of an order: the
+/// inertial unit does not aid.
+using EventSample = AidingKinds::Samples<detail::CommandOr>;
+
+[[nodiscard]] inline const SampleHeader& header_of(const EventSample& sample) {
+  return std::visit([](const auto& one) -> const SampleHeader& { return one.header; }, sample);
+}
 
 /// Whether it is measured against the water layer.
-[[nodiscard]] inline bool is_of_water(const AnySample& sample) {
+[[nodiscard]] inline bool is_of_water(const EventSample& sample) {
   const auto* dvl = std::get_if<DvlSample>(&sample);
   return dvl != nullptr && dvl->mode == DvlMode::water;
 }
+
+static_assert(std::variant_size_v<EventSample> == kSourceKinds && kSourceOf<ImuSample> == SourceKind{});
 
 /// Something that happens to the filter at an instant: a measurement or an order.
 struct Measurement {
@@ -36,11 +42,9 @@ struct Measurement {
   int sensor = -1;  ///< index in EngineConfig::sensors
   std::uint64_t sequence = 0;
   Name writer;  ///< who published it, for its verdicts
-  AnySample sample;
+  EventSample sample;
 
-  [[nodiscard]] const SampleHeader& header() const {
-    return std::visit([](const auto& s) -> const SampleHeader& { return s.header; }, sample);
-  }
+  [[nodiscard]] const SampleHeader& header() const { return header_of(sample); }
   /// The one order in which events are applied, whatever the order of their arrival. Orders come first.
   [[nodiscard]] auto key() const {
     return std::make_tuple(stamp_ns, command ? 0 : 1, static_cast<int>(source), sensor, sequence);

@@ -57,51 +57,26 @@ void Smoother::add(const ImuSample& sample) {
                     result.unobserved_s, result.step});
 }
 
-template <class Sample>
-void Smoother::remember(const Sample& sample, SourceKind source) {
+void Smoother::take(const EventSample& sample, SourceKind source) {
+  const SampleHeader& header = header_of(sample);
   const auto& sensors = setup_.config.sensors;
   const auto found = std::find_if(sensors.begin(), sensors.end(), [&](const SensorConfig& one) {
-    return one.kind == source && sample.header.sensor == Name(one.sensor);
+    return one.kind == source && header.sensor == Name(one.sensor);
   });
   if (found == sensors.end()) {
     Judgement judgement;
     judgement.kind = VerdictKind::source_disabled;
-    refused_.push_back(final_verdict(sample.header, source, judgement));
+    refused_.push_back(final_verdict(header, source, judgement));
     return;
   }
   Event& event = events_.emplace_back();
   event.axis = axis_;
   Measurement& one = event.measurement;
-  one.stamp_ns = sample.header.stamp_ns - from_seconds(found->latency_s);
+  one.stamp_ns = header.stamp_ns - from_seconds(found->latency_s);
   one.source = source;
   one.sensor = static_cast<int>(found - sensors.begin());
-  one.sequence = sample.header.sequence;
+  one.sequence = header.sequence;
   one.sample = sample;
-}
-
-void Smoother::add(const GpsSample& sample) {
-  remember(sample, SourceKind::gps);
-}
-void Smoother::add(const DvlSample& sample) {
-  remember(sample, SourceKind::dvl);
-}
-void Smoother::add(const DepthSample& sample) {
-  remember(sample, SourceKind::depth);
-}
-void Smoother::add(const HeadingSample& sample) {
-  remember(sample, SourceKind::heading);
-}
-void Smoother::add(const UsblSample& sample) {
-  remember(sample, SourceKind::usbl);
-}
-void Smoother::add(const AirspeedSample& sample) {
-  remember(sample, SourceKind::airspeed);
-}
-void Smoother::add(const PropulsionSample& sample) {
-  remember(sample, SourceKind::propulsion);
-}
-void Smoother::add(const FinsSample& sample) {
-  remember(sample, SourceKind::fins);
 }
 
 void Smoother::add(const Command& command) {

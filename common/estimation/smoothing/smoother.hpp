@@ -33,14 +33,10 @@ class Smoother {
   /// Samples of one recording. Inertial samples in the order of arrival; the others at any time, but where
   /// the inertial unit begins a new time axis (ImuPreprocessor), each while its own axis is the present one.
   void add(const ImuSample& sample);
-  void add(const GpsSample& sample);
-  void add(const DvlSample& sample);
-  void add(const DepthSample& sample);
-  void add(const HeadingSample& sample);
-  void add(const UsblSample& sample);
-  void add(const AirspeedSample& sample);
-  void add(const PropulsionSample& sample);
-  void add(const FinsSample& sample);
+  template <Aiding Sample>
+  void add(const Sample& sample) {
+    take(EventSample(sample), kSourceOf<Sample>);
+  }
   /// An order, at its stamp.
   void add(const Command& command);
 
@@ -81,8 +77,7 @@ class Smoother {
   };
   struct Segment;
 
-  template <class Sample>
-  void remember(const Sample& sample, SourceKind source);
+  void take(const EventSample& sample, SourceKind source);
   void sort_events();
   /// One tick with its events; what becomes of them goes to `verdict` where that is not empty.
   void advance(Snapshot& at, const std::function<void(const Verdict&)>& verdict) const;

@@ -111,7 +111,7 @@ Run make_run(const Case& one, std::uint64_t seed) {
     run.truth.push_back(simulation.truth());
   }
   std::stable_sort(run.measurements.begin(), run.measurements.end(), [](const auto& a, const auto& b) {
-    return sim::header_of(a).received_ns < sim::header_of(b).received_ns;
+    return header_of(a).received_ns < header_of(b).received_ns;
   });
 
   sim::Random random(seed, "hydro.start");

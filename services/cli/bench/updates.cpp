@@ -13,11 +13,11 @@
 namespace fathom::cli {
 namespace {
 
-using estimation::AnySample;
+using estimation::EventSample;
 
 constexpr int kUpdates = 40;
 
-AnySample gps(const geo::Geodetic& at) {
+EventSample gps(const geo::Geodetic& at) {
   GpsSample s;
   s.fix = GpsFix::fix_3d;
   s.latitude_rad = at.latitude_rad;
@@ -27,7 +27,7 @@ AnySample gps(const geo::Geodetic& at) {
   return s;
 }
 
-AnySample dvl(bool beams) {
+EventSample dvl(bool beams) {
   DvlSample s;
   if (beams) {
     s.beam_velocity_m_s = {1.0, -1.0, 0.0, 0.0};
@@ -38,7 +38,7 @@ AnySample dvl(bool beams) {
   return s;
 }
 
-AnySample usbl(const geo::Geodetic& at, const std::string& model) {
+EventSample usbl(const geo::Geodetic& at, const std::string& model) {
   UsblSample s;
   s.sigma_m = 2.0;
   s.station_latitude_rad = at.latitude_rad + 2e-5;
@@ -63,7 +63,7 @@ AnySample usbl(const geo::Geodetic& at, const std::string& model) {
 }
 
 /// A sample with which this model can do something.
-AnySample sample_for(const estimation::AidingEntry& entry, const geo::Geodetic& at) {
+EventSample sample_for(const estimation::AidingEntry& entry, const geo::Geodetic& at) {
   const std::string model = entry.name;
   switch (entry.source) {
     case SourceKind::gps:
@@ -167,7 +167,7 @@ void bench_updates(int rounds, const std::function<void(const BenchRow&)>& done)
     sensor.sideslip_sigma_rad = sensor.attack_sigma_rad = 0.05;
     sensor.baro_sigma_m = 1.0;
     sensor.use_beams = std::string(entry.name) == "dvl_beams";
-    const AnySample sample = sample_for(entry, updates.base().state().nav.position);
+    const EventSample sample = sample_for(entry, updates.base().state().nav.position);
     const auto observe = [&](estimation::Observation& out) {
       const estimation::AidingState at = updates.state();
       return entry.observe({at, sensor, 0.0}, sample, out);

@@ -56,7 +56,7 @@ class JsonLines : public codec::Sink {
 class Summary : public codec::Sink {
  public:
   void on_sample(const codec::Decoded& decoded) override {
-    Kind& kind = kinds_[std::string(kind_of(decoded.sample))];
+    Kind& kind = kinds_[std::string(to_string(source_of(decoded.sample)))];
     ++kind.count;
     if (const TimeNs utc = utc_of(decoded.time); utc != 0) {
       if (kind.first_ns == 0) kind.first_ns = utc;

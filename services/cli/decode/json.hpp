@@ -9,9 +9,6 @@
 
 namespace fathom::cli {
 
-/// "gps", "dvl", "imu", "depth", "heading", "usbl", "propulsion", "fins" or "airspeed".
-[[nodiscard]] std::string_view kind_of(const codec::AnySample& sample);
-
 /// UTC of validity as far as the bytes alone say it: UTC given by the device, else a calendar clock of the
 /// device that nobody vouches for. 0 when neither (a time of day needs a date, a count since start an epoch).
 [[nodiscard]] TimeNs utc_of(const codec::DeviceTime& time);

@@ -76,14 +76,9 @@ double gps_latency_s(const NavDetail& detail) {
 }
 
 void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config) {
-  rename(data.gps, SourceKind::gps, config);
-  rename(data.dvl, SourceKind::dvl, config);
-  rename(data.depth, SourceKind::depth, config);
-  rename(data.heading, SourceKind::heading, config);
-  rename(data.usbl, SourceKind::usbl, config);
-  rename(data.airspeed, SourceKind::airspeed, config);
-  rename(data.propulsion, SourceKind::propulsion, config);
-  rename(data.fins, SourceKind::fins, config);
+  for_each_aiding_kind([&](auto kind) {
+    rename(dataset::stream<typename decltype(kind)::Sample>(data), kind.kSource, config);
+  });
 }
 
 estimation::InitialState start_from_reference(const dataset::Dataset& data,

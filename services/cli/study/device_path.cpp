@@ -100,7 +100,7 @@ DevicePath::Channel* DevicePath::channel_of(std::string_view sensor) {
 }
 
 void DevicePath::send(const sim::Measurement& measurement, const Take& take) {
-  const SampleHeader& header = sim::header_of(measurement);
+  const SampleHeader& header = header_of(measurement);
   Channel* channel = channel_of(header.sensor.view());
   if (channel == nullptr) return take(measurement);
   channel->header = header;

@@ -52,13 +52,13 @@ class Arrivals {
   void add(const std::vector<sim::Measurement>& fresh) {
     waiting_.insert(waiting_.end(), fresh.begin(), fresh.end());
     std::stable_sort(waiting_.begin(), waiting_.end(), [](const auto& a, const auto& b) {
-      return sim::header_of(a).received_ns < sim::header_of(b).received_ns;
+      return header_of(a).received_ns < header_of(b).received_ns;
     });
   }
   template <class Take>
   void until(TimeNs now_ns, const Take& take) {
     std::size_t arrived = 0;
-    while (arrived < waiting_.size() && sim::header_of(waiting_[arrived]).received_ns <= now_ns)
+    while (arrived < waiting_.size() && header_of(waiting_[arrived]).received_ns <= now_ns)
       take(waiting_[arrived++]);
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(arrived));
   }

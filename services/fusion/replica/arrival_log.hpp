@@ -2,59 +2,19 @@
 
 #include <cstddef>
 #include <deque>
-#include <variant>
 
-#include "samples/actuator.hpp"
-#include "samples/airspeed.hpp"
+#include "samples/kinds.hpp"
 #include "samples/command.hpp"
-#include "samples/depth.hpp"
-#include "samples/dvl.hpp"
-#include "samples/gps.hpp"
-#include "samples/heading.hpp"
-#include "samples/imu.hpp"
-#include "samples/usbl.hpp"
-#include "samples/verdict.hpp"
 
 namespace fathom::fusion {
-
-constexpr SourceKind source_of(const ImuSample& /*sample*/) {
-  return SourceKind::imu;
-}
-constexpr SourceKind source_of(const GpsSample& /*sample*/) {
-  return SourceKind::gps;
-}
-constexpr SourceKind source_of(const DvlSample& /*sample*/) {
-  return SourceKind::dvl;
-}
-constexpr SourceKind source_of(const DepthSample& /*sample*/) {
-  return SourceKind::depth;
-}
-constexpr SourceKind source_of(const HeadingSample& /*sample*/) {
-  return SourceKind::heading;
-}
-constexpr SourceKind source_of(const UsblSample& /*sample*/) {
-  return SourceKind::usbl;
-}
-constexpr SourceKind source_of(const AirspeedSample& /*sample*/) {
-  return SourceKind::airspeed;
-}
-constexpr SourceKind source_of(const PropulsionSample& /*sample*/) {
-  return SourceKind::propulsion;
-}
-constexpr SourceKind source_of(const FinsSample& /*sample*/) {
-  return SourceKind::fins;
-}
 
 /// The samples of the last seconds in the order of their arrival: what an engine that takes up the state of
 /// another one has to be told again, and the orders: those that are in the state already it knows by their
 /// stamps. Bounded: the oldest makes room.
 class ArrivalLog {
  public:
-  using Sample = std::variant<ImuSample, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
-                              AirspeedSample, PropulsionSample, FinsSample>;
-
   struct Arrival {
-    Sample sample;
+    AnySample sample;
     Name writer;
   };
 

@@ -76,11 +76,8 @@ Result<SharedState> decode_shared(std::span<const std::byte> bytes) {
 std::string gap_between(const SharedState& state, const ArrivalLog& log) {
   SampleGaps::Table first;
   for (const ArrivalLog::Arrival& arrival : log.arrivals()) {
-    std::visit(
-        [&](const auto& one) {
-          first.try_emplace({source_of(one), one.header.sensor}, one.header.sequence);
-        },
-        arrival.sample);
+    const SampleHeader& header = header_of(arrival.sample);
+    first.try_emplace({source_of(arrival.sample), header.sensor}, header.sequence);
   }
   for (const auto& [stream, sequence] : state.last) {
     const auto found = first.find(stream);

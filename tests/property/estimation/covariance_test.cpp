@@ -51,7 +51,7 @@ TEST(Covariance, StaysSymmetricAndPositive) {
         sensor.sigma = {1e-4, 1e-4, 1e-4};
         sensor.use_sample_sigma = false;
         sensor.proportional_sigma = 0.0;
-        AnySample sample;
+        EventSample sample;
         const int kind = (step / 3) % 4;
         if (kind == 0) {
           DvlSample dvl;

@@ -48,7 +48,7 @@ Timeline timeline_of(const sim::Scenario& scenario, double duration_s) {
       lost_s = -1.0;
     }
     for (const auto& m : measurements) {
-      ++out.samples[sim::header_of(m).sensor.str()];
+      ++out.samples[header_of(m).sensor.str()];
       const auto* dvl = std::get_if<DvlSample>(&m);
       if (dvl != nullptr && known(dvl->velocity_D_m_s[0])) {
         out.dvl_silent_s = std::max(out.dvl_silent_s, t_s - dvl_s);

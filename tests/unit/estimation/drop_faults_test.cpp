@@ -173,7 +173,7 @@ Silence be_silent(Drop& drop, const Fall& fall, double from_s, double to_s) {
   Silence out;
   for (const auto& sample : fall.samples) {
     const auto* imu = std::get_if<ImuSample>(&sample);
-    const double t = time_of(sim::header_of(sample));
+    const double t = time_of(header_of(sample));
     if (imu != nullptr && t > from_s && t < to_s) continue;
     feed(drop.engine, sample);
     if (t < to_s || imu == nullptr) continue;

@@ -53,7 +53,7 @@ FilterState perturbed(const FilterState& state, const StateIndex& index, int whi
 }
 
 /// A sample of each kind with every field known.
-AnySample sample_of(const AidingEntry& entry, const FilterState& state, Normal& normal) {
+EventSample sample_of(const AidingEntry& entry, const FilterState& state, Normal& normal) {
   const SourceKind source = entry.source;
   const geo::Geodetic near = geo::moved_by(state.nav.position, normal.vector(5.0));
   switch (source) {
@@ -129,7 +129,7 @@ AnySample sample_of(const AidingEntry& entry, const FilterState& state, Normal& 
 /// Rows of one registry entry at a state.
 Observation rows(const AidingEntry& entry, const StateIndex& index, const FilterState& state,
                  const Vector3d& measured_rate, const Vector3d& measured_force, const SensorConfig& sensor,
-                 const AnySample& sample) {
+                 const EventSample& sample) {
   const Vector3d rate = corrected_rate(index, state.x, measured_rate);
   const AidingState aiding(index, state, rate, 0.1, corrected_force(index, state.x, measured_force));
   Observation observation;
@@ -208,7 +208,7 @@ TEST_P(Jacobians, EqualCentralDifferencesOnTheManifold) {
     sensor.two_antenna = entry.source == SourceKind::heading && trial % 4 == 0;
     const Vector3d rate = normal.vector(0.2);
     const Vector3d force = normal.vector(3.0) - Vector3d(0.0, 0.0, 9.8);
-    const AnySample sample = sample_of(entry, state, normal);
+    const EventSample sample = sample_of(entry, state, normal);
     largest =
         std::max(largest, expect_central_differences(index, state, entry.name, [&](const FilterState& one) {
                    return rows(entry, index, one, rate, force, sensor, sample);

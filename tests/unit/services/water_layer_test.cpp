@@ -89,11 +89,11 @@ Result navigate(const sim::Scenario& scenario, std::uint64_t seed) {
     simulation.advance(fresh);
     waiting.insert(waiting.end(), fresh.begin(), fresh.end());
     std::stable_sort(waiting.begin(), waiting.end(), [](const auto& a, const auto& b) {
-      return sim::header_of(a).received_ns < sim::header_of(b).received_ns;
+      return header_of(a).received_ns < header_of(b).received_ns;
     });
     const auto now_ns = simulation.truth().header.stamp_ns;
     std::size_t arrived = 0;
-    for (; arrived < waiting.size() && sim::header_of(waiting[arrived]).received_ns <= now_ns; ++arrived) {
+    for (; arrived < waiting.size() && header_of(waiting[arrived]).received_ns <= now_ns; ++arrived) {
       devices.send(waiting[arrived], [&](const sim::Measurement& one) {
         std::visit([&](const auto& sample) { engine.add(sample); }, one);
         const auto* dvl = std::get_if<DvlSample>(&one);
