@@ -21,6 +21,20 @@ namespace fathom::estimation {
                                        : 1.0;
 }
 
+/// Sideslip or angle of attack is a row beside each airspeed (flow_angles.hpp).
+[[nodiscard]] inline bool has_flow_angles(const SensorConfig& sensor) {
+  return sensor.sideslip_sigma_rad > 0.0 || sensor.attack_sigma_rad > 0.0;
+}
+
+/// What a sample of air data means. A speed alone has no direction; flow angles beside it have.
+[[nodiscard]] inline AidingPolicy air_data_policy(const SensorConfig& sensor, const AirspeedSample& sample) {
+  AidingPolicy policy;
+  policy.velocity = VelocityOver::medium;
+  policy.along_vehicle = has_flow_angles(sensor);
+  policy.reading = {sample.airspeed_m_s, sample.true_airspeed_m_s, 0.0};
+  return policy;
+}
+
 /// Slower than this the direction of the flow is not known well enough to linearise.
 inline constexpr double kLeastAirspeed_m_s = 3.0;
 
@@ -29,7 +43,16 @@ inline constexpr double kLeastAirspeed_m_s = 3.0;
 /// taken where the sample has both.
 class Airspeed {
  public:
+  using Sample = AirspeedSample;
   static constexpr const char* kName = "airspeed";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    const Usable can = usable(in.state, sample);
+    return can == Usable::yes ? append(Airspeed(in.state, in.sensor, sample, in.unused_s), in, out) : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& sensor, const Sample& sample) {
+    return air_data_policy(sensor, sample);
+  }
 
   /// `unused_s`: since the last sample that was used, unknown before the first.
   Airspeed(const AidingState& s, const SensorConfig& sensor, const AirspeedSample& sample,

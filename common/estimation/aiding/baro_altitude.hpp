@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimation/aiding/model.hpp"
+#include "estimation/aiding/airspeed.hpp"
 #include "samples/airspeed.hpp"
 
 namespace fathom::estimation {
@@ -9,7 +9,18 @@ namespace fathom::estimation {
 /// of the instrument (AID-BARO-1..2).
 class BaroAltitude {
  public:
+  using Sample = AirspeedSample;
   static constexpr const char* kName = "baro_altitude";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    const Usable can = usable(in.sensor, sample);
+    if (can != Usable::yes) return can;
+    out.each_alone = true;
+    return append(BaroAltitude(in.state, in.sensor, sample), in, out);
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& sensor, const Sample& sample) {
+    return air_data_policy(sensor, sample);
+  }
 
   BaroAltitude(const AidingState& s, const SensorConfig& sensor, const AirspeedSample& sample)
       : s_(s), sensor_(sensor), sample_(sample) {}

@@ -9,7 +9,19 @@ namespace fathom::estimation {
 /// (AID-DEP-1..2). So GPS altitude and depth agree without the surface having to be at zero.
 class Depth {
  public:
+  using Sample = DepthSample;
   static constexpr const char* kName = "depth";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    const Usable can = usable(sample);
+    return can == Usable::yes ? append(Depth(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
+                              : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    AidingPolicy policy;
+    policy.reading = {sample.depth_m, 0.0, 0.0};
+    return policy;
+  }
 
   Depth(const AidingState& s, const SensorConfig& sensor, const DepthSample& sample,
         double surface_altitude_m)

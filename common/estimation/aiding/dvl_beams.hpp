@@ -8,7 +8,20 @@ namespace fathom::estimation {
 /// its states, seen along the beam. Two beams, of which the instrument itself makes no velocity, still aid.
 class DvlBeams {
  public:
+  using Sample = DvlSample;
   static constexpr const char* kName = "dvl_beams";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (!has_beams(in.sensor, sample)) return Usable::other_model;
+    const Usable can = usable(in.state, sample);
+    if (can != Usable::yes) return can;
+    out.each_alone = true;
+    return append(DvlBeams(in.state, in.sensor, sample), in, out);
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    return dvl_policy(sample);
+  }
+
   using Vector4 = Eigen::Vector4d;
 
   DvlBeams(const AidingState& s, const SensorConfig& sensor, const DvlSample& sample)
@@ -23,12 +36,6 @@ class DvlBeams {
     beam_share_ = std::sqrt(2.0) * std::sin(angle);
   }
 
-  /// Beams are to be used, and there are some.
-  [[nodiscard]] static bool present(const SensorConfig& sensor, const DvlSample& sample) {
-    bool any = false;
-    for (const double beam : sample.beam_velocity_m_s) any = any || known(beam);
-    return sensor.use_beams && any;
-  }
   [[nodiscard]] static Usable usable(const AidingState& s, const DvlSample& sample) {
     if (known(sample.beam_angle_rad) && !(sample.beam_angle_rad > 0.05 && sample.beam_angle_rad < 1.4))
       return Usable::out_of_range;

@@ -5,12 +5,45 @@
 
 namespace fathom::estimation {
 
+/// What a measurement of a DVL means, by vector or by beams.
+[[nodiscard]] inline AidingPolicy dvl_policy(const DvlSample& sample) {
+  AidingPolicy policy;
+  policy.velocity = sample.mode == DvlMode::water ? VelocityOver::medium : VelocityOver::ground;
+  policy.doppler = policy.shows_level = true;
+  const auto& v = sample.velocity_D_m_s;
+  const auto& beams = sample.beam_velocity_m_s;
+  const bool vector = known(v[0]) || known(v[1]) || known(v[2]);
+  if (vector) {
+    policy.reading = v;
+  } else {
+    policy.reading = {beams[0], beams[1], known(beams[2]) ? beams[2] : beams[3]};
+  }
+  return policy;
+}
+
+/// Beams are to be used, and there are some.
+[[nodiscard]] inline bool has_beams(const SensorConfig& sensor, const DvlSample& sample) {
+  bool any = false;
+  for (const double beam : sample.beam_velocity_m_s) any = any || known(beam);
+  return sensor.use_beams && any;
+}
+
 /// Velocity relative to the bottom, or to the water where the current is estimated, along the DVL's own axes
 /// D. Product form: scale and misalignment multiply (AID-DVL-1..2). Each component stands alone: the ones the
 /// instrument declared bad are left out.
 class DvlVelocity {
  public:
+  using Sample = DvlSample;
   static constexpr const char* kName = "dvl_velocity";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (has_beams(in.sensor, sample)) return Usable::other_model;
+    const Usable can = usable(in.state, sample);
+    return can == Usable::yes ? append(DvlVelocity(in.state, in.sensor, sample), in, out) : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    return dvl_policy(sample);
+  }
 
   DvlVelocity(const AidingState& s, const SensorConfig& sensor, const DvlSample& sample)
       : s_(s),

@@ -9,7 +9,20 @@ namespace fathom::estimation {
 /// shares; a sigma of 0 leaves the row out.
 class FlowAngles {
  public:
+  using Sample = AirspeedSample;
   static constexpr const char* kName = "flow_angles";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (!has_flow_angles(in.sensor)) return Usable::not_estimated;
+    const Usable can = Airspeed::usable(in.state, sample);
+    if (can != Usable::yes) return can;
+    out.each_alone = true;
+    return append(FlowAngles(in.state, in.sensor, in.unused_s), in, out);
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& sensor, const Sample& sample) {
+    return air_data_policy(sensor, sample);
+  }
+
   using Vector2 = Eigen::Vector2d;
 
   /// `unused_s`: since the last sample that was used, unknown before the first.
@@ -21,9 +34,6 @@ class FlowAngles {
         through_B_(s.C_NB.transpose() * through_N_),
         angles_(s.value(Group::flow_angles, 0), s.value(Group::flow_angles, 1)) {}
 
-  [[nodiscard]] static bool wanted(const SensorConfig& sensor) {
-    return sensor.sideslip_sigma_rad > 0.0 || sensor.attack_sigma_rad > 0.0;
-  }
   [[nodiscard]] int dimension() const { return 2; }
   [[nodiscard]] Vector2 measured() const {
     return {sensor_.sideslip_sigma_rad > 0.0 ? 0.0 : kUnknown,

@@ -16,11 +16,34 @@ namespace fathom::estimation {
   return usable_fix(sensor, sample) == Usable::yes;
 }
 
+/// What a frozen receiver repeats.
+[[nodiscard]] inline std::array<double, 3> gps_reading(const GpsSample& sample) {
+  return {sample.latitude_rad, sample.longitude_rad, sample.altitude_m};
+}
+
 /// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..2). The
 /// latency state is what remains of the fix's age after the configured latency.
 class GpsPosition {
  public:
+  using Sample = GpsSample;
   static constexpr const char* kName = "gps_position";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (!in.sensor.use_position) return Usable::not_estimated;
+    const Usable can = usable(in.sensor, sample);
+    return can == Usable::yes ? append(GpsPosition(in.state, in.sensor, sample), in, out) : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    AidingPolicy policy;
+    policy.position = policy.follows_motion = true;
+    // A fix of kilometres has its weight in the filter, but nobody navigates by it.
+    if (is_accurate(sample)) policy.fix = Fix::satellite;
+    policy.velocity = VelocityOver::ground;  // one fix after the other
+    policy.along_vehicle = false;
+    policy.frozen_by_path = true;
+    policy.reading = gps_reading(sample);
+    return policy;
+  }
 
   GpsPosition(const AidingState& s, const SensorConfig& sensor, const GpsSample& sample)
       : s_(s),

@@ -8,7 +8,23 @@ namespace fathom::estimation {
 /// is left out.
 class GpsVelocity {
  public:
+  using Sample = GpsSample;
   static constexpr const char* kName = "gps_velocity";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (!in.sensor.use_velocity) return Usable::not_estimated;
+    const Usable can = usable(in.sensor, sample);
+    return can == Usable::yes ? append(GpsVelocity(in.state, in.sensor, sample), in, out) : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    AidingPolicy policy;
+    policy.velocity = VelocityOver::ground;
+    policy.shows_level = true;
+    policy.along_vehicle = false;
+    policy.frozen_by_path = true;
+    policy.reading = gps_reading(sample);
+    return policy;
+  }
 
   GpsVelocity(const AidingState& s, const SensorConfig& sensor, const GpsSample& sample)
       : s_(s),

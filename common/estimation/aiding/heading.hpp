@@ -31,7 +31,19 @@ namespace fathom::estimation {
 /// antennas has none.
 class Heading {
  public:
+  using Sample = HeadingSample;
   static constexpr const char* kName = "heading";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    const Usable can = usable(in.state, sample);
+    return can == Usable::yes ? append(Heading(in.state, in.sensor, sample), in, out) : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    AidingPolicy policy;
+    policy.heading_alone = true;
+    policy.reading = {sample.heading_rad, 0.0, 0.0};
+    return policy;
+  }
 
   Heading(const AidingState& s, const SensorConfig& sensor, const HeadingSample& sample)
       : s_(s), sensor_(sensor), sample_(sample), rpy_(geo::to_rpy(s.state.nav.q_NB)) {}

@@ -2,10 +2,16 @@
 
 #include <cmath>
 
+#include "estimation/aiding/policy.hpp"
+#include "estimation/engine_config.hpp"
 #include "estimation/filter/nav_solution.hpp"
 #include "estimation/filter/observation.hpp"
 
 namespace fathom::estimation {
+
+namespace hydro {
+class WaterVelocity;
+}
 
 /// What an aiding model may look at. Models never see the filter or its covariance.
 struct AidingState {
@@ -95,11 +101,25 @@ struct ProjectedRows {
   }
 };
 
+/// All that an aiding model is given beside the sample.
+struct AidingInput {
+  const AidingState& state;
+  const SensorConfig& sensor;
+  double surface_altitude_m;  ///< used where it is not estimated
+  const VehicleModelConfig* vehicle_model = nullptr;
+  const hydro::WaterVelocity* water = nullptr;  ///< what the vehicle model predicts, where it is switched on
+  double unused_s = kUnknown;                   ///< since the last measurement of this sensor that was used
+};
+
 /// Appends the components of a model that are known to an observation. A model offers
 ///   int dimension() const
 ///   Vector3 measured() const, predicted() const, noise() const    (noise: sigmas; longer vectors likewise)
 ///   void jacobian(Jacobian&) const                                 d(predicted - measured)/dx
 ///   double wrapped(double) const      only where the innovation is an angle
+/// and to the registry
+///   using Sample
+///   static Usable append_rows(const AidingInput&, const Sample&, Observation&)
+///   static AidingPolicy policy(const SensorConfig&, const Sample&)
 template <class Model>
 void observe(const Model& model, const StateIndex& index, Observation& out) {
   const int first = out.rows;
@@ -125,6 +145,14 @@ void observe(const Model& model, const StateIndex& index, Observation& out) {
     out.sigma[to] = sigma(i);
     ++out.rows;
   }
+}
+
+/// Appends the model's rows; a sample none of whose components is finite is out of range.
+template <class Model>
+[[nodiscard]] Usable append(const Model& model, const AidingInput& in, Observation& out) {
+  const int before = out.rows;
+  observe(model, in.state.index, out);
+  return out.rows > before ? Usable::yes : Usable::out_of_range;
 }
 
 /// The larger of the configured sigma and the one the sample carries.

@@ -12,7 +12,19 @@ namespace fathom::estimation {
 /// many samples come within its correlation time.
 class ModelVelocity {
  public:
+  using Sample = PropulsionSample;
   static constexpr const char* kName = "model_velocity";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (in.water == nullptr || in.vehicle_model == nullptr) return Usable::not_estimated;
+    const Usable can = usable(in.state, *in.vehicle_model, *in.water, sample, in.surface_altitude_m);
+    return can == Usable::yes ? append(ModelVelocity(in.state, *in.vehicle_model, *in.water), in, out) : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& /*sample*/) {
+    AidingPolicy policy;
+    policy.velocity = VelocityOver::medium;
+    return policy;
+  }
 
   ModelVelocity(const AidingState& s, const VehicleModelConfig& config, const hydro::WaterVelocity& water)
       : s_(s),
@@ -61,7 +73,7 @@ class ModelVelocity {
   }
   [[nodiscard]] Vector3 noise() const {
     const double span = std::max(water_.unmeasured_s(config_.correlation_time_s), 1e-3);
-    const double lasting = std::sqrt(config_.correlation_time_s / span * water_.doubt());
+    const double lasting = std::sqrt(config_.correlation_time_s / span * water_.model_nis());
     return {lasting * sigma(0), lasting * sigma(1), 0.0};
   }
 

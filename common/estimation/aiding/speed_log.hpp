@@ -13,7 +13,20 @@ namespace fathom::estimation {
 /// propulsor as of the hull, lasts for a while. Without current states the water is taken to stand still.
 class SpeedLog {
  public:
+  using Sample = PropulsionSample;
   static constexpr const char* kName = "speed_log";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (in.water != nullptr)
+      return Usable::not_estimated;  // the vehicle model knows more of the same shaft speed
+    const Usable can = usable(in.state, in.sensor, sample, in.surface_altitude_m);
+    return can == Usable::yes ? append(SpeedLog(in.state, in.sensor, sample, in.unused_s), in, out) : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& /*sample*/) {
+    AidingPolicy policy;
+    policy.velocity = VelocityOver::medium;
+    return policy;  // a shaft may well keep its speed: nothing tells a frozen reading
+  }
 
   /// `unused_s`: since the last sample that was used, unknown before the first.
   SpeedLog(const AidingState& s, const SensorConfig& sensor, const PropulsionSample& sample, double unused_s)

@@ -5,12 +5,35 @@
 
 namespace fathom::estimation {
 
+/// What an acoustic measurement means that repeats `reading` when it is frozen.
+[[nodiscard]] inline AidingPolicy usbl_policy(const std::array<double, 3>& reading) {
+  AidingPolicy policy;
+  policy.position = true;
+  policy.fix = Fix::acoustic;
+  policy.along_vehicle = false;
+  policy.frozen_by_path = true;
+  policy.reading = reading;
+  return policy;
+}
+
 /// Absolute acoustic fix of the vehicle's transponder: NED metres relative to the estimated position of the
 /// IMU (AID-USBL-1..2). Where the transceiver's place is configured, its axes may be misaligned: the fix is
 /// turned about that place.
 class UsblPosition {
  public:
+  using Sample = UsblSample;
   static constexpr const char* kName = "usbl_position";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (sample.frame != UsblFrame::geodetic) return Usable::other_model;
+    const Usable can = usable(sample);
+    return can == Usable::yes
+               ? append(UsblPosition(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
+               : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    return usbl_policy({sample.latitude_rad, sample.longitude_rad, sample.depth_m});
+  }
 
   UsblPosition(const AidingState& s, const SensorConfig& sensor, const UsblSample& sample,
                double surface_altitude_m)

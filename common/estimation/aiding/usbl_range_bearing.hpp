@@ -1,5 +1,6 @@
 #pragma once
 
+#include "estimation/aiding/usbl_position.hpp"
 #include "estimation/aiding/usbl_station.hpp"
 
 namespace fathom::estimation {
@@ -11,7 +12,19 @@ namespace fathom::estimation {
 /// the horizontal, without a bearing the depression with that of the predicted path.
 class UsblRangeBearing {
  public:
+  using Sample = UsblSample;
   static constexpr const char* kName = "usbl_range_bearing";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (sample.frame == UsblFrame::geodetic || !present(sample)) return Usable::other_model;
+    const Usable can = usable(in.sensor, sample);
+    return can == Usable::yes
+               ? append(UsblRangeBearing(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
+               : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    return usbl_policy({sample.range_m, sample.bearing_rad, sample.depression_rad});
+  }
 
   UsblRangeBearing(const AidingState& s, const SensorConfig& sensor, const UsblSample& sample,
                    double surface_altitude_m)

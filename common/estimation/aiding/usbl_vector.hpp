@@ -1,5 +1,7 @@
 #pragma once
 
+#include "estimation/aiding/usbl_position.hpp"
+#include "estimation/aiding/usbl_range_bearing.hpp"
 #include "estimation/aiding/usbl_station.hpp"
 
 namespace fathom::estimation {
@@ -8,7 +10,19 @@ namespace fathom::estimation {
 /// alone.
 class UsblVector {
  public:
+  using Sample = UsblSample;
   static constexpr const char* kName = "usbl_vector";
+
+  [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
+    if (sample.frame == UsblFrame::geodetic || UsblRangeBearing::present(sample)) return Usable::other_model;
+    const Usable can = usable(in.sensor, sample);
+    return can == Usable::yes
+               ? append(UsblVector(in.state, in.sensor, sample, in.surface_altitude_m), in, out)
+               : can;
+  }
+  [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
+    return usbl_policy(sample.relative_m);
+  }
 
   UsblVector(const AidingState& s, const SensorConfig& sensor, const UsblSample& sample,
              double surface_altitude_m)

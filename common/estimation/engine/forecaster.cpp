@@ -68,7 +68,7 @@ double radius_50(double larger_sigma, double smaller_sigma) {
   return larger_sigma * (0.671956 + c * (0.011405 + c * (1.013712 - c * 0.523462)));
 }
 
-Forecaster::Forecaster(const Setup& setup) : setup_(&setup), core_(setup), filter_(setup.index.size()) {}
+Forecaster::Forecaster(const Setup& setup) : setup_(&setup), navigator_(setup), filter_(setup.index.size()) {}
 
 void Forecaster::remember(int sensor, const EventSample& sample) {
   const int layer = setup_->water_layer[static_cast<std::size_t>(sensor)];
@@ -77,32 +77,32 @@ void Forecaster::remember(int sensor, const EventSample& sample) {
   past_.remembered[static_cast<std::size_t>(instrument)] = true;
 }
 
-void Forecaster::take(const Core& core) {
-  core_ = core;
-  core_.record_to(nullptr);
+void Forecaster::take(const Navigator& navigator) {
+  navigator_ = navigator;
+  navigator_.record_to(nullptr);
   taken_ = past_;
 }
 
-bool Forecaster::aids(int sensor, int instrument, const Core::Sensor& known) const {
+bool Forecaster::aids(int sensor, int instrument, const Instrument& known) const {
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(sensor)];
   if (config.kind == SourceKind::gps || config.kind == SourceKind::usbl) return false;
   // What a restored state was aided by may not have been heard here yet.
   if (!taken_.remembered[static_cast<std::size_t>(instrument)]) return false;
-  return core_.sensor(sensor).enabled && known.used_ns != 0 &&
-         to_seconds(core_.now_ns() - known.used_ns) <= setup_->config.velocity_timeout_s;
+  return navigator_.sensor(sensor).enabled && known.used_ns != 0 &&
+         to_seconds(navigator_.now_ns() - known.used_ns) <= setup_->config.velocity_timeout_s;
 }
 
 bool Forecaster::aids(int sensor) const {
-  const Core::Sensor* const layer = core_.water_layer(sensor);
+  const Instrument* const layer = navigator_.water_layer(sensor);
   const int number = setup_->water_layer[static_cast<std::size_t>(sensor)];
-  return aids(sensor, sensor, core_.sensor(sensor)) ||
+  return aids(sensor, sensor, navigator_.sensor(sensor)) ||
          (layer != nullptr && aids(sensor, kMaxSensors + number, *layer));
 }
 
 void Forecaster::begin() {
   // (FC-1)
-  filter_ = core_.filter();
-  state_ = core_.state();
+  filter_ = navigator_.filter();
+  state_ = navigator_.state();
   const NavSolution& nav = state_.nav;
   const Vector3d rpy = geo::to_rpy(nav.q_NB);
   yaw_rad_ = rpy.z();
@@ -129,20 +129,20 @@ void Forecaster::step(int lost, double dt_s) {
   yaw_rad_ += dt_s * motion.turned_rad;
   const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
   filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s),
-                    core_.process_noise(c, motion.rate_B_rad_s, motion.force_B_m_s2));
-  core_.settle_biases(filter_, ahead_s_, dt_s);
+                    setup_->process_noise(c, motion.rate_B_rad_s, motion.force_B_m_s2));
+  navigator_.settle_biases(filter_, ahead_s_, dt_s);
   ahead_s_ += dt_s;
   if (lost == kAll) return;
   const AidingState state(setup_->index, state_, motion.rate_B_rad_s, 0.0, motion.force_B_m_s2);
   for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) {
     if (i == lost) continue;
-    aid(i, i, core_.sensor(i), state, dt_s);
-    if (const Core::Sensor* layer = core_.water_layer(i))
+    aid(i, i, navigator_.sensor(i), state, dt_s);
+    if (const Instrument* layer = navigator_.water_layer(i))
       aid(i, kMaxSensors + setup_->water_layer[static_cast<std::size_t>(i)], *layer, state, dt_s);
   }
 }
 
-void Forecaster::aid(int sensor, int instrument, const Core::Sensor& known, const AidingState& state,
+void Forecaster::aid(int sensor, int instrument, const Instrument& known, const AidingState& state,
                      double dt_s) {
   if (!aids(sensor, instrument, known)) return;
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(sensor)];
@@ -152,7 +152,7 @@ void Forecaster::aid(int sensor, int instrument, const Core::Sensor& known, cons
                           .sensor = config,
                           .surface_altitude_m = setup_->config.states.surface_altitude_m,
                           .vehicle_model = &setup_->config.vehicle_model,
-                          .water = modelled ? &core_.water_velocity() : nullptr,
+                          .water = modelled ? &navigator_.water_velocity() : nullptr,
                           .unused_s = dt_s};
   Observation observation;
   for (const AidingEntry& entry : aiding_registry())
@@ -167,7 +167,7 @@ void Forecaster::aid(int sensor, int instrument, const Core::Sensor& known, cons
 }
 
 double Forecaster::horizontal_95_m(double after_s) {
-  if (!core_.navigating() || !std::isfinite(after_s)) return kUnknown;
+  if (!navigator_.navigating() || !std::isfinite(after_s)) return kUnknown;
   begin();
   for (double elapsed = 0.0; elapsed < after_s;) {
     const double dt = std::min(kStep_s, after_s - elapsed);
@@ -221,7 +221,7 @@ void Forecaster::fill(Forecast& out) {
   const auto& limits = setup_->config.forecast_limits;
   const auto count = static_cast<std::uint32_t>(limits.size());
   out.horizontal_95_m = out.vertical_95_m = out.heading_95_rad = out.horizontal_growth_m_s = kUnknown;
-  if (!core_.navigating()) {
+  if (!navigator_.navigating()) {
     out.limit_count = count;
     for (std::size_t i = 0; i < limits.size(); ++i) {
       out.limits[i] = {};
@@ -230,7 +230,7 @@ void Forecaster::fill(Forecast& out) {
     }
     return;
   }
-  const Now now = measure(core_.filter());
+  const Now now = measure(navigator_.filter());
   out.horizontal_95_m = now.horizontal.within_95;
   out.vertical_95_m = now.vertical.within_95;
   out.heading_95_rad = now.heading.within_95;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "estimation/navigator/motion_memory.hpp"
+#include "estimation/aiding/registry.hpp"
+#include "estimation/engine/motion_memory.hpp"
 #include "samples/forecast.hpp"
 
 namespace fathom::estimation {
@@ -22,9 +23,9 @@ class Forecaster {
   /// Remembers the last sample of a sensor: it stands for those to come.
   void remember(int sensor, const EventSample& sample);
   /// After each inertial step.
-  void watch(const Core& core) { past_.motion.watch(core); }
+  void watch(const Navigator& navigator) { past_.motion.watch(navigator); }
   /// From here the following look ahead.
-  void take(const Core& core);
+  void take(const Navigator& navigator);
 
   void fill(Forecast& out);
   /// `after_s` ahead, with what aids now; unknown without navigation.
@@ -45,16 +46,16 @@ class Forecaster {
   void begin();
   void step(int lost, double dt_s);
   /// A measurement of that instrument of a sensor, as far as it aids, at the instant that is looked at.
-  void aid(int sensor, int instrument, const Core::Sensor& known, const AidingState& state, double dt_s);
+  void aid(int sensor, int instrument, const Instrument& known, const AidingState& state, double dt_s);
   /// Any instrument of it does.
   [[nodiscard]] bool aids(int sensor) const;
-  [[nodiscard]] bool aids(int sensor, int instrument, const Core::Sensor& known) const;
+  [[nodiscard]] bool aids(int sensor, int instrument, const Instrument& known) const;
   void follow(int lost, Forecast& out, std::uint32_t first);
 
   const Setup* setup_;
   Past past_;
   // Of the instant of take().
-  Core core_;
+  Navigator navigator_;
   Past taken_;
   // The instant that is looked at.
   ErrorFilter filter_;

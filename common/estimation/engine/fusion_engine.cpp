@@ -17,8 +17,8 @@
 #include "estimation/engine/newest_kept.hpp"
 #include "estimation/engine/order.hpp"
 #include "estimation/engine/output.hpp"
-#include "estimation/fields/core.hpp"
 #include "estimation/fields/imu_preprocessor.hpp"
+#include "estimation/fields/navigator.hpp"
 #include "estimation/fields/state_head.hpp"
 
 namespace fathom::estimation {
@@ -78,7 +78,7 @@ class FusionEngine::Impl final : public VerdictSink {
       history_.begin_given(*pending_start_, sample.header.stamp_ns, *this);
       pending_start_.reset();
     }
-    forecaster_.watch(history_.core());
+    forecaster_.watch(history_.navigator());
     nav_.header.stamp_ns = sample.header.stamp_ns;
     nav_.header.received_ns = sample.header.received_ns;
     ++nav_.header.sequence;
@@ -224,12 +224,12 @@ class FusionEngine::Impl final : public VerdictSink {
   template <class Out>
   void fill(Out& out) const {
     stamp(out.header);
-    estimation::fill(setup_, history_.core(), out);
+    estimation::fill(setup_, history_.navigator(), out);
   }
 
   void take_forecast() {
     stamp(forecast_header_);
-    forecaster_.take(history_.core());
+    forecaster_.take(history_.navigator());
   }
 
   void fill_taken(Forecast& out) {
@@ -238,12 +238,12 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   [[nodiscard]] double forecast_horizontal_95_m(double after_s) {
-    forecaster_.take(history_.core());
+    forecaster_.take(history_.navigator());
     return forecaster_.horizontal_95_m(after_s);
   }
 
   [[nodiscard]] Matrix9 navigation_covariance() const {
-    const ErrorFilter& filter = history_.core().filter();
+    const ErrorFilter& filter = history_.navigator().filter();
     Matrix9 p;
     for (int i = 0; i < kNavStates; ++i)
       for (int j = 0; j < kNavStates; ++j) p(i, j) = filter(i, j);
@@ -251,7 +251,7 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   [[nodiscard]] const NavState& nav_state() const {
-    if (!filled_) estimation::fill(setup_, history_.core(), nav_);
+    if (!filled_) estimation::fill(setup_, history_.navigator(), nav_);
     filled_ = true;
     return nav_;
   }
@@ -275,7 +275,7 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   [[nodiscard]] std::string too_far(const Command& command, const char* side) const {
-    const double apart_s = std::abs(to_seconds(command.header.stamp_ns - history_.core().now_ns()));
+    const double apart_s = std::abs(to_seconds(command.header.stamp_ns - history_.navigator().now_ns()));
     std::array<char, 160> text{};
     std::snprintf(text.data(), text.size(),
                   "its stamp is %.3f s %s the newest inertial sample, expected no more than %g s", apart_s,

@@ -30,9 +30,9 @@ std::size_t snapshot_capacity(const EngineConfig& config) {
 
 History::History(const Setup& setup)
     : setup_(&setup),
-      core_(setup),
+      navigator_(setup),
       steps_(step_capacity(setup.config)),
-      snapshots_(snapshot_capacity(setup.config), Core(setup)),
+      snapshots_(snapshot_capacity(setup.config), Navigator(setup)),
       marks_(snapshots_.size()),
       pool_(setup.config.measurement_capacity),
       order_(setup.config.measurement_capacity),
@@ -53,7 +53,7 @@ std::size_t History::first_after(TimeNs stamp_ns) const {
 
 History::Placing History::insert(const Measurement& measurement, VerdictSink& sink) {
   if (!started_) return Placing::not_started;
-  const TimeNs newest = core_.now_ns();
+  const TimeNs newest = navigator_.now_ns();
   const TimeNs stamp = measurement.stamp_ns;
   if (stamp > newest + future_tolerance_ns(measurement)) return Placing::from_the_future;
   const TimeNs horizon = newest - from_seconds(setup_->config.horizon_s);
@@ -131,7 +131,7 @@ void History::go_back() {
   }
   repeated_steps_ += repeated;
   snapshot_count_ = at + 1;
-  core_ = snapshot(at);
+  navigator_ = snapshot(at);
   steps_done_ = marks_[at].after_step;
 }
 
@@ -148,7 +148,7 @@ void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
     if (passed != end && passed->after_step == caught_up_step_) snapshots_[passed->place] = catching_;
   }
   if (caught_up_step_ < steps_done_) return;
-  core_ = catching_;
+  navigator_ = catching_;
   catching_up_ = false;
 }
 
@@ -160,7 +160,7 @@ void History::settle(VerdictSink& sink) {
   if (catching_up_) catch_up(target, sink);
   Judgement unplaced;
   unplaced.kind = VerdictKind::from_the_future;
-  std::size_t kept = first_after(core_.now_ns());
+  std::size_t kept = first_after(navigator_.now_ns());
   for (std::size_t rank = kept; rank < event_count_; ++rank) {
     // An order stays for the step that may yet come.
     if (event(rank).command) {
@@ -176,9 +176,9 @@ void History::settle(VerdictSink& sink) {
 
 void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
   const TimeNs newest_ns =
-      target == steps_done_ ? core_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
+      target == steps_done_ ? navigator_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
   while (steps_done_ < target) {
-    run(core_, steps_[steps_done_ % steps_.size()], sink);
+    run(navigator_, steps_[steps_done_ % steps_.size()], sink);
     ++steps_done_;
     if (save_due(newest_ns)) save(sink);
     // A snapshot from which some step since is no longer held is of no use.
@@ -196,36 +196,36 @@ DurationNs History::future_tolerance_ns(const Measurement& measurement) const {
   return from_seconds(measurement.command ? config.horizon_s : config.future_tolerance_s);
 }
 
-void History::run(Core& core, const ImuStep& step, VerdictSink& sink) {
+void History::run(Navigator& navigator, const ImuStep& step, VerdictSink& sink) {
   for (std::size_t rank = first_after(step.from_ns); rank < event_count_; ++rank) {
     Measurement& one = event(rank);
     if (one.stamp_ns > step.to_ns) break;
-    core.advance(step, one.stamp_ns);
-    const Judgement judgement = core.apply(one);
+    navigator.advance(step, one.stamp_ns);
+    const Judgement judgement = navigator.apply(one);
     if (one.settled) continue;
     judgements_[order_[rank]] = judgement;
     if (!one.judged || judgement.kind != one.said) say(one, judgement, false, sink);
   }
-  core.advance(step, step.to_ns);
-  core.finish(step);
+  navigator.advance(step, step.to_ns);
+  navigator.finish(step);
 }
 
 bool History::save_due(TimeNs newest_ns) const {
   const Mark& last = marks_[snapshot_count_ - 1];
   const std::uint64_t steps = steps_done_ - last.after_step;
   if (steps >= steps_.size() / 4) return true;
-  const DurationNs since = core_.now_ns() - last.now_ns;
+  const DurationNs since = navigator_.now_ns() - last.now_ns;
   if (since >= from_seconds(setup_->config.snapshot_interval_s)) return true;
   return steps_done_ < fine_until_step_ && steps >= kFineSteps &&
-         since >= (newest_ns - core_.now_ns()) / kSaveShare;
+         since >= (newest_ns - navigator_.now_ns()) / kSaveShare;
 }
 
 void History::save(VerdictSink& sink) {
   if (snapshot_count_ == snapshots_.size()) drop_snapshot(0);
   Mark& mark = marks_[snapshot_count_];
   mark.after_step = steps_done_;
-  mark.now_ns = core_.now_ns();
-  snapshots_[mark.place] = core_;
+  mark.now_ns = navigator_.now_ns();
+  snapshots_[mark.place] = navigator_;
   ++snapshot_count_;
   drop_before(oldest_ns(), sink);
 }
@@ -280,7 +280,8 @@ void History::settle_first(std::size_t count, VerdictKind unjudged, VerdictSink&
 
 void History::settle_past(VerdictSink& sink) {
   // What insert() takes in is younger than this,
-  TimeNs until_ns = std::max(marks_[0].now_ns, core_.now_ns() - from_seconds(setup_->config.horizon_s) - 1);
+  TimeNs until_ns =
+      std::max(marks_[0].now_ns, navigator_.now_ns() - from_seconds(setup_->config.horizon_s) - 1);
   // and the second navigator judges what is younger than itself again.
   if (catching_up_) until_ns = std::min(until_ns, catching_.now_ns());
   while (settled_count_ < event_count_ && event(settled_count_).stamp_ns <= until_ns)
@@ -299,14 +300,14 @@ void History::forget_past(VerdictSink& sink, VerdictKind verdict) {
 }
 
 void History::begin(TimeNs now_ns, VerdictSink& sink) {
-  core_.rebase(now_ns, 0.0);
+  navigator_.rebase(now_ns, 0.0);
   started_ = true;
   save(sink);
 }
 
 void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink) {
   forget_past(sink, VerdictKind::not_aligned);
-  core_.start(initial, now_ns);
+  navigator_.start(initial, now_ns);
   started_ = true;
   save(sink);
 }
@@ -314,13 +315,13 @@ void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSin
 void History::rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink) {
   if (catching_up_) catch_up(steps_done_, sink);
   forget_past(sink, VerdictKind::late);
-  core_.rebase(now_ns, unobserved_s);
+  navigator_.rebase(now_ns, unobserved_s);
   save(sink);
 }
 
 void History::clear(VerdictSink& sink) {
   forget_past(sink, VerdictKind::not_aligned);
-  core_ = Core(*setup_);
+  navigator_ = Navigator(*setup_);
   started_ = false;
 }
 

@@ -7,7 +7,7 @@
 #include "archive/layout.hpp"
 #include "archive/reader.hpp"
 #include "archive/writer.hpp"
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/navigator.hpp"
 
 namespace fathom::estimation {
 
@@ -45,7 +45,7 @@ class History {
 
   explicit History(const Setup& setup);
 
-  [[nodiscard]] const Core& core() const { return core_; }
+  [[nodiscard]] const Navigator& navigator() const { return navigator_; }
   [[nodiscard]] bool started() const { return started_; }
   /// Every event that is held, oldest first.
   template <class Visit>
@@ -110,7 +110,7 @@ class History {
   void go_back();
   /// On to the given number of steps.
   void repeat_until(std::uint64_t target, VerdictSink& sink);
-  void run(Core& core, const ImuStep& step, VerdictSink& sink);
+  void run(Navigator& navigator, const ImuStep& step, VerdictSink& sink);
   /// At most so many steps of the second navigator.
   void catch_up(std::uint64_t steps, VerdictSink& sink);
   /// The newest snapshot before an instant.
@@ -123,7 +123,7 @@ class History {
   void thin_snapshots(TimeNs newest_ns);
   void drop_snapshot(std::size_t age_order);
   void drop_before(TimeNs stamp_ns, VerdictSink& sink);
-  [[nodiscard]] const Core& snapshot(std::size_t age_order) const {
+  [[nodiscard]] const Navigator& snapshot(std::size_t age_order) const {
     return snapshots_[marks_[age_order].place];
   }
   [[nodiscard]] Measurement& event(std::size_t rank) { return pool_[order_[rank]]; }
@@ -131,12 +131,12 @@ class History {
   [[nodiscard]] std::size_t first_after(TimeNs stamp_ns) const;
 
   const Setup* setup_;
-  Core core_;
+  Navigator navigator_;
   bool started_ = false;
   std::uint64_t steps_done_ = 0;
   TimeNs dirty_ns_ = 0;         ///< earliest event that has not acted although its instant is past; 0: none
   std::vector<ImuStep> steps_;  ///< ring, by step number
-  std::vector<Core> snapshots_;
+  std::vector<Navigator> snapshots_;
   std::vector<Mark> marks_;  ///< by age, oldest first; the first snapshot_count_ are in use
   std::size_t snapshot_count_ = 0;
   std::vector<Measurement> pool_;
@@ -148,7 +148,7 @@ class History {
   std::uint64_t fine_until_step_ = 0;  ///< snapshots stand close as long as late events keep coming
   // The second navigator. Snapshots up to caught_up_step_ are its own, those behind it the first one's.
   bool catching_up_ = false;
-  Core catching_;
+  Navigator catching_;
   std::uint64_t caught_up_step_ = 0;
   int catching_for_ = 0;  ///< inertial samples
 };

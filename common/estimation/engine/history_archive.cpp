@@ -5,8 +5,8 @@
 
 #include "estimation/engine/history.hpp"
 #include "estimation/engine/order.hpp"
-#include "estimation/fields/core.hpp"
 #include "estimation/fields/measurement.hpp"
+#include "estimation/fields/navigator.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -40,10 +40,10 @@ void check_measurement(archive::Reader& archive, const Setup& setup, const Measu
 
 /// All that is read before anything is taken over.
 struct History::Candidate {
-  explicit Candidate(const Setup& setup) : core(setup) {}
+  explicit Candidate(const Setup& setup) : navigator(setup) {}
 
   std::uint64_t base_step = 0;  ///< steps that the navigator has taken
-  Core core;
+  Navigator navigator;
   std::vector<ImuStep> steps;       ///< those that follow
   std::vector<Measurement> events;  ///< later than the navigator, in their order
 };
@@ -53,7 +53,7 @@ void History::layout(archive::Layout& archive) const {
   const ImuStep step;
   const Measurement event;
   archive("base_step", count);
-  archive("core", core_);
+  archive("core", navigator_);
   archive("steps", count);
   archive.element("steps", 0, step);
   archive("events", count);
@@ -64,9 +64,9 @@ void History::write(archive::Writer& archive) const {
   // Snapshots behind the second navigator are the first one's, and lack what the second is making up for.
   const bool second = catching_up_ && catching_.now_ns() < marks_[0].now_ns;
   const std::uint64_t base_step = second ? caught_up_step_ : marks_[0].after_step;
-  const Core& core = second ? catching_ : snapshot(0);
+  const Navigator& navigator = second ? catching_ : snapshot(0);
   archive("base_step", base_step);
-  archive("core", core);
+  archive("core", navigator);
   const std::uint64_t steps = steps_done_ - base_step;
   archive("steps", steps);
   for (std::uint64_t step = base_step; step < steps_done_; ++step) {
@@ -74,7 +74,7 @@ void History::write(archive::Writer& archive) const {
     archive.element("steps", step - base_step, one);
   }
   // Older ones have acted for good and have their final verdict.
-  const std::size_t first = first_after(core.now_ns());
+  const std::size_t first = first_after(navigator.now_ns());
   const std::uint64_t events = event_count_ - first;
   archive("events", events);
   for (std::size_t rank = first; rank < event_count_; ++rank) {
@@ -90,7 +90,7 @@ void History::read_steps(archive::Reader& archive, Candidate& out) const {
   const ImuConfig& imu = setup_->config.imu;
   // Along any axis, over an interval and what its increments may cover beside it.
   const double longest_s = 4.0 * imu.lost_gap_s;
-  TimeNs before_ns = out.core.now_ns();
+  TimeNs before_ns = out.navigator.now_ns();
   for (std::uint64_t i = 0; i < count && archive.good(); ++i) {
     ImuStep& step = out.steps.emplace_back();
     archive.element("steps", i, step);
@@ -113,14 +113,14 @@ void History::read_events(archive::Reader& archive, Candidate& out) const {
   std::uint64_t count = 0;
   archive("events", count);
   archive.expect(count <= order_.size(), "events", "at most " + std::to_string(order_.size()));
-  const TimeNs newest_ns = out.steps.empty() ? out.core.now_ns() : out.steps.back().to_ns;
+  const TimeNs newest_ns = out.steps.empty() ? out.navigator.now_ns() : out.steps.back().to_ns;
   for (std::uint64_t i = 0; i < count && archive.good(); ++i) {
     Measurement event;
     archive.element("events", i, event);
     if (!archive.good()) return;
     archive.open("events", i);
     const TimeNs latest_ns = newest_ns + future_tolerance_ns(event);
-    archive.expect(event.stamp_ns > out.core.now_ns() && event.stamp_ns <= latest_ns, "stamp_ns",
+    archive.expect(event.stamp_ns > out.navigator.now_ns() && event.stamp_ns <= latest_ns, "stamp_ns",
                    "an instant within the horizon");
     archive.expect(out.events.empty() || out.events.back().key() < event.key(), "stamp_ns",
                    "one behind the other");
@@ -137,11 +137,11 @@ void History::read_events(archive::Reader& archive, Candidate& out) const {
 std::string History::read(archive::Reader& archive, TimeNs newest_ns, VerdictSink& sink) {
   Candidate found(*setup_);
   archive("base_step", found.base_step);
-  archive("core", found.core);
+  archive("core", found.navigator);
   if (archive.good()) read_steps(archive, found);
   if (archive.good()) read_events(archive, found);
   archive.expect_end();
-  archive.expect(newest_ns == (found.steps.empty() ? found.core.now_ns() : found.steps.back().to_ns),
+  archive.expect(newest_ns == (found.steps.empty() ? found.navigator.now_ns() : found.steps.back().to_ns),
                  "newest_ns", "the end of the last step");
   if (!archive.good()) return archive.complaint();
   take_over(found, sink);
@@ -150,7 +150,7 @@ std::string History::read(archive::Reader& archive, TimeNs newest_ns, VerdictSin
 
 void History::take_over(const Candidate& found, VerdictSink& sink) {
   forget_past(sink, VerdictKind::not_aligned);
-  core_ = found.core;
+  navigator_ = found.navigator;
   const std::uint64_t target = found.base_step + found.steps.size();
   for (std::uint64_t step = found.base_step; step < target; ++step)
     steps_[step % steps_.size()] = found.steps[step - found.base_step];

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/navigator.hpp"
 #include "samples/imu.hpp"
 
 namespace fathom::estimation {

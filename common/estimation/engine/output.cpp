@@ -41,17 +41,17 @@ void fill_attitude(const geo::Quaternion& q, NavState& out) {
 
 }  // namespace
 
-void fill(const Setup& setup, const Core& core, NavState& out) {
-  out.mode = core.mode();
-  out.alignment = core.phase();
-  out.gps_outage_s = core.gps_outage_s();
-  out.dvl_outage_s = core.dvl_outage_s();
-  out.reset_counter = core.reset_counter();
-  out.last_reset_delta_N_m = geo::arr(core.last_reset_N_m());
-  const OutputAttitude attitude = core.output_attitude();
-  out.angular_rate_B_rad_s = geo::arr(attitude.along(core.rate_B_rad_s()));
-  out.specific_force_B_m_s2 = geo::arr(attitude.along(core.force_B_m_s2()));
-  if (!core.navigating()) {
+void fill(const Setup& setup, const Navigator& navigator, NavState& out) {
+  out.mode = navigator.mode();
+  out.alignment = navigator.alignment().phase;
+  out.gps_outage_s = navigator.gps_outage_s();
+  out.dvl_outage_s = navigator.dvl_outage_s();
+  out.reset_counter = navigator.reacquisition().reset_counter();
+  out.last_reset_delta_N_m = geo::arr(navigator.reacquisition().last_reset_N_m());
+  const OutputAttitude attitude = navigator.output_attitude();
+  out.angular_rate_B_rad_s = geo::arr(attitude.along(navigator.rate_B_rad_s()));
+  out.specific_force_B_m_s2 = geo::arr(attitude.along(navigator.force_B_m_s2()));
+  if (!navigator.navigating()) {
     const NavState blank;
     out.latitude_rad = out.longitude_rad = out.altitude_m = out.depth_m = kUnknown;
     out.velocity_N_m_s = blank.velocity_N_m_s;
@@ -59,19 +59,19 @@ void fill(const Setup& setup, const Core& core, NavState& out) {
     out.velocity_covariance_N_m2_s2 = blank.velocity_covariance_N_m2_s2;
     out.q_NB = blank.q_NB;
     out.rpy_rad = out.rpy_sigma_rad = blank.rpy_rad;
-    if (core.levelled()) {
+    if (navigator.estimate().levelled) {
       const Vector3d rpy = geo::to_rpy(attitude.q_NO);
       out.rpy_rad = {rpy.x(), rpy.y(), kUnknown};
     }
     return;
   }
-  const NavSolution& nav = core.state().nav;
+  const NavSolution& nav = navigator.state().nav;
   const Matrix3d c = geo::to_matrix(nav.q_NB);
   const Vector3d lever = geo::vec(setup.config.output_lever_B_m);
   const Vector3d arm = c * lever;
   const Vector3d rate_nb =
-      core.rate_B_rad_s() - c.transpose() * (geo::earth_rate_N(nav.position.latitude_rad) +
-                                             geo::transport_rate_N(nav.position, nav.v_N_m_s));
+      navigator.rate_B_rad_s() - c.transpose() * (geo::earth_rate_N(nav.position.latitude_rad) +
+                                                  geo::transport_rate_N(nav.position, nav.v_N_m_s));
   const Vector3d swing = c * geo::cross(rate_nb, lever);
   const geo::Geodetic at = geo::moved_by(nav.position, arm);
   out.latitude_rad = at.latitude_rad;
@@ -81,26 +81,26 @@ void fill(const Setup& setup, const Core& core, NavState& out) {
   if (surface < 0) {
     out.depth_m = setup.config.states.surface_altitude_m - at.altitude_m;
   } else {
-    const bool good = core.filter()(surface, surface) < kSurfaceSigma_m * kSurfaceSigma_m;
-    out.depth_m = good ? core.state().x[static_cast<std::size_t>(surface)] - at.altitude_m : kUnknown;
+    const bool good = navigator.filter()(surface, surface) < kSurfaceSigma_m * kSurfaceSigma_m;
+    out.depth_m = good ? navigator.state().x[static_cast<std::size_t>(surface)] - at.altitude_m : kUnknown;
   }
   out.velocity_N_m_s = geo::arr(nav.v_N_m_s + swing);
   fill_attitude(attitude.q_NO, out);
-  out.position_covariance_N_m2 = with_lever(core.filter(), 0, arm);
-  out.velocity_covariance_N_m2_s2 = with_lever(core.filter(), 3, swing);
-  out.rpy_sigma_rad = geo::arr(core.rpy_sigma_rad());
+  out.position_covariance_N_m2 = with_lever(navigator.filter(), 0, arm);
+  out.velocity_covariance_N_m2_s2 = with_lever(navigator.filter(), 3, swing);
+  out.rpy_sigma_rad = geo::arr(navigator.rpy_sigma_rad());
 }
 
-void fill(const Setup& setup, const Core& core, NavDetail& out) {
+void fill(const Setup& setup, const Navigator& navigator, NavDetail& out) {
   out.configuration = std::string_view(setup.config.configuration);
   out.count = 0;
-  if (!core.navigating()) return;
-  const NavSolution& nav = core.state().nav;
+  if (!navigator.navigating()) return;
+  const NavSolution& nav = navigator.state().nav;
   const Vector3d rpy = geo::to_rpy(nav.q_NB);
   for (int i = 0; i < setup.index.size() && i < static_cast<int>(NavDetail::kMaxStates); ++i) {
     StateEstimate& one = out.states[out.count++];
     one.name = setup.index.name(i);
-    one.sigma = std::sqrt(std::max(core.filter()(i, i), 0.0));
+    one.sigma = std::sqrt(std::max(navigator.filter()(i, i), 0.0));
     if (i < 3) {
       one.value = 0.0;  // the position error after its correction; the position itself is in NavState
     } else if (i < 6) {
@@ -108,7 +108,7 @@ void fill(const Setup& setup, const Core& core, NavDetail& out) {
     } else if (i < kNavStates) {
       one.value = rpy(i - 6);
     } else {
-      one.value = core.state().x[static_cast<std::size_t>(i)];
+      one.value = navigator.state().x[static_cast<std::size_t>(i)];
     }
   }
 }

@@ -27,9 +27,9 @@ void write(Text& target, const char* format, ...) {
   va_end(arguments);
 }
 
-const char* advice(const StartConditions& c, const Core& core, const AlignmentConfig& config,
+const char* advice(const StartConditions& c, const Navigator& navigator, const AlignmentConfig& config,
                    const Vector3d& sigma) {
-  switch (core.phase()) {
+  switch (navigator.alignment().phase) {
     case AlignmentPhase::aligned:
     case AlignmentPhase::none:
       return "";
@@ -40,8 +40,8 @@ const char* advice(const StartConditions& c, const Core& core, const AlignmentCo
     default:
       break;
   }
-  if (core.waits_for_state()) return "Waiting for the state that it is to start from.";
-  if (config.mode == StartMode::air_drop && !known(core.gps_speed_m_s()))
+  if (navigator.waits_for_state()) return "Waiting for the state that it is to start from.";
+  if (config.mode == StartMode::air_drop && !known(navigator.starter().gps_speed_m_s()))
     return "The heading was lost too: surface and run straight with GPS, or give a state to start from.";
   if (config.mode == StartMode::in_motion || config.mode == StartMode::air_drop)
     return "Move straight with a GPS fix until the course is steady.";
@@ -172,27 +172,28 @@ void fill_drop(const DropAlignment& drop, AlignmentStatus& out) {
 }
 
 /// Once it navigates: what is still missing from aligned.
-void fill_navigating(const Core& core, const AlignmentConfig& config, const Vector3d& sigma,
+void fill_navigating(const Navigator& navigator, const AlignmentConfig& config, const Vector3d& sigma,
                      AlignmentStatus& out) {
-  const double held =
-      core.aligned_hold_since_ns() == 0 ? 0.0 : to_seconds(core.now_ns() - core.aligned_hold_since_ns());
+  const double held = navigator.alignment().hold_since_ns == 0
+                          ? 0.0
+                          : to_seconds(navigator.now_ns() - navigator.alignment().hold_since_ns);
   const auto sigma_condition = [&](const char* name, double value, double limit) {
     add_condition(out, name, value, limit, value <= limit, held, config.aligned_hold_s);
   };
   sigma_condition("roll_sigma_rad", sigma.x(), config.aligned_tilt_sigma_rad);
   sigma_condition("pitch_sigma_rad", sigma.y(), config.aligned_tilt_sigma_rad);
   sigma_condition("yaw_sigma_rad", sigma.z(), config.aligned_heading_sigma_rad);
-  if (core.phase() == AlignmentPhase::aligned) {
+  if (navigator.alignment().phase == AlignmentPhase::aligned) {
     out.time_to_aligned_s = 0.0;
-  } else if (core.aligned_hold_since_ns() != 0) {
+  } else if (navigator.alignment().hold_since_ns != 0) {
     out.time_to_aligned_s = std::max(0.0, config.aligned_hold_s - held);
   }
 }
 
 /// Before that: what is missing from a start.
-void fill_waiting(const Core& core, const AlignmentConfig& config, const StartConditions& c,
+void fill_waiting(const Navigator& navigator, const AlignmentConfig& config, const StartConditions& c,
                   AlignmentStatus& out) {
-  const RestWindow& window = core.window();
+  const RestWindow& window = navigator.starter().window();
   const double held = window.duration_s();
   const auto rest_condition = [&](const char* name, double value, double limit, bool met) {
     add_condition(out, name, value, limit, met, held, config.averaging_s);
@@ -201,7 +202,7 @@ void fill_waiting(const Core& core, const AlignmentConfig& config, const StartCo
                  window.rate_spread_rad_s() <= config.rate_spread_rad_s);
   rest_condition("force_spread_m_s2", window.force_spread_m_s2(), config.force_spread_m_s2,
                  window.force_spread_m_s2() <= config.force_spread_m_s2);
-  rest_condition("gps_speed_m_s", core.gps_speed_m_s(), config.max_speed_m_s, c.slow);
+  rest_condition("gps_speed_m_s", navigator.starter().gps_speed_m_s(), config.max_speed_m_s, c.slow);
   add_condition(out, "heading_known", c.heading ? 1.0 : 0.0, 1.0, c.heading);
   add_condition(out, "position_known", c.position ? 1.0 : 0.0, 1.0, c.position);
   if (c.quiet && c.slow && c.heading && c.position)
@@ -210,25 +211,25 @@ void fill_waiting(const Core& core, const AlignmentConfig& config, const StartCo
 
 }  // namespace
 
-void fill(const Setup& setup, const Core& core, AlignmentStatus& out) {
+void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) {
   const AlignmentConfig& config = setup.config.alignment;
-  out.phase = core.phase();
-  out.in_phase_s = to_seconds(core.now_ns() - core.phase_since_ns());
+  out.phase = navigator.alignment().phase;
+  out.in_phase_s = to_seconds(navigator.now_ns() - navigator.alignment().phase_since_ns);
   out.condition_count = 0;
-  const Vector3d sigma = core.rpy_sigma_rad();
+  const Vector3d sigma = navigator.rpy_sigma_rad();
   out.rpy_sigma_rad = geo::arr(sigma);
   out.time_to_aligned_s = kUnknown;
-  if (core.dropping()) {
-    fill_drop(core.drop(), out);
+  if (navigator.descent().aligning()) {
+    fill_drop(navigator.descent().alignment(), out);
     return;
   }
-  const StartConditions c = core.conditions();
-  if (core.navigating()) {
-    fill_navigating(core, config, sigma, out);
-  } else if (!core.waits_for_state()) {
-    fill_waiting(core, config, c, out);
+  const StartConditions c = navigator.conditions();
+  if (navigator.navigating()) {
+    fill_navigating(navigator, config, sigma, out);
+  } else if (!navigator.waits_for_state()) {
+    fill_waiting(navigator, config, c, out);
   }
-  write(out.advice, "%s", advice(c, core, config, sigma));
+  write(out.advice, "%s", advice(c, navigator, config, sigma));
 }
 
 }  // namespace fathom::estimation

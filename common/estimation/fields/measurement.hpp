@@ -1,8 +1,8 @@
 #pragma once
 
 #include "archive/samples.hpp"
-#include "estimation/navigator/core.hpp"
 #include "estimation/navigator/measurement.hpp"
+#include "estimation/navigator/navigator.hpp"
 
 /// Fields of what acts on the navigator: inertial steps, measurements, orders.
 namespace fathom::estimation {

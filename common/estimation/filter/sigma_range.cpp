@@ -8,30 +8,32 @@ namespace {
 bool sound_or_unknown(double sigma) {
   return std::isnan(sigma) || sound_sigma(sigma);
 }
+template <std::size_t N>
+bool sound_or_unknown(const std::array<double, N>& sigmas) {
+  return std::all_of(sigmas.begin(), sigmas.end(), [](double one) { return sound_or_unknown(one); });
+}
 
-struct Sigmas {
-  bool operator()(const Command& /*order*/) const { return true; }  // objection_to() looks
-  bool operator()(const GpsSample& sample) const {
-    return std::all_of(sample.position_sigma_N_m.begin(), sample.position_sigma_N_m.end(),
-                       sound_or_unknown) &&
-           std::all_of(sample.velocity_sigma_N_m_s.begin(), sample.velocity_sigma_N_m_s.end(),
-                       sound_or_unknown);
-  }
-  bool operator()(const DvlSample& sample) const { return sound_or_unknown(sample.sigma_m_s); }
-  bool operator()(const DepthSample& sample) const { return sound_or_unknown(sample.sigma_m); }
-  bool operator()(const HeadingSample& sample) const { return sound_or_unknown(sample.sigma_rad); }
-  bool operator()(const UsblSample& sample) const {
-    return sound_or_unknown(sample.sigma_m) && sound_or_unknown(sample.sigma_rad);
-  }
-  bool operator()(const AirspeedSample& sample) const { return sound_or_unknown(sample.sigma_m_s); }
-  bool operator()(const PropulsionSample& /*sample*/) const { return true; }
-  bool operator()(const FinsSample& /*sample*/) const { return true; }
-};
+/// Whatever a sample of any kind calls a sigma.
+template <class Sample>
+bool sound(const Sample& sample) {
+  bool good = true;
+  if constexpr (requires { sample.sigma_m; }) good = good && sound_or_unknown(sample.sigma_m);
+  if constexpr (requires { sample.sigma_m_s; }) good = good && sound_or_unknown(sample.sigma_m_s);
+  if constexpr (requires { sample.sigma_rad; }) good = good && sound_or_unknown(sample.sigma_rad);
+  if constexpr (requires { sample.position_sigma_N_m; })
+    good = good && sound_or_unknown(sample.position_sigma_N_m);
+  if constexpr (requires { sample.velocity_sigma_N_m_s; })
+    good = good && sound_or_unknown(sample.velocity_sigma_N_m_s);
+  return good;
+}
+bool sound(const Command& /*order*/) {
+  return true;  // objection_to() looks
+}
 
 }  // namespace
 
 bool sound_sigmas(const EventSample& sample) {
-  return std::visit(Sigmas{}, sample);
+  return std::visit([](const auto& one) { return sound(one); }, sample);
 }
 
 }  // namespace fathom::estimation

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "estimation/navigator/measurement.hpp"
+#include "estimation/event_sample.hpp"
 
 namespace fathom::estimation {
 

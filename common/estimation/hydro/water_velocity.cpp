@@ -79,7 +79,7 @@ void WaterVelocity::compare(double normalised, double memory_s) {
   compared_s_ += span;
   // Young memories average plainly, old ones forget.
   const double share = std::max(span / std::min(compared_s_, memory_s), span / memory_s);
-  doubt_ += std::min(share, 1.0) * (std::min(normalised, kWorst) - doubt_);
+  model_nis_ += std::min(share, 1.0) * (std::min(normalised, kWorst) - model_nis_);
 }
 
 }  // namespace fathom::estimation::hydro

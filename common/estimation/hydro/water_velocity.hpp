@@ -55,11 +55,11 @@ class WaterVelocity {
   /// instrument vouches for the velocity (HYD-4).
   void compare(double normalised, double memory_s);
   /// Mean normalised squared innovation, at least 1: what the model's noise is to be multiplied by.
-  [[nodiscard]] double doubt() const { return doubt_ < 1.0 ? 1.0 : doubt_; }
+  [[nodiscard]] double model_nis() const { return model_nis_ < 1.0 ? 1.0 : model_nis_; }
   /// How long the model has been compared.
   [[nodiscard]] double compared_s() const { return compared_s_; }
 
-  /// For archives: see fields/core.hpp.
+  /// For archives: see fields/navigator.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
 
@@ -80,7 +80,7 @@ class WaterVelocity {
   double unmeasured_s_ = 1e9;
   double since_compared_s_ = 1e9;
   double compared_s_ = 0.0;
-  double doubt_ = 1.0;
+  double model_nis_ = 1.0;
 };
 
 }  // namespace fathom::estimation::hydro

@@ -35,7 +35,7 @@ struct Smoother::Segment {
 
   FilterLog log;
   std::vector<std::size_t> ends;  ///< of each tick in the log
-  std::vector<Core> cores;
+  std::vector<Navigator> navigators;
 };
 
 Smoother::Smoother(const EngineConfig& config) : setup_(checked(config)), intake_(setup_) {
@@ -114,7 +114,7 @@ void Smoother::advance(Snapshot& at, const std::function<void(const Verdict&)>& 
       if (event.axis == tick.axis && event.measurement.stamp_ns > tick.stamp_ns) break;
       refuse(event, first ? VerdictKind::not_aligned : VerdictKind::late, verdict);
     }
-    at.core.rebase(tick.stamp_ns, tick.unobserved_s);
+    at.navigator.rebase(tick.stamp_ns, tick.unobserved_s);
   } else {
     for (; at.event < events_.size(); ++at.event) {
       const Event& event = events_[at.event];
@@ -126,26 +126,26 @@ void Smoother::advance(Snapshot& at, const std::function<void(const Verdict&)>& 
         refuse(event, VerdictKind::duplicate, verdict);
         continue;
       }
-      at.core.advance(tick.step, one.stamp_ns);
-      const Judgement judgement = at.core.apply(one);
+      at.navigator.advance(tick.step, one.stamp_ns);
+      const Judgement judgement = at.navigator.apply(one);
       if (verdict && !one.command) verdict(final_verdict(one.header(), one.source, judgement));
     }
-    at.core.advance(tick.step, tick.step.to_ns);
-    at.core.finish(tick.step);
+    at.navigator.advance(tick.step, tick.step.to_ns);
+    at.navigator.finish(tick.step);
   }
   if (start_ && !at.started && tick.stamp_ns >= start_->stamp_ns) {
-    at.core.start(*start_, tick.stamp_ns);
+    at.navigator.start(*start_, tick.stamp_ns);
     at.started = true;
   }
 }
 
-void Smoother::fill(const Core& core, std::size_t tick, NavState& out) const {
+void Smoother::fill(const Navigator& navigator, std::size_t tick, NavState& out) const {
   out.header.vehicle = std::string_view(setup_.config.vehicle);
   out.header.sensor = std::string_view(setup_.config.sensor);
   out.header.stamp_ns = ticks_[tick].stamp_ns;
   out.header.received_ns = ticks_[tick].received_ns;
   out.header.sequence = tick + 1;
-  estimation::fill(setup_, core, out);
+  estimation::fill(setup_, navigator, out);
 }
 
 void Smoother::smooth(const Snapshot& from, std::size_t end, Segment& segment, Adjoint& adjoint,
@@ -153,28 +153,28 @@ void Smoother::smooth(const Snapshot& from, std::size_t end, Segment& segment, A
   Snapshot at = from;
   segment.log.clear();
   segment.ends.assign(1, 0);
-  segment.cores.clear();
-  at.core.record_to(&segment.log);
+  segment.navigators.clear();
+  at.navigator.record_to(&segment.log);
   while (at.tick < end) {
     advance(at, {});
     segment.ends.push_back(segment.log.size());
-    segment.cores.push_back(at.core);
+    segment.navigators.push_back(at.navigator);
   }
   NavState nav;
   std::array<double, kMaxStates> x{};
   for (std::size_t tick = end; tick-- > from.tick;) {
     const std::size_t place = tick - from.tick;
-    Core& core = segment.cores[place];
-    core.record_to(nullptr);
-    if (core.navigating() && smoothed) {
-      FilterState state = core.state();
-      ErrorFilter filter = core.filter();
+    Navigator& navigator = segment.navigators[place];
+    navigator.record_to(nullptr);
+    if (navigator.navigating() && smoothed) {
+      FilterState state = navigator.state();
+      ErrorFilter filter = navigator.filter();
       adjoint.smoothed_error(filter, x);
       remove_error(x, filter.size(), state);
       adjoint.smooth_covariance(shown_states_, filter);
-      core.replace(state, filter);
+      navigator.replace(state, filter);
     }
-    fill(core, tick, nav);
+    fill(navigator, tick, nav);
     if (smoothed) smoothed(nav);
     segment.log.back_through(segment.ends[place + 1], segment.ends[place], adjoint);
   }
@@ -188,7 +188,7 @@ void Smoother::run(const Output& output) {
       output.progress(static_cast<double>(done) / (3.0 * static_cast<double>(ticks_.size())));
   };
   std::vector<Snapshot> snapshots;
-  Snapshot at{0, 0, false, Core(setup_)};
+  Snapshot at{0, 0, false, Navigator(setup_)};
   NavState nav;
   while (at.tick < ticks_.size()) {
     if (at.tick % kSegment == 0) {
@@ -197,14 +197,14 @@ void Smoother::run(const Output& output) {
     }
     advance(at, output.verdict);
     if (!output.filtered) continue;
-    fill(at.core, at.tick - 1, nav);
+    fill(at.navigator, at.tick - 1, nav);
     output.filtered(nav);
   }
   for (; at.event < events_.size(); ++at.event)
     refuse(events_[at.event], VerdictKind::from_the_future, output.verdict);
   if (output.detail && !ticks_.empty()) {
     NavDetail detail;
-    estimation::fill(setup_, at.core, detail);
+    estimation::fill(setup_, at.navigator, detail);
     output.detail(detail);
   }
 

@@ -73,7 +73,7 @@ class Smoother {
     std::size_t tick = 0;   ///< the first that it has not seen
     std::size_t event = 0;  ///< likewise
     bool started = false;
-    Core core;
+    Navigator navigator;
   };
   struct Segment;
 
@@ -82,7 +82,7 @@ class Smoother {
   /// One tick with its events; what becomes of them goes to `verdict` where that is not empty.
   void advance(Snapshot& at, const std::function<void(const Verdict&)>& verdict) const;
   void refuse(const Event& event, VerdictKind kind, const std::function<void(const Verdict&)>& verdict) const;
-  void fill(const Core& core, std::size_t tick, NavState& out) const;
+  void fill(const Navigator& navigator, std::size_t tick, NavState& out) const;
   void smooth(const Snapshot& from, std::size_t end, Segment& segment, Adjoint& adjoint,
               const std::function<void(const NavState&)>& smoothed) const;
 

@@ -9,12 +9,12 @@
 #include "cli/bench/updates.hpp"
 #include "cli/bench/vehicle.hpp"
 #include "cli/command.hpp"
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/navigator.hpp"
 
 namespace fathom::cli {
 namespace {
 
-using estimation::Core;
+using estimation::Navigator;
 using estimation::Setup;
 
 constexpr int kPredictions = 400;
@@ -22,9 +22,9 @@ constexpr int kPredictions = 400;
 BenchRow predict(const std::string& configuration, int rounds) {
   const BenchVehicle vehicle(configuration, 100.0);
   const Setup setup(vehicle.config());
-  const Core base = settled(setup, vehicle);
+  const Navigator base = settled(setup, vehicle);
   const auto floor = dense_floor(setup.index.size(), 3);
-  Core core = base;
+  Navigator navigator = base;
   estimation::ImuStep step;
   step.increments.dt_s = 0.01;
   step.increments.dtheta_rad = step.increments.dtheta_before_rad = {1e-4, 2e-4, 2e-3};
@@ -32,14 +32,14 @@ BenchRow predict(const std::string& configuration, int rounds) {
   return compare(
       "predict_" + configuration, rounds, kPredictions,
       [&] {
-        core = base;
+        navigator = base;
         floor->reset();
       },
       [&] {
-        step.from_ns = core.now_ns();
+        step.from_ns = navigator.now_ns();
         step.to_ns = step.from_ns + 10'000'000;
-        core.advance(step, step.to_ns);
-        core.finish(step);
+        navigator.advance(step, step.to_ns);
+        navigator.finish(step);
       },
       [&] { floor->predict(); });
 }

@@ -106,7 +106,7 @@ class Updates {
         setup_(vehicle_.config()),
         base_(settled(setup_, vehicle_)) {}
 
-  [[nodiscard]] const estimation::Core& base() const { return base_; }
+  [[nodiscard]] const estimation::Navigator& base() const { return base_; }
   [[nodiscard]] estimation::AidingState state() const {
     return {setup_.index, base_.state(), base_.rate_B_rad_s(), 0.0, base_.force_B_m_s2()};
   }
@@ -153,7 +153,7 @@ class Updates {
   const std::function<void(const BenchRow&)>& done_;
   BenchVehicle vehicle_;
   estimation::Setup setup_;
-  estimation::Core base_;
+  estimation::Navigator base_;
 };
 
 }  // namespace

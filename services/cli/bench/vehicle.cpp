@@ -104,22 +104,22 @@ void BenchVehicle::step(std::vector<Sample>& out) {
   ++step_;
 }
 
-estimation::Core settled(const estimation::Setup& setup, const BenchVehicle& vehicle) {
-  estimation::Core core(setup);
-  core.start(vehicle.start(), kNsPerSecond);
+estimation::Navigator settled(const estimation::Setup& setup, const BenchVehicle& vehicle) {
+  estimation::Navigator navigator(setup);
+  navigator.start(vehicle.start(), kNsPerSecond);
   estimation::ImuStep step;
   step.increments.dt_s = 0.01;
   for (int k = 0; k < 3000; ++k) {
-    step.from_ns = core.now_ns();
+    step.from_ns = navigator.now_ns();
     step.to_ns = step.from_ns + 10'000'000;
     step.increments.dtheta_rad = {1e-4, 2e-4, 2e-3};
     step.increments.dv_m_s = {1e-3, -2e-3, -0.098};
     step.increments.dtheta_before_rad = step.increments.dtheta_rad;
     step.increments.dv_before_m_s = step.increments.dv_m_s;
-    core.advance(step, step.to_ns);
-    core.finish(step);
+    navigator.advance(step, step.to_ns);
+    navigator.finish(step);
   }
-  return core;
+  return navigator;
 }
 
 UsblSample BenchVehicle::late_fix(double late_s) const {

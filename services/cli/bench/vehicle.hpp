@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "estimation/engine/fusion_engine.hpp"
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/navigator.hpp"
 
 namespace fathom::cli {
 
@@ -40,7 +40,7 @@ class BenchVehicle {
 
 /// A navigator that has been under way for a while, with the covariance that this makes: everything is
 /// correlated with everything that can be.
-[[nodiscard]] estimation::Core settled(const estimation::Setup& setup, const BenchVehicle& vehicle);
+[[nodiscard]] estimation::Navigator settled(const estimation::Setup& setup, const BenchVehicle& vehicle);
 
 /// Hands one sample to the engine.
 inline bool feed(estimation::FusionEngine& engine, const BenchVehicle::Sample& sample) {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/aiding/registry.hpp"
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/navigator.hpp"
 #include "support/analytic_vehicle.hpp"
 
 namespace fathom::estimation {

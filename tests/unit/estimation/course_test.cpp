@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/navigator.hpp"
 #include "support/road_run.hpp"
 
 namespace fathom::estimation {
@@ -121,19 +121,19 @@ TEST(SettlingBias, AddsItsWholeVarianceHoweverTheTimeIsCut) {
   config.imu.gyro_bias_settling_rad_s = 3e-3;
   config.imu.bias_settling_time_s = 20.0;
   const estimation::Setup setup(config);
-  Core core(setup);
-  core.start(InitialState{}, RoadRun::kEpochNs);
+  Navigator navigator(setup);
+  navigator.start(InitialState{}, RoadRun::kEpochNs);
   const int gyro = setup.index.of(Group::gyro_bias);
   const int accel = setup.index.of(Group::accel_bias);
   ErrorFilter whole(setup.index.size());
   ErrorFilter parts(setup.index.size());
-  core.settle_biases(whole, 0.0, 15.0);
-  for (int i = 0; i < 60; ++i) core.settle_biases(parts, 0.25 * i, 0.25);
+  navigator.settle_biases(whole, 0.0, 15.0);
+  for (int i = 0; i < 60; ++i) navigator.settle_biases(parts, 0.25 * i, 0.25);
   EXPECT_NEAR(parts(gyro + 2, gyro + 2), whole(gyro + 2, gyro + 2),
               1e-12 * whole(gyro + 2, gyro + 2) + 1e-20);
   EXPECT_NEAR(whole(gyro, gyro), 9e-6 * (1.0 - std::exp(-1.5)), 1e-15);
   EXPECT_EQ(whole(accel, accel), 0.0);
-  core.settle_biases(whole, 15.0, 1e4);
+  navigator.settle_biases(whole, 15.0, 1e4);
   EXPECT_NEAR(whole(gyro, gyro), 9e-6, 1e-15);
 }
 
@@ -160,11 +160,11 @@ TEST(OutputAxesOfTheWheels, CovarianceIsThatOfTheTurnedAxes) {
   ErrorFilter filter(setup.index.size());
   for (int i = 0; i < 5; ++i)
     for (int k = 0; k <= i; ++k) filter.set(place(i), place(k), p(i, k));
-  Core core(setup);
-  core.start(InitialState{}, RoadRun::kEpochNs);
+  Navigator navigator(setup);
+  navigator.start(InitialState{}, RoadRun::kEpochNs);
   const auto rpy = [&](const FilterState& at) {
-    core.replace(at, filter);
-    return geo::to_rpy(core.output_attitude().q_NO);
+    navigator.replace(at, filter);
+    return geo::to_rpy(navigator.output_attitude().q_NO);
   };
   // How each error moves what is published, by differences of the correction that would take it off.
   Eigen::Matrix<double, 3, 5> j;
@@ -180,9 +180,10 @@ TEST(OutputAxesOfTheWheels, CovarianceIsThatOfTheTurnedAxes) {
   }
   const Vector3d published = rpy(state);
   const Vector3d expected = (j * p * j.transpose()).diagonal().cwiseSqrt();
-  EXPECT_LT((core.rpy_sigma_rad() - expected).norm(), 1e-3 * expected.norm());
+  EXPECT_LT((navigator.rpy_sigma_rad() - expected).norm(), 1e-3 * expected.norm());
   const Vector3d forward = geo::to_matrix(geo::from_rpy(published)).col(0);
-  const Vector3d along = core.output_attitude().along(geo::to_matrix(state.nav.q_NB).transpose() * forward);
+  const Vector3d along =
+      navigator.output_attitude().along(geo::to_matrix(state.nav.q_NB).transpose() * forward);
   EXPECT_LT((along - Vector3d::UnitX()).norm(), 1e-9);
 }
 

@@ -65,12 +65,12 @@ TEST(WaterVelocity, DoubtIsTheMeanOfWhatWasCompared) {
     water.advance(model, Vector3d::Zero(), Vector3d::UnitZ(), 1.0);
     water.compare(normalised, 60.0);
   };
-  EXPECT_EQ(water.doubt(), 1.0);
+  EXPECT_EQ(water.model_nis(), 1.0);
   for (int i = 0; i < 20; ++i) second(4.0);
   EXPECT_NEAR(water.compared_s(), 20.0, 1e-9);
-  EXPECT_NEAR(water.doubt(), 4.0, 1e-9);
+  EXPECT_NEAR(water.model_nis(), 4.0, 1e-9);
   for (int i = 0; i < 600; ++i) second(0.1);
-  EXPECT_EQ(water.doubt(), 1.0);  // never better than configured
+  EXPECT_EQ(water.model_nis(), 1.0);  // never better than configured
 }
 
 /// The survey of survey_run.hpp with shaft speed and fins, and a DVL that falls silent.

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/fields/core.hpp"
 #include "estimation/fields/imu_preprocessor.hpp"
 #include "estimation/fields/measurement.hpp"
+#include "estimation/fields/navigator.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -87,10 +87,10 @@ std::string holes(const T& object) {
 TEST(StateFields, NoneIsForgotten) {
   const EngineConfig config;
   const estimation::Setup setup(config);
-  const Core core(setup);
-  EXPECT_EQ(holes(core), "");
-  EXPECT_EQ(holes(core.filter()), "");
-  EXPECT_EQ(holes(Core::Sensor()), "");
+  const Navigator navigator(setup);
+  EXPECT_EQ(holes(navigator), "");
+  EXPECT_EQ(holes(navigator.filter()), "");
+  EXPECT_EQ(holes(Instrument()), "");
   EXPECT_EQ(holes(RestWindow()), "");
   EXPECT_EQ(holes(DropAlignment()), "");
   EXPECT_EQ(holes(StabilityGate()), "");

@@ -1,4 +1,4 @@
-#include "estimation/navigator/motion_memory.hpp"
+#include "estimation/engine/motion_memory.hpp"
 
 #include <cmath>
 
@@ -9,26 +9,26 @@ constexpr double kMoving_m_s = 0.1;
 
 }  // namespace
 
-void MotionMemory::open(const Core& core) {
-  begin_ns_ = core.now_ns();
-  yaw_before_rad_ = geo::to_rpy(core.state().nav.q_NB).z();
+void MotionMemory::open(const Navigator& navigator) {
+  begin_ns_ = navigator.now_ns();
+  yaw_before_rad_ = geo::to_rpy(navigator.state().nav.q_NB).z();
   samples_ = 0;
   rate_sum_.setZero();
   force_sum_.setZero();
 }
 
-void MotionMemory::watch(const Core& core) {
-  const TimeNs now = core.now_ns();
-  if (!core.navigating() || now < begin_ns_ || now - begin_ns_ > 3 * kNsPerSecond) {
-    if (!core.navigating() || begin_ns_ != 0) count_ = 0;
-    open(core);
+void MotionMemory::watch(const Navigator& navigator) {
+  const TimeNs now = navigator.now_ns();
+  if (!navigator.navigating() || now < begin_ns_ || now - begin_ns_ > 3 * kNsPerSecond) {
+    if (!navigator.navigating() || begin_ns_ != 0) count_ = 0;
+    open(navigator);
     return;
   }
-  rate_sum_ += core.rate_B_rad_s();
-  force_sum_ += core.force_B_m_s2();
+  rate_sum_ += navigator.rate_B_rad_s();
+  force_sum_ += navigator.force_B_m_s2();
   ++samples_;
   if (now - begin_ns_ < kNsPerSecond) return;
-  const NavSolution& nav = core.state().nav;
+  const NavSolution& nav = navigator.state().nav;
   const Eigen::Vector3d rpy = geo::to_rpy(nav.q_NB);
   Second& one = seconds_[static_cast<std::size_t>(next_)];
   one.roll_rad = rpy.x();
@@ -43,7 +43,7 @@ void MotionMemory::watch(const Core& core) {
   one.force_B_m_s2 = force_sum_ / samples_;
   next_ = (next_ + 1) % kSeconds;
   count_ = std::min(count_ + 1, kSeconds);
-  open(core);
+  open(navigator);
 }
 
 }  // namespace fathom::estimation

@@ -2,7 +2,7 @@
 
 #include "estimation/fields/alignment.hpp"
 #include "estimation/fields/filter.hpp"
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/navigator.hpp"
 
 /// Fields of the navigator and of what it remembers.
 namespace fathom::estimation {
@@ -29,13 +29,13 @@ void WaterVelocity::fields(Archive& archive, Self& self) {
   archive("unmeasured_s", self.unmeasured_s_, fathom::archive::at_least_zero());
   archive("since_compared_s", self.since_compared_s_, fathom::archive::at_least_zero());
   archive("compared_s", self.compared_s_, fathom::archive::at_least_zero());
-  archive("doubt", self.doubt_, fathom::archive::at_least_zero());
+  archive("doubt", self.model_nis_, fathom::archive::at_least_zero());
 }
 
 }  // namespace hydro
 
 template <class Archive, class Self>
-requires std::is_same_v<std::remove_const_t<Self>, Core::Sensor::Rejections>
+requires std::is_same_v<std::remove_const_t<Self>, Instrument::Rejections>
 void fields(Archive& archive, Self& self) {
   archive("since_ns", self.since_ns, fathom::archive::kInstant);
   archive("count", self.count, fathom::archive::kCount);
@@ -43,7 +43,7 @@ void fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
-requires std::is_same_v<std::remove_const_t<Self>, Core::Sensor::Candidate>
+requires std::is_same_v<std::remove_const_t<Self>, Instrument::Candidate>
 void fields(Archive& archive, Self& self) {
   archive("refused_since_ns", self.refused_since_ns, fathom::archive::kInstant);
   archive("since_ns", self.since_ns, fathom::archive::kInstant);
@@ -55,7 +55,7 @@ void fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
-requires std::is_same_v<std::remove_const_t<Self>, Core::Sensor>
+requires std::is_same_v<std::remove_const_t<Self>, Instrument>
 void fields(Archive& archive, Self& self) {
   archive("enabled", self.enabled);
   archive("stamp_ns", self.stamp_ns, fathom::archive::kInstant);
@@ -67,55 +67,71 @@ void fields(Archive& archive, Self& self) {
   archive("candidate", self.candidate);
 }
 
-/// Precondition of reading: `self` is a navigator of the setup that wrote it, as constructed.
 template <class Archive, class Self>
-void Core::fields(Archive& archive, Self& self) {
-  constexpr auto kOrUnknown = fathom::archive::or_unknown(fathom::archive::finite());
-  archive.left_out(self.setup_);
-  archive("now_ns", self.now_ns_, fathom::archive::kInstant);
-  archive("navigating", self.navigating_);
-  archive("levelled", self.levelled_);
-  archive("began_ns", self.began_ns_, fathom::archive::kInstant);
-  archive("state", self.state_);
-  archive("filter", self.filter_);
-  archive("rate_B", self.rate_B_, fathom::archive::finite());
-  archive("force_B", self.force_B_, fathom::archive::finite());
-  archive("travelled_N_m", self.travelled_N_m_, fathom::archive::finite());
-  archive("sensors", self.sensors_);
-  archive("gps_used_ns", self.gps_used_ns_, fathom::archive::kInstant);
-  archive("usbl_used_ns", self.usbl_used_ns_, fathom::archive::kInstant);
-  archive("dvl_used_ns", self.dvl_used_ns_, fathom::archive::kInstant);
-  archive("velocity_used_ns", self.velocity_used_ns_, fathom::archive::kInstant);
+void Estimate::fields(Archive& archive, Self& self) {
+  archive("now_ns", self.now_ns, fathom::archive::kInstant);
+  archive("navigating", self.navigating);
+  archive("levelled", self.levelled);
+  archive("began_ns", self.began_ns, fathom::archive::kInstant);
+  archive("state", self.state);
+  archive("filter", self.filter);
+  archive("rate_B", self.rate_B_rad_s, fathom::archive::finite());
+  archive("force_B", self.force_B_m_s2, fathom::archive::finite());
+  archive("travelled_N_m", self.travelled_N_m, fathom::archive::finite());
+}
+
+template <class Archive, class Self>
+void Reacquisition::fields(Archive& archive, Self& self) {
   archive("reset_counter", self.reset_counter_, fathom::archive::kAnyWhole);
   archive("last_reset_N_m", self.last_reset_N_m_, fathom::archive::finite());
   archive("stepped_ns", self.stepped_ns_, fathom::archive::kInstant);
   archive("stepped_m", self.stepped_m_, fathom::archive::at_least_zero());
   archive("stepped_m_s", self.stepped_m_s_, fathom::archive::at_least_zero());
+}
+
+template <class Archive, class Self>
+void Constraints::fields(Archive& archive, Self& self) {
   archive("rest_until_ns", self.rest_until_ns_, fathom::archive::kInstant);
   archive("next_zero_velocity_ns", self.next_zero_velocity_ns_, fathom::archive::kInstant);
-  archive("water", self.water_);
+}
 
-  archive("phase", self.phase_, AlignmentPhase::lost);
-  archive("phase_since_ns", self.phase_since_ns_, fathom::archive::kInstant);
-  archive("waiting_since_ns", self.waiting_since_ns_, fathom::archive::kInstant);
-  archive("hold_since_ns", self.hold_since_ns_, fathom::archive::kInstant);
+template <class Archive, class Self>
+void ModelAiding::fields(Archive& archive, Self& self) {
+  archive("water", self.water_);
+}
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, AlignmentWatch>
+void fields(Archive& archive, Self& self) {
+  archive("phase", self.phase, AlignmentPhase::lost);
+  archive("phase_since_ns", self.phase_since_ns, fathom::archive::kInstant);
+  archive("waiting_since_ns", self.waiting_since_ns, fathom::archive::kInstant);
+  archive("hold_since_ns", self.hold_since_ns, fathom::archive::kInstant);
+}
+
+template <class Archive, class Self>
+void Starter::fields(Archive& archive, Self& self) {
   archive("window", self.window_);
   archive("smooth_force", self.smooth_force_, fathom::archive::finite());
   archive("smooth_time_s", self.smooth_time_s_, fathom::archive::at_least_zero());
   archive("gps_seen_ns", self.gps_seen_ns_, fathom::archive::kInstant);
   archive("gps_position", self.gps_position_);
-  archive("gps_velocity_N", self.gps_velocity_N_, kOrUnknown);
+  archive("gps_velocity_N", self.gps_velocity_N_, fathom::archive::or_unknown(fathom::archive::finite()));
   archive("gps_sigma_N_m", self.gps_sigma_N_m_, fathom::archive::at_least_zero());
   archive("gps_speed_m_s", self.gps_speed_m_s_,
           fathom::archive::or_unknown(fathom::archive::at_least_zero()));
   archive("fast_fixes", self.fast_fixes_, fathom::archive::kCount);
   archive("under_way", self.under_way_);
+}
+
+template <class Archive, class Self>
+void Descent::fields(Archive& archive, Self& self, const Setup& setup) {
   archive("released", self.released_);
-  archive("dropping", self.dropping_);
+  archive("dropping", self.aligning_);
   archive("regained", self.regained_);
   if constexpr (Archive::kReads) {
-    archive.expect(self.released_ || !(self.dropping_ || self.regained_), "released", "a release before");
-    if (self.released_) self.drop_ = DropAlignment(self.drop_config());
+    archive.expect(self.released_ || !(self.aligning_ || self.regained_), "released", "a release before");
+    if (self.released_) self.drop_ = DropAlignment(setup.drop_config());
   }
   archive("drop", self.drop_);
   archive("fall_dv_N", self.fall_dv_N_, fathom::archive::finite());
@@ -123,14 +139,41 @@ void Core::fields(Archive& archive, Self& self) {
   fathom::archive::covariance(archive, "fall_covariance", self.fall_covariance_);
   archive("fall_s", self.fall_s_, fathom::archive::at_least_zero());
   archive("carried_s", self.carried_s_, fathom::archive::at_least_zero());
-  archive("position_set", self.position_set_);
-  archive("set_position", self.set_position_);
-  archive("set_sigma_m", self.set_sigma_m_, fathom::archive::at_least_zero());
+}
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, OrderedPosition>
+void fields(Archive& archive, Self& self) {
+  archive("position_set", self.is_set);
+  archive("set_position", self.position);
+  archive("set_sigma_m", self.sigma_m, fathom::archive::at_least_zero());
+  if (!archive.since(2)) return;
+  archive("held_ns", self.held_ns, fathom::archive::kInstant);
+  archive("held_position", self.held_position);
+}
+
+/// Precondition of reading: `self` is a navigator of the setup that wrote it, as constructed. The parts stand
+/// in a row without braces between them, which is how they were written before there were parts; what came
+/// with a later version stands at the end.
+template <class Archive, class Self>
+void Navigator::fields(Archive& archive, Self& self) {
+  archive.left_out(self.setup_);
+  Estimate::fields(archive, self.estimate_);
+  archive("sensors", self.instruments_.sensors);
+  archive("gps_used_ns", self.usage_.gps_used_ns, fathom::archive::kInstant);
+  archive("usbl_used_ns", self.usage_.usbl_used_ns, fathom::archive::kInstant);
+  archive("dvl_used_ns", self.usage_.dvl_used_ns, fathom::archive::kInstant);
+  archive("velocity_used_ns", self.usage_.velocity_used_ns, fathom::archive::kInstant);
+  Reacquisition::fields(archive, self.reacquisition_);
+  Constraints::fields(archive, self.constraints_);
+  ModelAiding::fields(archive, self.model_);
+  estimation::fields(archive, self.alignment_);
+  Starter::fields(archive, self.starter_);
+  Descent::fields(archive, self.descent_, *self.setup_);
+  estimation::fields(archive, self.ordered_);
   if (archive.since(2)) {
-    archive("held_ns", self.held_ns_, fathom::archive::kInstant);
-    archive("held_position", self.held_position_);
-    archive("bottom_used_ns", self.bottom_used_ns_, fathom::archive::kInstant);
-    archive("water_layers", self.water_layers_);
+    archive("bottom_used_ns", self.usage_.bottom_used_ns, fathom::archive::kInstant);
+    archive("water_layers", self.instruments_.water_layers);
   }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }

@@ -2,17 +2,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/estimate.hpp"
 
 namespace fathom::estimation {
 
 using Eigen::Vector3d;
 
-Vector3d Core::rpy_sigma_rad() const {
-  if (!navigating_) return Vector3d::Constant(kUnknown);
-  if (dropping_) return drop_.rpy_sigma_rad();
+Vector3d rpy_sigma_rad(const Setup& setup, const Estimate& estimate) {
   // (OUT-1): how roll, pitch and yaw turn with the attitude error about N.
-  const OutputAttitude output = output_attitude();
+  const OutputAttitude output = output_attitude(setup, estimate);
   const Eigen::Matrix3d c = geo::to_matrix(output.q_NO);
   const double level = std::max(std::sqrt(c(0, 0) * c(0, 0) + c(1, 0) * c(1, 0)), 1e-3);  // cos(pitch)
   const double cosine = c(0, 0) / level;                                                  // of yaw
@@ -23,30 +21,32 @@ Vector3d Core::rpy_sigma_rad() const {
   return (j * output.covariance_N * j.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
-OutputAttitude Core::output_attitude() const {
+OutputAttitude output_attitude(const Setup& setup, const Estimate& estimate) {
+  const ErrorFilter& filter = estimate.filter;
+  const FilterState& state = estimate.state;
   OutputAttitude out;
-  out.q_NO = state_.nav.q_NB;
+  out.q_NO = state.nav.q_NB;
   for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) out.covariance_N(i, k) = filter_(6 + i, 6 + k);
-  const NonHolonomicConfig& wheels = setup_->config.constraints.non_holonomic;
-  if (setup_->config.output_axes == OutputAxes::body || !wheels.enabled) return out;
+    for (int k = 0; k < 3; ++k) out.covariance_N(i, k) = filter(6 + i, 6 + k);
+  const NonHolonomicConfig& wheels = setup.config.constraints.non_holonomic;
+  if (setup.config.output_axes == OutputAxes::body || !wheels.enabled) return out;
   // (OUT-3)
-  const int mount = setup_->index.of(Group::mount_angles);
+  const int mount = setup.index.of(Group::mount_angles);
   Vector3d angles = Vector3d::Zero();
   if (mount >= 0) {
     const auto at = static_cast<std::size_t>(mount);
-    angles.tail<2>() = Eigen::Vector2d(state_.x[at], state_.x[at + 1]);
+    angles.tail<2>() = Eigen::Vector2d(state.x[at], state.x[at + 1]);
   }
   const geo::Quaternion q_BO = geo::from_rpy(geo::vec(wheels.mounting_rpy_rad)) * geo::exp(angles);
   out.C_BO = geo::to_matrix(q_BO);
-  out.q_NO = geo::normalized(state_.nav.q_NB * q_BO);
+  out.q_NO = geo::normalized(state.nav.q_NB * q_BO);
   if (mount < 0) return out;
   const Eigen::Matrix<double, 3, 2> turn = geo::to_matrix(out.q_NO).rightCols<2>();
   Eigen::Matrix<double, 3, 2> shared;  // of the attitude error and the mount angles
   Eigen::Matrix2d own;
   for (int k = 0; k < 2; ++k) {
-    for (int i = 0; i < 3; ++i) shared(i, k) = filter_(6 + i, mount + k);
-    for (int i = 0; i < 2; ++i) own(i, k) = filter_(mount + i, mount + k);
+    for (int i = 0; i < 3; ++i) shared(i, k) = filter(6 + i, mount + k);
+    for (int i = 0; i < 2; ++i) own(i, k) = filter(mount + i, mount + k);
   }
   const Eigen::Matrix3d cross = shared * turn.transpose();
   out.covariance_N += cross + cross.transpose() + turn * own * turn.transpose();

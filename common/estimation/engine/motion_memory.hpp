@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "estimation/navigator/core.hpp"
+#include "estimation/navigator/navigator.hpp"
 
 namespace fathom::estimation {
 
@@ -23,7 +23,7 @@ class MotionMemory {
   };
 
   /// After each inertial step. Begins anew where the navigator does not navigate or the time axis jumps.
-  void watch(const Core& core);
+  void watch(const Navigator& navigator);
   [[nodiscard]] int size() const { return count_; }
   /// 0 is the oldest.
   [[nodiscard]] const Second& at(int index) const {
@@ -31,7 +31,7 @@ class MotionMemory {
   }
 
  private:
-  void open(const Core& core);
+  void open(const Navigator& navigator);
 
   std::array<Second, kSeconds> seconds_{};
   int next_ = 0;

@@ -1,9 +1,8 @@
-// In-motion alignment after a drop: while it lasts, the attitude is that of DropAlignment, and position and
-// velocity are what the specific force has made of the release since; then the filter takes over.
+#include "estimation/navigator/start/descent.hpp"
+
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/navigator/core.hpp"
 #include "geo/wgs84.hpp"
 
 namespace fathom::estimation {
@@ -12,8 +11,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A step longer than the nominal one by half is one with a sample missing.
-constexpr double kMissedSample = 1.5;
 // A heading known worse than this is none: the filter could not be linearised about it.
 constexpr double kHeadingLeft_rad = 0.79;
 // What an instrument may say at all.
@@ -22,8 +19,9 @@ constexpr double kMostRpm = 1e5;
 
 }  // namespace
 
-void Core::start_drop(const InitialState& initial) {
-  DropConfig config = drop_config();
+void Descent::start(const Setup& setup, const InitialState& initial, const Estimate& estimate,
+                    AlignmentWatch& alignment) {
+  DropConfig config = setup.drop_config();
   config.tilt_sigma_rad = std::max(initial.attitude_sigma_rad[0], initial.attitude_sigma_rad[1]);
   config.heading_sigma_rad = initial.attitude_sigma_rad[2];
   fall_covariance_.setZero();
@@ -32,86 +30,73 @@ void Core::start_drop(const InitialState& initial) {
     fall_covariance_(at, at) = std::pow(initial.position_sigma_N_m[i], 2);
     fall_covariance_(at + 3, at + 3) = std::pow(initial.velocity_sigma_N_m_s[i], 2);
   }
-  begin_drop(config);
+  begin(config, estimate, alignment);
 }
 
-void Core::restart_drop(double tilt_sigma_rad, double unobserved_s) {
-  DropConfig config = drop_config();
+void Descent::restart(const Setup& setup, double tilt_sigma_rad, double unobserved_s,
+                      const Estimate& estimate, AlignmentWatch& alignment) {
+  DropConfig config = setup.drop_config();
   config.tilt_sigma_rad = tilt_sigma_rad;
-  config.heading_sigma_rad = rpy_sigma_rad().z();
-  if (!dropping_) {
+  config.heading_sigma_rad = rpy_sigma_rad(setup, estimate).z();
+  if (!aligning_) {
     for (int i = 0; i < 6; ++i)
-      for (int k = 0; k < 6; ++k) fall_covariance_(i, k) = filter_(i, k);
+      for (int k = 0; k < 6; ++k) fall_covariance_(i, k) = estimate.filter(i, k);
     carried_s_ = fall_s_;
   }
   fall_s_ += unobserved_s;
-  carry_drop_covariance();
-  begin_drop(config);
+  carry_covariance(setup);
+  begin(config, estimate, alignment);
 }
 
-DropConfig Core::drop_config() const {
-  DropConfig config = setup_->config.air_drop;
-  for (const SensorConfig& one : setup_->config.sensors)
-    if (one.kind == SourceKind::propulsion && one.scale_m_s_per_rpm > 0.0)
-      config.speed_per_rpm = one.scale_m_s_per_rpm;
-  config.stability.max_gap_s =
-      std::min(config.stability.max_gap_s, kMissedSample / setup_->config.imu.nominal_rate_hz);
-  return config;
-}
-
-void Core::begin_drop(const DropConfig& config) {
+void Descent::begin(const DropConfig& config, const Estimate& estimate, AlignmentWatch& alignment) {
   drop_ = DropAlignment(config);
-  drop_.start(state_.nav.q_NB);
-  dropping_ = released_ = true;
+  drop_.start(estimate.state.nav.q_NB);
+  aligning_ = released_ = true;
   regained_ = false;
   fall_dv_N_.setZero();
   fall_dp_N_.setZero();
   fall_s_ = carried_s_ = 0.0;
-  hold_since_ns_ = 0;
-  enter(drop_.phase());
+  alignment.hold_since_ns = 0;
+  alignment.enter(drop_.phase(), estimate.now_ns);
 }
 
-bool Core::resume_drop(double gap_s) {
+bool Descent::resume(const Setup& setup, double gap_s, Estimate& estimate, AlignmentWatch& alignment) {
   // (ALN-19)
-  if (!released_ || !navigating_) return false;
-  const GapSigma sigma(setup_->config.imu, gap_s);
-  const Vector3d rpy = rpy_sigma_rad();
+  if (!released_ || !estimate.navigating) return false;
+  const GapSigma sigma(setup.config.imu, gap_s);
+  const Vector3d rpy = rpy_sigma_rad(setup, estimate);
   if (std::hypot(rpy.z(), sigma.angle_rad) > kHeadingLeft_rad) return false;
-  restart_drop(std::max(rpy.x(), rpy.y()), gap_s);
+  restart(setup, std::max(rpy.x(), rpy.y()), gap_s, estimate, alignment);
   drop_.lose();
-  for (int i = 0; i < 3; ++i) {
-    filter_.widen(i, sigma.position_m * sigma.position_m);
-    filter_.widen(3 + i, sigma.velocity_m_s * sigma.velocity_m_s);
-    filter_.widen(6 + i, sigma.angle_rad * sigma.angle_rad);
-  }
-  widen_drop(sigma);
+  estimate.widen(sigma);
+  widen(setup, sigma);
   regained_ = true;
-  enter(drop_.phase());
+  alignment.enter(drop_.phase(), estimate.now_ns);
   return true;
 }
 
-void Core::widen_drop(const GapSigma& sigma) {
+void Descent::widen(const Setup& setup, const GapSigma& sigma) {
   drop_.widen(sigma.angle_rad, sigma.velocity_m_s, sigma.position_m);
-  carry_drop_covariance();
+  carry_covariance(setup);
   fall_covariance_.diagonal().head<3>().array() += sigma.position_m * sigma.position_m;
   fall_covariance_.diagonal().tail<3>().array() += sigma.velocity_m_s * sigma.velocity_m_s;
 }
 
-void Core::carry_drop_covariance() {
+void Descent::carry_covariance(const Setup& setup) {
   // A constant velocity error moves the position; an accelerometer bias moves both.
   const double t = fall_s_ - carried_s_;
   carried_s_ = fall_s_;
   Eigen::Matrix<double, 6, 6> phi = Eigen::Matrix<double, 6, 6>::Identity();
   phi.topRightCorner<3, 3>() = t * Matrix3d::Identity();
   fall_covariance_ = (phi * fall_covariance_ * phi.transpose()).eval();
-  const double bias = setup_->config.air_drop.accel_sigma_m_s2;
+  const double bias = setup.config.air_drop.accel_sigma_m_s2;
   Eigen::Matrix<double, 6, 3> g;
   g << 0.5 * t * t * bias * Matrix3d::Identity(), t * bias * Matrix3d::Identity();
   fall_covariance_ += g * g.transpose();
 }
 
-void Core::place_drop(int axes, double sigma_m) {
-  carry_drop_covariance();
+void Descent::place(const Setup& setup, int axes, double sigma_m) {
+  carry_covariance(setup);
   for (int i = 0; i < axes; ++i) {
     fall_covariance_.row(i).setZero();
     fall_covariance_.col(i).setZero();
@@ -120,81 +105,82 @@ void Core::place_drop(int axes, double sigma_m) {
   }
 }
 
-void Core::turn_drop(const Vector3d& rotation_N_rad) {
+void Descent::turn(const Vector3d& rotation_N_rad, Estimate& estimate) {
   // (ALN-16)
-  const Matrix3d turn = geo::to_matrix(geo::exp(rotation_N_rad)) - Matrix3d::Identity();
-  const Vector3d dv = turn * fall_dv_N_;
-  const Vector3d dp = turn * fall_dp_N_;
-  state_.nav.v_N_m_s += dv;
-  state_.nav.position = geo::moved_by(state_.nav.position, dp);
+  const Matrix3d rotation = geo::to_matrix(geo::exp(rotation_N_rad)) - Matrix3d::Identity();
+  const Vector3d dv = rotation * fall_dv_N_;
+  const Vector3d dp = rotation * fall_dp_N_;
+  estimate.state.nav.v_N_m_s += dv;
+  estimate.state.nav.position = geo::moved_by(estimate.state.nav.position, dp);
   fall_dv_N_ += dv;
   fall_dp_N_ += dp;
-  state_.nav.q_NB = drop_.q_NB();
+  estimate.state.nav.q_NB = drop_.q_NB();
 }
 
-void Core::advance_drop(const ImuStep& step) {
+void Descent::advance(const Setup& setup, const ImuStep& step, Estimate& estimate,
+                      AlignmentWatch& alignment) {
   const double dt_s = to_seconds(step.to_ns - step.from_ns);
   if (step.gap_s > 0.0) drop_.interrupt(StabilityReset::gap);
   if (step.fault == ImuFault::not_finite) drop_.interrupt(StabilityReset::not_finite);
   if (step.fault == ImuFault::stale) drop_.interrupt(StabilityReset::stale);
   if (!(dt_s > 0.0)) return;
-  const NavSolution& nav = state_.nav;
+  const NavSolution& nav = estimate.state.nav;
   // The attitude is that of the end of the step.
-  const Matrix3d c = geo::to_matrix(nav.q_NB * geo::exp(-0.5 * dt_s * rate_B_));
-  const Vector3d force_N = c * force_B_;
+  const Matrix3d c = geo::to_matrix(nav.q_NB * geo::exp(-0.5 * dt_s * estimate.rate_B_rad_s));
+  const Vector3d force_N = c * estimate.force_B_m_s2;
   fall_dp_N_ += dt_s * fall_dv_N_ + 0.5 * dt_s * dt_s * force_N;
   fall_dv_N_ += dt_s * force_N;
   fall_s_ += dt_s;
 
   DropStep in;
   in.dt_s = dt_s;
-  in.rate_IB_B_rad_s = rate_B_;
-  in.force_B_m_s2 = force_B_;
+  in.rate_IB_B_rad_s = estimate.rate_B_rad_s;
+  in.force_B_m_s2 = estimate.force_B_m_s2;
   in.earth_rate_N_rad_s = geo::earth_rate_N(nav.position.latitude_rad);
   in.rate_IN_N_rad_s = in.earth_rate_N_rad_s + geo::transport_rate_N(nav.position, nav.v_N_m_s);
   in.g_m_s2 = geo::gravity(nav.position.latitude_rad, nav.position.altitude_m);
-  turn_drop(drop_.add(in));
-  enter(drop_.phase());
-  if (drop_.phase() == AlignmentPhase::aligned) hand_over_drop();
+  turn(drop_.add(in), estimate);
+  alignment.enter(drop_.phase(), estimate.now_ns);
+  if (drop_.phase() == AlignmentPhase::aligned) hand_over(setup, estimate, alignment);
 }
 
-std::optional<Judgement> Core::feed_drop(const Measurement& measurement) {
+std::optional<Judgement> Descent::feed(const Setup& setup, const Measurement& measurement,
+                                       Estimate& estimate) {
   Judgement out;
-  const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(measurement.sensor)];
+  const SensorConfig& config = setup.sensor(measurement.sensor);
   if (const auto* depth = std::get_if<DepthSample>(&measurement.sample)) {
     if (!(std::abs(depth->depth_m) < kDeepest_m)) {
       out.kind = VerdictKind::out_of_range;
       return out;
     }
     const double lever_m = (geo::to_matrix(drop_.q_NB()) * geo::vec(config.lever_B_m)).z();
-    turn_drop(drop_.add_depth(depth->depth_m - lever_m));
+    turn(drop_.add_depth(depth->depth_m - lever_m), estimate);
   } else if (const auto* propulsion = std::get_if<PropulsionSample>(&measurement.sample)) {
     if (!(std::abs(propulsion->rpm) < kMostRpm)) {
       out.kind = VerdictKind::out_of_range;
       return out;
     }
-    turn_drop(drop_.add_rpm(propulsion->rpm));
+    turn(drop_.add_rpm(propulsion->rpm), estimate);
   } else {
     return std::nullopt;
   }
   out.kind = VerdictKind::used;
   out.model = "in_motion_alignment";
-  sensors_[static_cast<std::size_t>(measurement.sensor)].used_ns = now_ns_;
   return out;
 }
 
-void Core::hand_over_drop() {
+void Descent::hand_over(const Setup& setup, Estimate& estimate, AlignmentWatch& alignment) {
   // (ALN-17)
-  dropping_ = false;
-  carry_drop_covariance();
-  filter_.reset(setup_->initial_sigma);
+  aligning_ = false;
+  carry_covariance(setup);
+  estimate.filter.reset(setup.initial_sigma);
   const Matrix3d attitude = drop_.attitude_covariance();
   Eigen::Matrix<double, 6, 3> arm;
   arm << geo::skew(fall_dp_N_), geo::skew(fall_dv_N_);
   Eigen::Matrix<double, 6, 3> cross = arm * attitude;
   Eigen::Matrix<double, 6, 6> motion = fall_covariance_ + cross * arm.transpose();
   const TiltFilter& fine = drop_.filter();
-  const int accel = setup_->index.of(Group::accel_bias);
+  const int accel = setup.index.of(Group::accel_bias);
   const auto fine_accel = fine.covariance().block<3, 3>(TiltFilter::kAccel, TiltFilter::kAccel);
   const auto fine_tilt = fine.covariance().block<3, 3>(TiltFilter::kPhi, TiltFilter::kAccel);
   Eigen::Matrix<double, 6, 3> motion_accel = arm * fine_tilt;
@@ -205,8 +191,8 @@ void Core::hand_over_drop() {
     const auto fine_v_phi = p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kPhi);
     const Matrix3d turned = geo::skew(fine.v_N_m_s());
     const Matrix3d v_phi = turned * attitude - fine_v_phi;
-    const double current = setup_->config.states.current_sigma_m_s;
-    state_.nav.v_N_m_s = fine.v_N_m_s();
+    const double current = setup.config.states.current_sigma_m_s;
+    estimate.state.nav.v_N_m_s = fine.v_N_m_s();
     motion.topRightCorner<3, 3>() = arm.topRows<3>() * v_phi.transpose();
     motion.bottomLeftCorner<3, 3>() = motion.topRightCorner<3, 3>().transpose();
     motion.bottomRightCorner<3, 3>() = v_phi * turned.transpose() - turned * fine_v_phi.transpose() + fine_v +
@@ -216,21 +202,21 @@ void Core::hand_over_drop() {
         turned * fine_tilt - p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kAccel);
   }
   for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k <= i; ++k) filter_.set(i, k, motion(i, k));
+    for (int k = 0; k <= i; ++k) estimate.filter.set(i, k, motion(i, k));
     for (int k = 0; k < 3; ++k) {
-      filter_.set(i, 6 + k, cross(i, k));
-      filter_.set(i, accel + k, motion_accel(i, k));
+      estimate.filter.set(i, 6 + k, cross(i, k));
+      estimate.filter.set(i, accel + k, motion_accel(i, k));
     }
   }
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k <= i; ++k) {
-      filter_.set(6 + i, 6 + k, attitude(i, k));
-      filter_.set(accel + i, accel + k, fine_accel(i, k));
+      estimate.filter.set(6 + i, 6 + k, attitude(i, k));
+      estimate.filter.set(accel + i, accel + k, fine_accel(i, k));
     }
-    for (int k = 0; k < 3; ++k) filter_.set(6 + i, accel + k, fine_tilt(i, k));
-    state_.x[static_cast<std::size_t>(accel + i)] += fine.bias()(TiltFilter::kAccel + i);
+    for (int k = 0; k < 3; ++k) estimate.filter.set(6 + i, accel + k, fine_tilt(i, k));
+    estimate.state.x[static_cast<std::size_t>(accel + i)] += fine.bias()(TiltFilter::kAccel + i);
   }
-  hold_since_ns_ = now_ns_;
+  alignment.hold_since_ns = estimate.now_ns;
 }
 
 }  // namespace fathom::estimation

@@ -1,0 +1,62 @@
+#include "estimation/navigator/constraints.hpp"
+
+#include "estimation/aiding/constant_depth.hpp"
+#include "estimation/aiding/non_holonomic.hpp"
+#include "estimation/aiding/zero_velocity.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+/// A tick of the grid of this rate lies within the step.
+bool due(const ImuStep& step, double rate_hz) {
+  const DurationNs period = from_seconds(1.0 / rate_hz);
+  return step.to_ns / period != step.from_ns / period;
+}
+
+template <class Model>
+void constrain(const Setup& setup, const Model& model, Estimate& estimate) {
+  Observation observation;
+  observe(model, setup.index, observation);
+  observation.each_alone = true;
+  observation.list_columns(setup.index.size());
+  InnovationStatistics statistics;
+  const GateResult result =
+      gate(estimate.filter, setup.constraint_gate, setup.constraint_limits, observation, statistics);
+  std::array<double, kMaxStates> x{};
+  if (result.pass) (void)estimate.update(observation, statistics, x);
+}
+
+/// (AID-ZUPT-1)
+bool apply_zero_velocity(const Setup& setup, Estimate& estimate) {
+  const AidingState state = estimate.aiding_state(setup);
+  Observation observation;
+  observe(ZeroVelocity(state, setup.config.zero_velocity_sigma_m_s), setup.index, observation);
+  observation.list_columns(setup.index.size());
+  InnovationStatistics statistics;
+  estimate.filter.statistics(observation, 1.0, statistics);
+  std::array<double, kMaxStates> x{};
+  // Somebody's word is not better than the instruments: nothing is believed that is far from possible.
+  return !(statistics.squared_distance > 100.0) && estimate.update(observation, statistics, x);
+}
+
+}  // namespace
+
+bool Constraints::apply(const Setup& setup, const ImuStep& step, Estimate& estimate) {
+  const ConstraintsConfig& config = setup.config.constraints;
+  bool rested = false;
+  if (estimate.now_ns < rest_until_ns_ && estimate.now_ns >= next_zero_velocity_ns_) {
+    next_zero_velocity_ns_ = estimate.now_ns + kNsPerSecond;
+    rested = apply_zero_velocity(setup, estimate);
+  }
+  if (config.non_holonomic.enabled && due(step, config.non_holonomic.rate_hz)) {
+    const AidingState state = estimate.aiding_state(setup);
+    constrain(setup, NonHolonomic(state, config.non_holonomic), estimate);
+  }
+  if (config.constant_depth.enabled && due(step, config.constant_depth.rate_hz)) {
+    const AidingState state = estimate.aiding_state(setup);
+    constrain(setup, ConstantDepth(state, config.constant_depth.sigma_m_s), estimate);
+  }
+  return rested;
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,97 @@
+#include "estimation/navigator/estimate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::estimation {
+
+using Eigen::Vector3d;
+
+void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns) {
+  const double whole_s = step.increments.dt_s;
+  const double fraction =
+      static_cast<double>(until_ns - now_ns) / static_cast<double>(step.to_ns - step.from_ns);
+  now_ns = until_ns;
+  if (!(fraction > 0.0)) return;
+  const auto& x = state.x;
+  const StateIndex& index = setup.index;
+  const double per_s = 1.0 / whole_s;
+  rate_B_rad_s = corrected_rate(index, x, per_s * step.increments.dtheta_rad);
+  force_B_m_s2 = corrected_force(index, x, per_s * step.increments.dv_m_s);
+  if (!navigating) return;
+
+  Increments in;
+  in.dt_s = whole_s;
+  in.dtheta_rad = whole_s * rate_B_rad_s;
+  in.dv_m_s = whole_s * force_B_m_s2;
+  in.dtheta_before_rad = whole_s * corrected_rate(index, x, per_s * step.increments.dtheta_before_rad);
+  in.dv_before_m_s = whole_s * corrected_force(index, x, per_s * step.increments.dv_before_m_s);
+  const double dt = fraction * whole_s;
+
+  const geo::LocalEarth earth(state.nav.position);
+  const Eigen::Matrix3d c = geo::to_matrix(state.nav.q_NB);
+  const Vector3d v_before = state.nav.v_N_m_s;
+  const ErrorRates rates = error_rates(earth, v_before, c * force_B_m_s2);
+  filter.propagate(NavTransition(index, rates, c, rate_B_rad_s, force_B_m_s2, dt),
+                   setup.process_noise(c, rate_B_rad_s, force_B_m_s2));
+  settle_biases(setup, filter, -dt, dt);
+  state.nav = mechanise(state.nav, earth, c, correct(in, fraction));
+  travelled_N_m += 0.5 * dt * (v_before + state.nav.v_N_m_s);
+  for (const std::uint8_t one : setup.drift.decaying()) state.x[one] *= setup.drift.kept(one, dt);
+}
+
+void Estimate::settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {
+  // (NOISE-2)
+  const ImuConfig& imu = setup.config.imu;
+  if (imu.gyro_bias_settling_rad_s <= 0.0 && imu.accel_bias_settling_m_s2 <= 0.0) return;
+  const double age_s = std::max(to_seconds(now_ns - began_ns) + ahead_s, 0.0);
+  const double rate = 2.0 / imu.bias_settling_time_s;
+  const double share = std::exp(-rate * age_s) - std::exp(-rate * (age_s + dt_s));
+  const auto widen_group = [&](Group group, double sigma) {
+    const int first = setup.index.of(group);
+    for (int i = 0; i < 3; ++i) covariance.widen(first + i, share * sigma * sigma);
+  };
+  widen_group(Group::gyro_bias, imu.gyro_bias_settling_rad_s);
+  widen_group(Group::accel_bias, imu.accel_bias_settling_m_s2);
+}
+
+void Estimate::widen(const GapSigma& sigma) {
+  for (int i = 0; i < 3; ++i) {
+    filter.widen(i, sigma.position_m * sigma.position_m);
+    filter.widen(3 + i, sigma.velocity_m_s * sigma.velocity_m_s);
+    filter.widen(6 + i, sigma.angle_rad * sigma.angle_rad);
+  }
+}
+
+bool Estimate::update(const Observation& observation, const InnovationStatistics& statistics,
+                      std::array<double, kMaxStates>& x) {
+  if (!filter.update(observation, statistics, x)) return false;
+  remove_error(x, filter.size(), state);
+  return true;
+}
+
+void Estimate::replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance) {
+  const auto bias = [&](const FilterState& of, Group group) {
+    const auto at = static_cast<std::size_t>(setup.index.of(group));
+    return Vector3d(of.x[at], of.x[at + 1], of.x[at + 2]);
+  };
+  rate_B_rad_s += bias(state, Group::gyro_bias) - bias(other, Group::gyro_bias);
+  force_B_m_s2 += bias(state, Group::accel_bias) - bias(other, Group::accel_bias);
+  state = other;
+  filter = covariance;
+}
+
+void Estimate::begin(const FilterState& start, const std::array<double, kMaxStates>& sigma) {
+  state = start;
+  filter.reset(sigma);
+  navigating = levelled = true;
+  began_ns = now_ns;
+}
+
+Vector3d Estimate::current_N_m_s(const Setup& setup) const {
+  const int at = setup.index.of(Group::current);
+  if (at < 0) return Vector3d::Zero();
+  return {state.x[static_cast<std::size_t>(at)], state.x[static_cast<std::size_t>(at) + 1], 0.0};
+}
+
+}  // namespace fathom::estimation

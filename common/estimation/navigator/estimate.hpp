@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+
+#include "base/unknown.hpp"
+#include "estimation/aiding/model.hpp"
+#include "estimation/filter/error_filter.hpp"
+#include "estimation/navigator/inertial_step.hpp"
+#include "estimation/navigator/setup.hpp"
+
+namespace fathom::estimation {
+
+/// What is believed of the vehicle at an instant: state, covariance, rate and specific force. Every part of
+/// the navigator acts on it; what only one part needs is kept there.
+struct Estimate {
+  explicit Estimate(const Setup& setup) : filter(setup.index.size()) {}
+
+  TimeNs now_ns = 0;
+  bool navigating = false;  ///< state and filter are an estimate
+  bool levelled = false;    ///< roll and pitch of the state are
+  TimeNs began_ns = 0;      ///< when navigation did
+  FilterState state;
+  ErrorFilter filter;
+  Eigen::Vector3d rate_B_rad_s = Eigen::Vector3d::Zero();   ///< against the stars, bias-corrected
+  Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();   ///< specific force, bias-corrected
+  Eigen::Vector3d travelled_N_m = Eigen::Vector3d::Zero();  ///< integral of the velocity
+
+  /// Seconds since an instant; unknown when it is 0, which stands for never.
+  [[nodiscard]] double since(TimeNs stamp_ns) const {
+    return stamp_ns == 0 ? kUnknown : to_seconds(now_ns - stamp_ns);
+  }
+  /// Integrates within the interval, from now_ns until an instant in it.
+  void advance(const Setup& setup, const ImuStep& step, TimeNs until_ns);
+  /// Adds to `covariance` what the settling biases move by in `dt_s` from `ahead_s` after now on (NOISE-2).
+  void settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const;
+  /// Something may have happened while nothing was measured.
+  void widen(const GapSigma& sigma);
+  /// Takes a gated measurement in and moves the state by the estimated error `x` (KF-3, KF-4). False, with
+  /// nothing changed, when the statistics are not positive.
+  bool update(const Observation& observation, const InnovationStatistics& statistics,
+              std::array<double, kMaxStates>& x);
+  /// Another estimate for the same instant, as the smoother has it.
+  void replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance);
+  /// Begins to navigate: the filter knows nothing but `sigma`.
+  void begin(const FilterState& start, const std::array<double, kMaxStates>& sigma);
+
+  [[nodiscard]] AidingState aiding_state(const Setup& setup) const {
+    return {setup.index, state, rate_B_rad_s, setup.magnetic_variation_rad(), force_B_m_s2};
+  }
+  /// Horizontal motion of the water or the air, along N; zero where it is not estimated.
+  [[nodiscard]] Eigen::Vector3d current_N_m_s(const Setup& setup) const;
+
+  /// For archives: see fields/navigator.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+};
+
+/// The axes O that are published, B or the wheels', and how well they are known.
+struct OutputAttitude {
+  geo::Quaternion q_NO;
+  Eigen::Matrix3d covariance_N = Eigen::Matrix3d::Zero();  ///< of their attitude error about N, rad^2
+  std::optional<Eigen::Matrix3d> C_BO;                     ///< none where they are B itself
+
+  /// A vector given along B, along these axes.
+  [[nodiscard]] Eigen::Vector3d along(const Eigen::Vector3d& a_B) const {
+    return C_BO ? Eigen::Vector3d(C_BO->transpose() * a_B) : a_B;
+  }
+};
+
+// output_axes.cpp
+/// (OUT-3)
+[[nodiscard]] OutputAttitude output_attitude(const Setup& setup, const Estimate& estimate);
+/// (OUT-1) Sigmas of roll, pitch and yaw of those axes, as the filter has them.
+[[nodiscard]] Eigen::Vector3d rpy_sigma_rad(const Setup& setup, const Estimate& estimate);
+
+}  // namespace fathom::estimation

@@ -1,0 +1,31 @@
+#include "estimation/navigator/instruments.hpp"
+
+#include <cmath>
+
+namespace fathom::estimation {
+namespace {
+
+/// Equal, and not all of them unknown.
+bool same(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  bool any = false;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::isnan(a[i]) != std::isnan(b[i])) return false;
+    if (!std::isnan(a[i]) && a[i] != b[i]) return false;
+    any = any || !std::isnan(a[i]);
+  }
+  return any;
+}
+
+}  // namespace
+
+bool Instrument::is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction,
+                           double limit) {
+  if (!same(now, reading)) {
+    reading = now;
+    first_prediction = prediction;
+    return false;
+  }
+  return (prediction - first_prediction).norm() > limit;
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+
+#include "estimation/navigator/measurement.hpp"
+#include "estimation/navigator/setup.hpp"
+
+namespace fathom::estimation {
+
+/// What the navigator remembers about one instrument.
+struct Instrument {
+  bool enabled = true;
+  TimeNs stamp_ns = 0;  ///< of the last measurement, 0 before the first
+  TimeNs used_ns = 0;
+  // Readings that repeat.
+  std::array<double, 3> reading{kUnknown, kUnknown, kUnknown};
+  Eigen::Vector3d first_prediction = Eigen::Vector3d::Zero();
+  bool repeats = false;
+  // Rejections that agree with each other.
+  struct Rejections {
+    TimeNs since_ns = 0;
+    int count = 0;
+    std::array<double, Observation::kMaxRows> innovation{};
+  };
+  /// Of each row where rows are judged alone, else all of them in the first.
+  std::array<Rejections, Observation::kMaxRows> rejections{};
+  // Refused fixes of a position that may yet prove right: the way by the velocity less that of the fixes.
+  struct Candidate {
+    TimeNs refused_since_ns = 0;  ///< the first refusal since the last use
+    TimeNs since_ns = 0;          ///< of those that agree with each other and the motion; 0: none
+    TimeNs last_ns = 0;
+    int count = 0;
+    geo::Geodetic origin;  ///< the estimate at the first
+    Eigen::Vector2d first_N_m = Eigen::Vector2d::Zero();
+    Eigen::Vector2d last_N_m = Eigen::Vector2d::Zero();
+  };
+  Candidate candidate;
+
+  /// The reading has stood still while `prediction` moved by more than `limit`. Notes a new reading.
+  [[nodiscard]] bool is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction,
+                               double limit);
+  /// Visits each instant that is remembered.
+  template <class Self, class Visit>
+  static void for_each_instant(Self& self, Visit&& visit) {
+    visit(self.stamp_ns);
+    visit(self.used_ns);
+    for (auto& one : self.rejections) visit(one.since_ns);
+    visit(self.candidate.refused_since_ns);
+    visit(self.candidate.since_ns);
+    visit(self.candidate.last_ns);
+  }
+};
+
+/// All instruments of the configuration. A ping of a DVL measures the bottom and the water layer, both of one
+/// stamp: two instruments in one.
+struct Instruments {
+  explicit Instruments(const Setup& setup) {
+    for (std::size_t i = 0; i < setup.config.sensors.size(); ++i)
+      sensors[i].enabled = setup.config.sensors[i].enabled;
+  }
+
+  std::array<Instrument, kMaxSensors> sensors{};
+  std::array<Instrument, kMaxWaterLayers> water_layers{};
+
+  [[nodiscard]] bool enabled(const Measurement& measurement) const {
+    return sensors[static_cast<std::size_t>(measurement.sensor)].enabled;
+  }
+  [[nodiscard]] Instrument& behind(const Setup& setup, const Measurement& measurement) {
+    const auto slot = static_cast<std::size_t>(measurement.sensor);
+    const int layer = setup.water_layer[slot];
+    return is_of_water(measurement.sample) && layer >= 0 ? water_layers[static_cast<std::size_t>(layer)]
+                                                         : sensors[slot];
+  }
+  template <class Self, class Visit>
+  static void for_each(Self& self, Visit&& visit) {
+    for (auto& one : self.sensors) visit(one);
+    for (auto& one : self.water_layers) visit(one);
+  }
+};
+
+}  // namespace fathom::estimation

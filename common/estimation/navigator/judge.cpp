@@ -1,0 +1,245 @@
+// One measurement's way: admit, observe, gate, reacquire, update, account.
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/aiding/model_velocity.hpp"
+#include "estimation/aiding/registry.hpp"
+#include "estimation/filter/sigma_range.hpp"
+#include "estimation/navigator/navigator.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kMostRoom = 1e6;
+/// Beyond it a velocity along the vehicle must not be taken for a heading.
+constexpr double kDoubtfulHeading_rad = 0.1;
+
+VerdictKind verdict_of(Usable usable) {
+  switch (usable) {
+    case Usable::yes:
+      return VerdictKind::used;
+    case Usable::out_of_range:
+      return VerdictKind::out_of_range;
+    case Usable::no_fix:
+      return VerdictKind::no_fix;
+    case Usable::unknown_frame:
+      return VerdictKind::unknown_frame;
+    case Usable::not_estimated:
+    case Usable::other_model:
+      break;
+  }
+  return VerdictKind::source_disabled;
+}
+
+}  // namespace
+
+struct Navigator::Trial {
+  const Measurement& measurement;
+  const SensorConfig& config;
+  const SensorConfig* rules;  ///< of the gate: the sensor's, or the vehicle model's
+  const GateLimits* limits;
+  Instrument& instrument;
+  Judgement judgement{};
+  ModelAiding::Drive drive = ModelAiding::Drive::nothing;
+  ModelAiding::Trial model{};
+  bool modelled = false;  ///< the vehicle model speaks for the shaft speed
+  AidingPolicy policy{};
+  bool with_position = false;
+  bool fix = false;     ///< it is refused or believed by how it agrees with the motion
+  Observation whole{};  ///< every row
+  Observation kept{};   ///< the rows that act, with the noise they act with
+  InnovationStatistics statistics{};
+  GateResult gated{};
+  bool stepped = false;  ///< the position steps with it
+  std::array<double, kMaxStates> x{};
+
+  /// Ends the way.
+  bool end(VerdictKind kind) {
+    judgement.kind = kind;
+    return false;
+  }
+  /// What the verdict says of all rows, whichever of them act.
+  void describe() {
+    judgement.dimensions = static_cast<std::uint32_t>(whole.rows);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(whole.rows); ++i) {
+      judgement.innovation[i] = whole.innovation[i];
+      judgement.innovation_sigma[i] = gated.innovation_sigma[i];
+    }
+    judgement.test_ratio = gated.test_ratio;
+    judgement.limit = gated.limit;
+  }
+};
+
+Judgement Navigator::judge(const Measurement& measurement) {
+  const auto slot = static_cast<std::size_t>(measurement.sensor);
+  Trial trial{.measurement = measurement,
+              .config = setup_->config.sensors[slot],
+              .rules = &setup_->config.sensors[slot],
+              .limits = &setup_->limits[slot],
+              .instrument = instruments_.behind(*setup_, measurement)};
+  if (!admit(trial) || !observe(trial)) return trial.judgement;
+  gate(trial);
+  reacquire(trial);
+  if (update(trial)) account(trial);
+  return trial.judgement;
+}
+
+bool Navigator::admit(Trial& trial) {
+  const Measurement& measurement = trial.measurement;
+  Instrument& instrument = trial.instrument;
+  if (!instruments_.enabled(measurement)) return trial.end(VerdictKind::source_disabled);
+  if (instrument.stamp_ns == measurement.stamp_ns && instrument.stamp_ns != 0)
+    return trial.end(VerdictKind::duplicate);
+  instrument.stamp_ns = measurement.stamp_ns;
+  if (trial.config.use_sample_sigma && !sound_sigmas(measurement.sample))
+    return trial.end(VerdictKind::out_of_range);
+  starter_.collect(*setup_, estimate_, measurement);
+  trial.drive = model_.drive(*setup_, estimate_, measurement);
+  if (!estimate_.navigating) return trial.end(VerdictKind::not_aligned);
+  if (descent_.aligning()) {
+    const std::optional<Judgement> fed = descent_.feed(*setup_, measurement, estimate_);
+    if (!fed) return trial.end(VerdictKind::not_aligned);
+    trial.judgement = *fed;
+    if (fed->kind == VerdictKind::used) instrument.used_ns = estimate_.now_ns;
+    return false;
+  }
+  return true;
+}
+
+bool Navigator::observe(Trial& trial) {
+  const EngineConfig& config = setup_->config;
+  const EventSample& sample = trial.measurement.sample;
+  if (trial.drive == ModelAiding::Drive::fins) {
+    // They serve the model alone: what speaks against it speaks against them.
+    trial.judgement.model = ModelVelocity::kName;
+    return trial.end(model_.is_doubted(config.vehicle_model) ? VerdictKind::rejected : VerdictKind::used);
+  }
+  const AidingState state = estimate_.aiding_state(*setup_);
+  if (trial.drive == ModelAiding::Drive::shaft) {
+    const bool vouched = estimate_.since(usage_.dvl_used_ns) <= config.velocity_timeout_s;
+    trial.model = model_.consider(*setup_, estimate_, state, std::get<PropulsionSample>(sample), vouched);
+    // A model that proves wrong leaves the shaft speed to the speed log, where one is configured.
+    const bool wrong = trial.model.usable && !(trial.model.believed && trial.model.fits);
+    trial.modelled = !(wrong && trial.config.scale_m_s_per_rpm != 0.0);
+  }
+  if (trial.modelled) {
+    trial.rules = &setup_->model_gate;
+    trial.limits = &setup_->model_limits;
+  }
+  const AidingInput input{.state = state,
+                          .sensor = trial.config,
+                          .surface_altitude_m = config.states.surface_altitude_m,
+                          .vehicle_model = &config.vehicle_model,
+                          .water = trial.modelled ? &model_.water_velocity() : nullptr,
+                          .unused_s = estimate_.since(trial.instrument.used_ns)};
+  Usable first_refusal = Usable::yes;
+  for (const AidingEntry& entry : aiding_registry()) {
+    if (entry.source != trial.measurement.source) continue;
+    const Usable usable = entry.observe(input, sample, trial.whole);
+    if (usable == Usable::yes) {
+      const AidingPolicy policy = entry.policy(trial.config, sample);
+      if (trial.judgement.model.empty()) {
+        trial.judgement.model = entry.name;
+        trial.policy = policy;
+      } else {
+        trial.policy.merge(policy);
+      }
+    } else if (first_refusal == Usable::yes && usable != Usable::other_model) {
+      first_refusal = usable;
+    }
+  }
+  if (trial.modelled) model_.measured();
+  if (trial.whole.rows == 0)
+    return trial.end(first_refusal == Usable::yes ? VerdictKind::source_disabled : verdict_of(first_refusal));
+  trial.with_position = trial.policy.position && measures(trial.whole, 0, 0);
+  trial.fix = trial.policy.follows_motion && trial.with_position;
+  trial.whole.list_columns(setup_->index.size());
+  return true;
+}
+
+void Navigator::gate(Trial& trial) const {
+  trial.kept = trial.whole;
+  trial.gated = estimation::gate(estimate_.filter, *trial.rules, *trial.limits, trial.kept, trial.statistics);
+}
+
+void Navigator::reacquire(Trial& trial) {
+  Judgement& judgement = trial.judgement;
+  GateResult& gated = trial.gated;
+  if (is_frozen(trial)) {
+    judgement.kind = VerdictKind::frozen;
+    trial.describe();
+    return;
+  }
+  const bool probation = is_on_probation(trial);
+  const unsigned refused = probation ? (1U << trial.whole.rows) - 1U : gated.refused;
+  const unsigned believed = reacquisition_.believed_rows(trial.instrument, *trial.rules, estimate_,
+                                                         trial.whole, refused, trial.fix);
+  if (probation && believed == 0) {
+    gated.pass = false;
+    gated.limit = trial.config.reacquire_step_m;
+    gated.test_ratio = std::hypot(trial.whole.innovation[0], trial.whole.innovation[1]) / gated.limit;
+  }
+  for (double room = 1.0; (believed & gated.refused) != 0 && room < kMostRoom; room *= 4.0) {
+    // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
+    std::array<double, kNavStates> variance{};
+    Reacquisition::make_room(trial.policy, trial.instrument, estimate_, trial.whole, believed, room,
+                             variance);
+    estimate_.filter.widen_drifted(variance);
+    gate(trial);
+  }
+  trial.stepped = gated.pass && believed != 0 && trial.with_position;
+  if (gated.pass && trial.fix)
+    trial.stepped =
+        Reacquisition::bound_step(trial.config, estimate_, trial.kept, trial.statistics) || trial.stepped;
+  const bool disputed = trial.fix && Reacquisition::disputed(trial.instrument, trial.config, estimate_);
+  judgement.kind = gated.pass ? VerdictKind::used : disputed ? VerdictKind::disputed : VerdictKind::rejected;
+  if (trial.modelled && !trial.model.believed) judgement.kind = VerdictKind::rejected;
+  trial.describe();
+}
+
+bool Navigator::update(Trial& trial) {
+  if (trial.judgement.kind != VerdictKind::used) return false;
+  const Vector3d before = velocity_along(trial.policy);
+  if (!estimate_.update(trial.kept, trial.statistics, trial.x)) return trial.end(VerdictKind::rejected);
+  // (KF-5)
+  if (trial.policy.along_vehicle && estimate_.filter(8, 8) > kDoubtfulHeading_rad * kDoubtfulHeading_rad)
+    estimate_.filter.turn_with_attitude(velocity_along(trial.policy) - before);
+  return true;
+}
+
+void Navigator::account(const Trial& trial) {
+  if (trial.stepped)
+    reacquisition_.note_step(-Vector3d(trial.x[0], trial.x[1], trial.x[2]), &trial.whole, estimate_);
+  trial.instrument.used_ns = estimate_.now_ns;
+  trial.instrument.candidate = {};
+  usage_.note(trial.policy, trial.with_position, estimate_.now_ns);
+}
+
+bool Navigator::is_frozen(Trial& trial) const {
+  if (trial.rules->frozen_change <= 0.0) return false;
+  Vector3d prediction = Vector3d::Zero();
+  if (trial.policy.frozen_by_path) {
+    // The path counts: the estimate itself may already have been pulled to the frozen fix.
+    prediction = estimate_.travelled_N_m;
+  } else {
+    for (int i = 0; i < std::min(3, trial.whole.rows); ++i)
+      prediction(i) = trial.whole.innovation[static_cast<std::size_t>(i)];
+  }
+  return trial.instrument.is_frozen(trial.policy.reading, prediction, trial.rules->frozen_change);
+}
+
+bool Navigator::is_on_probation(const Trial& trial) const {
+  const bool in_outage = gps_outage_s() > setup_->config.gps_timeout_s;
+  return trial.fix && Reacquisition::on_probation(trial.config, trial.whole, in_outage);
+}
+
+Vector3d Navigator::velocity_along(const AidingPolicy& policy) const {
+  const bool ground = policy.doppler ? policy.velocity == VelocityOver::ground
+                                     : usage_.knows_ground(setup_->config, estimate_);
+  const Vector3d& v_N_m_s = estimate_.state.nav.v_N_m_s;
+  return ground ? v_N_m_s : Vector3d(v_N_m_s - estimate_.current_N_m_s(*setup_));
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,269 @@
+#include "estimation/navigator/reacquisition.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+namespace fathom::estimation {
+namespace {
+
+constexpr int kRejectionsToBelieve = 3;
+constexpr double kGravity_m_s2 = 9.81;
+constexpr double kLeastUnheard_s = 1.0;
+constexpr double kLeastDispute_s = 5.0;
+constexpr double kDeviations = 4.0;
+/// However sure of its velocity the filter is.
+constexpr double kLeastSpeed_m_s = 1.0;
+/// Of reacquire_s, after which disagreement with the motion counts half, and how far that goes.
+constexpr double kPatience = 3.0;
+constexpr double kMostHalvings = 2.0;
+/// A fix further off than so many of the estimate's own sigmas needs longer to be believed.
+constexpr double kConceivable = 10.0;
+/// Steps within it are one correction, spread over several fixes.
+constexpr double kStepsTogether_s = 60.0;
+constexpr double kStepsAtOnce = 2.0;
+constexpr double kWeighDown = 1.4;
+constexpr int kHalvings = 60;
+
+/// Refusals of these rows have agreed with each other for long enough.
+bool believe(Instrument::Rejections& past, const SensorConfig& config, const Estimate& estimate,
+             const Observation& observation, int first, int end) {
+  double size = 0.0;
+  double change = 0.0;
+  double noise = 0.0;
+  for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(end); ++i) {
+    const double z = observation.innovation[i];
+    size += z * z;
+    change += (z - past.innovation[i]) * (z - past.innovation[i]);
+    noise += observation.sigma[i] * observation.sigma[i];
+    past.innovation[i] = z;
+  }
+  const bool agrees = past.count > 0 && std::sqrt(change) < 0.5 * std::sqrt(size) + 4.0 * std::sqrt(noise);
+  if (!agrees) {
+    past.count = 1;
+    past.since_ns = estimate.now_ns;
+    return false;
+  }
+  ++past.count;
+  return config.reacquire_s > 0.0 && past.count >= kRejectionsToBelieve &&
+         to_seconds(estimate.now_ns - past.since_ns) >= config.reacquire_s;
+}
+
+/// Of the rows outside `left_out`, each by itself, those whose refusal is not to be believed.
+unsigned believe_each(Instrument& instrument, const SensorConfig& config, const Estimate& estimate,
+                      const Observation& observation, unsigned refused, unsigned left_out) {
+  unsigned believed = 0;
+  for (int row = 0; row < observation.rows; ++row) {
+    if ((left_out & 1U << row) != 0) continue;
+    Instrument::Rejections& past = instrument.rejections[static_cast<std::size_t>(row)];
+    if ((refused & 1U << row) == 0) {
+      past = {};
+    } else if (believe(past, config, estimate, observation, row, row + 1)) {
+      believed |= 1U << row;
+    }
+  }
+  return believed;
+}
+
+}  // namespace
+
+bool measures(const Observation& observation, int row, int first_state) {
+  const auto& h = observation.h[static_cast<std::size_t>(row)];
+  const auto begin = h.begin() + first_state;
+  return std::any_of(begin, begin + 3, [](double weight) { return weight != 0.0; });
+}
+
+unsigned Reacquisition::believed_rows(Instrument& instrument, const SensorConfig& config,
+                                      const Estimate& estimate, const Observation& observation,
+                                      unsigned refused, bool fix) const {
+  if (observation.each_alone) return believe_each(instrument, config, estimate, observation, refused, 0);
+  if (fix) return believed_rows_of_fix(instrument, config, estimate, observation, refused);
+  if (config.gate_mode == GateMode::whole) {
+    const bool believed =
+        refused != 0 && believe(instrument.rejections[0], config, estimate, observation, 0, observation.rows);
+    if (refused == 0) instrument.rejections[0] = {};
+    return believed ? refused : 0U;
+  }
+  return believe_each(instrument, config, estimate, observation, refused, 0);
+}
+
+unsigned Reacquisition::believed_rows_of_fix(Instrument& instrument, const SensorConfig& config,
+                                             const Estimate& estimate, const Observation& observation,
+                                             unsigned refused) const {
+  // Behind a fix stand two hypotheses for as long as it takes: it is wrong, or the estimate is.
+  unsigned position = 0;
+  for (int row = 0; row < observation.rows; ++row)
+    if (measures(observation, row, 0)) position |= 1U << row;
+  if ((refused & position) == 0) instrument.candidate = {};
+  const bool believed =
+      (refused & position) != 0 && believe_fix(instrument.candidate, config, estimate, observation);
+  if (config.gate_mode == GateMode::whole) return believed ? refused : 0U;
+  return believe_each(instrument, config, estimate, observation, refused, position) |
+         (believed ? refused & position : 0U);
+}
+
+bool Reacquisition::on_probation(const SensorConfig& config, const Observation& observation, bool in_outage) {
+  // (GATE-4)
+  if (config.reacquire_s <= 0.0 || !in_outage) return false;
+  return std::hypot(observation.innovation[0], observation.innovation[1]) > config.reacquire_step_m;
+}
+
+bool Reacquisition::believe_fix(Instrument::Candidate& candidate, const SensorConfig& config,
+                                const Estimate& estimate, const Observation& observation) const {
+  // (GATE-4)
+  const Eigen::Vector2d innovation(observation.innovation[0], observation.innovation[1]);
+  const auto way_less_fixes = [&] {
+    // Not the estimated position: a compass may move that by tens of metres when it has drifted by hundreds.
+    const Eigen::Vector3d moved_N = geo::difference_N(candidate.origin, estimate.state.nav.position);
+    return Eigen::Vector2d(estimate.travelled_N_m.head<2>() - (moved_N.head<2>() - innovation));
+  };
+  Eigen::Vector2d off = way_less_fixes();
+  if (candidate.refused_since_ns == 0) candidate.refused_since_ns = estimate.now_ns;
+  double speed =
+      std::max(kDeviations * std::sqrt(estimate.filter(3, 3) + estimate.filter(4, 4)), kLeastSpeed_m_s);
+  // What never agrees is the motion's fault, not for ever that of the fix.
+  double halvings = config.reacquire_s > 0.0
+                        ? std::floor(to_seconds(estimate.now_ns - candidate.refused_since_ns) /
+                                     (kPatience * config.reacquire_s))
+                        : 0.0;
+  if (stepped_lately(config, estimate)) {
+    speed += stepped_m_s_;
+  } else {
+    halvings = std::min(halvings, kMostHalvings);
+  }
+  const double patience = std::exp2(halvings);
+  const double noise =
+      kDeviations * std::numbers::sqrt2 * std::max(observation.sigma[0], observation.sigma[1]);
+  const auto agrees = [&](const Eigen::Vector2d& before, TimeNs stamp_ns) {
+    return (off - before).norm() <= patience * (noise + speed * to_seconds(estimate.now_ns - stamp_ns));
+  };
+  if (candidate.since_ns == 0 || !agrees(candidate.first_N_m, candidate.since_ns) ||
+      !agrees(candidate.last_N_m, candidate.last_ns)) {
+    candidate.since_ns = estimate.now_ns;
+    candidate.origin = estimate.state.nav.position;
+    off = way_less_fixes();
+    candidate.first_N_m = off;
+    candidate.count = 0;
+  }
+  candidate.last_ns = estimate.now_ns;
+  candidate.last_N_m = off;
+  ++candidate.count;
+  const double agreed_s = to_seconds(estimate.now_ns - candidate.since_ns);
+  return candidate.count >= kRejectionsToBelieve &&
+         agreed_s >= agreement_needed_s(config, estimate, observation);
+}
+
+double Reacquisition::agreement_needed_s(const SensorConfig& config, const Estimate& estimate,
+                                         const Observation& observation) const {
+  // (GATE-5)
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (config.reacquire_s <= 0.0) return kNever;
+  const Eigen::Vector2d innovation(observation.innovation[0], observation.innovation[1]);
+  Eigen::Matrix2d s;
+  s << estimate.filter(0, 0), estimate.filter(0, 1), estimate.filter(1, 0), estimate.filter(1, 1);
+  for (int i = 0; i < 2; ++i)
+    s(i, i) +=
+        observation.sigma[static_cast<std::size_t>(i)] * observation.sigma[static_cast<std::size_t>(i)];
+  if (stepped_lately(config, estimate)) s.diagonal().array() += stepped_m_ * stepped_m_;
+  const double off = innovation.dot(s.llt().solve(innovation)) / (kConceivable * kConceivable);
+  const double most_s = config.dispute_s > 0.0 ? std::max(config.dispute_s, config.reacquire_s) : kNever;
+  return std::min(config.reacquire_s * std::max(1.0, off), most_s);
+}
+
+bool Reacquisition::stepped_lately(const SensorConfig& config, const Estimate& estimate) const {
+  return stepped_ns_ != 0 && estimate.since(stepped_ns_) <= std::max(config.dispute_s, config.reacquire_s);
+}
+
+void Reacquisition::note_step(const Eigen::Vector3d& step_N_m, const Observation* fix,
+                              const Estimate& estimate) {
+  ++reset_counter_;
+  last_reset_N_m_ = step_N_m;
+  if (stepped_ns_ == 0 || estimate.since(stepped_ns_) > kStepsTogether_s) {
+    stepped_m_ = 0.0;
+    stepped_m_s_ = 0.0;
+  }
+  stepped_ns_ = estimate.now_ns;
+  stepped_m_ += step_N_m.head<2>().norm();
+  if (fix == nullptr) return;
+  double squared = 0.0;
+  for (int row = 0; row < fix->rows; ++row) {
+    const double z = fix->innovation[static_cast<std::size_t>(row)];
+    if (!measures(*fix, row, 0) && measures(*fix, row, 3)) squared += z * z;
+  }
+  stepped_m_s_ = std::max(stepped_m_s_, std::sqrt(squared));
+}
+
+bool Reacquisition::disputed(const Instrument& instrument, const SensorConfig& config,
+                             const Estimate& estimate) {
+  if (instrument.candidate.refused_since_ns == 0) return false;
+  const double refused_s = to_seconds(estimate.now_ns - instrument.candidate.refused_since_ns);
+  return refused_s > std::max(config.reacquire_s, kLeastDispute_s);
+}
+
+bool Reacquisition::bound_step(const SensorConfig& config, const Estimate& estimate, Observation& observation,
+                               InnovationStatistics& statistics) {
+  const double most_m = kStepsAtOnce * config.reacquire_step_m;
+  bool bounded = false;
+  for (int i = 0; i < kHalvings; ++i) {
+    // K z of the horizontal position.
+    const auto rows = static_cast<std::size_t>(statistics.rows);
+    const Eigen::Index m = statistics.rows;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, Observation::kMaxRows, Observation::kMaxRows> s(
+        m, m);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Observation::kMaxRows, 1> z(m);
+    Eigen::Matrix<double, Eigen::Dynamic, 2, 0, Observation::kMaxRows, 2> ph(m, 2);
+    for (std::size_t r = 0; r < rows; ++r) {
+      const auto at = static_cast<Eigen::Index>(r);
+      z(at) = observation.innovation[r];
+      for (int axis = 0; axis < 2; ++axis)
+        ph(at, axis) = statistics.ph[r * kMaxStates + static_cast<std::size_t>(axis)];
+      for (std::size_t c = 0; c < rows; ++c)
+        s(at, static_cast<Eigen::Index>(c)) = statistics.s[r * Observation::kMaxRows + c];
+    }
+    const Eigen::Vector2d step = ph.transpose() * s.llt().solve(z);
+    if (!(step.norm() > most_m)) break;
+    bounded = true;
+    // All of the fix: after an outage its velocity, too, moves the position, by what they have in common.
+    for (std::size_t row = 0; row < rows; ++row) observation.sigma[row] *= kWeighDown;
+    estimate.filter.statistics(observation, 1.0, statistics);
+  }
+  return bounded;
+}
+
+void Reacquisition::make_room(const AidingPolicy& policy, const Instrument& instrument,
+                              const Estimate& estimate, const Observation& observation, unsigned rows,
+                              double factor, std::array<double, kNavStates>& variance) {
+  const double unheard_s = std::max(
+      instrument.used_ns == 0 ? kLeastUnheard_s : estimate.since(instrument.used_ns), kLeastUnheard_s);
+  for (int row = 0; row < observation.rows; ++row) {
+    if ((rows & 1U << row) == 0) continue;
+    const auto r = static_cast<std::size_t>(row);
+    const double squared = factor * observation.innovation[r] * observation.innovation[r];
+    int first = 6;
+    if (measures(observation, row, 0)) {
+      first = 0;
+    } else if (measures(observation, row, 3)) {
+      first = 3;
+    }
+    // Of states that would explain the innovation: h z / |h|^2, whatever unit the row has.
+    // A heading says nothing about tilt, however its row looks when the vehicle is pitched.
+    const double* weights = observation.h[r].data() + first;
+    const int least = policy.heading_alone ? 2 : 0;
+    double weight = 0.0;
+    for (int i = least; i < 3; ++i) weight += weights[i] * weights[i];
+    if (weight == 0.0) continue;
+    for (int i = least; i < 3; ++i)
+      variance[static_cast<std::size_t>(first + i)] += squared * weights[i] * weights[i] / (weight * weight);
+    // A velocity goes wrong by a level that is wrong: left as sure as it was, that would lead astray again.
+    if (first == 3 && policy.shows_level && factor == 1.0) {
+      const double tilt = observation.innovation[r] / (kGravity_m_s2 * unheard_s);
+      variance[6] += tilt * tilt;
+      variance[7] += tilt * tilt;
+    }
+  }
+}
+
+}  // namespace fathom::estimation

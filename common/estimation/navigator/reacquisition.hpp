@@ -1,0 +1,71 @@
+#pragma once
+
+#include "estimation/aiding/policy.hpp"
+#include "estimation/navigator/estimate.hpp"
+#include "estimation/navigator/instruments.hpp"
+
+namespace fathom::estimation {
+
+/// The row looks at one of the three states from `first_state` on.
+[[nodiscard]] bool measures(const Observation& observation, int row, int first_state);
+
+/// Nothing is locked out for ever: refusals that agree with each other are believed, and the estimate is
+/// given the room to follow (GATE-3). Fixes of a position have to agree with the motion, too (GATE-4,
+/// GATE-5).
+class Reacquisition {
+ public:
+  /// Rows, as a set of bits, whose refusal is not to be believed any longer. `fix`: they are those of a fix
+  /// that has to agree with the motion.
+  [[nodiscard]] unsigned believed_rows(Instrument& instrument, const SensorConfig& config,
+                                       const Estimate& estimate, const Observation& observation,
+                                       unsigned refused, bool fix) const;
+  /// A fix behind an outage, too far off to be believed by itself.
+  [[nodiscard]] static bool on_probation(const SensorConfig& config, const Observation& observation,
+                                         bool in_outage);
+  /// Fixes of this receiver were refused for so long that a person should know.
+  [[nodiscard]] static bool disputed(const Instrument& instrument, const SensorConfig& config,
+                                     const Estimate& estimate);
+  /// Weighs the fix down until the position moves no further than allowed; whether it had to.
+  [[nodiscard]] static bool bound_step(const SensorConfig& config, const Estimate& estimate,
+                                       Observation& observation, InnovationStatistics& statistics);
+  /// Variance that these rows ask for, added to `variance`.
+  static void make_room(const AidingPolicy& policy, const Instrument& instrument, const Estimate& estimate,
+                        const Observation& observation, unsigned rows, double factor,
+                        std::array<double, kNavStates>& variance);
+  /// The position steps, from before to after; by a fix, or null.
+  void note_step(const Eigen::Vector3d& step_N_m, const Observation* fix, const Estimate& estimate);
+
+  [[nodiscard]] std::uint32_t reset_counter() const { return reset_counter_; }
+  [[nodiscard]] const Eigen::Vector3d& last_reset_N_m() const { return last_reset_N_m_; }
+
+  template <class Self, class Visit>
+  static void for_each_instant(Self& self, Visit&& visit) {
+    visit(self.stepped_ns_);
+  }
+
+  /// For archives: see fields/navigator.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
+ private:
+  /// Of a fix that is judged as a whole, or of its position rows.
+  [[nodiscard]] unsigned believed_rows_of_fix(Instrument& instrument, const SensorConfig& config,
+                                              const Estimate& estimate, const Observation& observation,
+                                              unsigned refused) const;
+  /// Refused fixes agree with each other and with the motion for long enough.
+  [[nodiscard]] bool believe_fix(Instrument::Candidate& candidate, const SensorConfig& config,
+                                 const Estimate& estimate, const Observation& observation) const;
+  /// For so long fixes have to agree with each other and with the motion; infinite: a person has to decide.
+  [[nodiscard]] double agreement_needed_s(const SensorConfig& config, const Estimate& estimate,
+                                          const Observation& observation) const;
+  /// The estimate was put where it is by a step, and so may have to go back.
+  [[nodiscard]] bool stepped_lately(const SensorConfig& config, const Estimate& estimate) const;
+
+  std::uint32_t reset_counter_ = 0;
+  Eigen::Vector3d last_reset_N_m_ = Eigen::Vector3d::Zero();
+  TimeNs stepped_ns_ = 0;     ///< last step of the position, 0: none
+  double stepped_m_ = 0.0;    ///< how far it and those shortly before went, horizontally
+  double stepped_m_s_ = 0.0;  ///< and by how much the velocity of the fix differed, at most
+};
+
+}  // namespace fathom::estimation

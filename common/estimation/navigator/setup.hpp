@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "estimation/alignment/drop_config.hpp"
+#include "estimation/engine_config.hpp"
+#include "estimation/filter/error_filter.hpp"
+#include "estimation/filter/gate.hpp"
+#include "estimation/hydro/water_velocity.hpp"
+
+namespace fathom::estimation {
+
+inline constexpr int kMaxSensors = 24;
+/// DVLs whose water layer is judged beside the bottom.
+inline constexpr int kMaxWaterLayers = 4;
+
+/// What never changes after construction: the configuration and what is made from it once.
+struct Setup {
+  explicit Setup(const EngineConfig& engine_config);
+
+  EngineConfig config;
+  StateIndex index;
+  std::array<GateLimits, kMaxSensors> limits{};
+  std::array<int, kMaxSensors> water_layer{};  ///< of each DVL a number; -1: none
+  SensorConfig constraint_gate;                ///< how what no instrument measures is gated
+  GateLimits constraint_limits;
+  std::array<double, kMaxStates> initial_sigma{};  ///< of the states from index 9 on
+  std::array<double, kMaxStates> walk{};
+  std::array<double, kMaxStates> decay_per_s{};
+  StateDrift drift;                                    ///< of walk and decay_per_s
+  geo::Quaternion q_B_imu;                             ///< from the unit's own axes into B
+  std::optional<hydro::VelocityModel> velocity_model;  ///< where it is switched on
+  SensorConfig model_gate;  ///< for it: nothing is widened or believed in the end because it insists
+  GateLimits model_limits;
+
+  [[nodiscard]] const SensorConfig& sensor(int number) const {
+    return config.sensors[static_cast<std::size_t>(number)];
+  }
+  /// NaN where it is not configured.
+  [[nodiscard]] double magnetic_variation_rad() const {
+    return config.magnetic_variation_known ? config.magnetic_variation_rad : kUnknown;
+  }
+  /// (NOISE-1) Of an inertial step with this attitude, rate and force.
+  [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const Eigen::Vector3d& rate_B_rad_s,
+                                           const Eigen::Vector3d& force_B_m_s2) const;
+  /// What the configuration says of a drop and what follows from it.
+  [[nodiscard]] DropConfig drop_config() const;
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "estimation/engine_config.hpp"
+#include "geo/so3.hpp"
+#include "samples/alignment_status.hpp"
+
+namespace fathom::estimation {
+
+/// The phase of the alignment, and how long it has lasted.
+struct AlignmentWatch {
+  AlignmentPhase phase = AlignmentPhase::none;
+  TimeNs phase_since_ns = 0;
+  TimeNs waiting_since_ns = 0;
+  TimeNs hold_since_ns = 0;  ///< the sigmas are within their limits; 0: they are not
+
+  void enter(AlignmentPhase next, TimeNs now_ns);
+  /// Fine or aligned, by the sigmas of roll, pitch and yaw.
+  void judge(const AlignmentConfig& config, const Eigen::Vector3d& rpy_sigma_rad, TimeNs now_ns);
+
+  template <class Self, class Visit>
+  static void for_each_instant(Self& self, Visit&& visit) {
+    visit(self.phase_since_ns);
+    visit(self.waiting_since_ns);
+    visit(self.hold_since_ns);
+  }
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <optional>
+
+#include "estimation/alignment/rest_window.hpp"
+#include "estimation/alignment/under_way.hpp"
+#include "estimation/navigator/estimate.hpp"
+#include "estimation/navigator/measurement.hpp"
+#include "estimation/navigator/start/alignment_watch.hpp"
+#include "estimation/navigator/start/ordered_position.hpp"
+
+namespace fathom::estimation {
+
+/// Why a start is not possible yet, or that it is.
+struct StartConditions {
+  bool window_full = false;
+  bool quiet = false;
+  bool slow = false;
+  bool heading = false;
+  bool position = false;
+};
+
+/// What a start is made from, beside what the starter itself remembers.
+struct StartInputs {
+  const Setup& setup;
+  const Estimate& estimate;
+  const OrderedPosition& ordered;
+};
+
+/// Finds an estimate to begin with: at rest from a quiet window, in motion from the course of GPS, under way
+/// from a compass. A start after a drop is Descent's.
+class Starter {
+ public:
+  /// Remembers what a start needs; called for every measurement that is not refused outright.
+  void collect(const Setup& setup, const Estimate& estimate, const Measurement& measurement);
+  /// One inertial step without navigation. True when `estimate`, that of `in`, has begun to navigate with it.
+  /// `released`: from an aircraft.
+  [[nodiscard]] bool align(const StartInputs& in, bool released, const ImuStep& step, Estimate& estimate,
+                           AlignmentWatch& alignment);
+  /// Averages must not span a gap.
+  void interrupt() { window_.reset(); }
+  /// The attitude was lost: what was averaged belongs to another one.
+  void forget();
+
+  [[nodiscard]] StartConditions conditions(const StartInputs& in) const;
+  [[nodiscard]] const RestWindow& window() const { return window_; }
+  [[nodiscard]] double gps_speed_m_s() const { return gps_speed_m_s_; }
+
+  template <class Self, class Visit>
+  static void for_each_instant(Self& self, Visit&& visit) {
+    visit(self.gps_seen_ns_);
+    visit(self.under_way_.heading_ns);
+    visit(self.under_way_.dvl_ns);
+    visit(self.under_way_.usbl_ns);
+  }
+
+  /// For archives: see fields/navigator.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
+ private:
+  void collect_gps(const Setup& setup, const Estimate& estimate, const SensorConfig& config,
+                   const GpsSample& gps);
+  /// Begins with `state`, at the position of what said it.
+  void begin(const StartInputs& in, const FilterState& state, std::array<double, kMaxStates> sigma,
+             Estimate& estimate) const;
+  [[nodiscard]] std::optional<geo::Geodetic> start_position(const StartInputs& in) const;
+
+  // starter_rest.cpp
+  [[nodiscard]] bool start_at_rest(const StartInputs& in, Estimate& estimate) const;
+  /// Heading of the middle of the window; none where the configuration or the instruments give none.
+  struct Heading {
+    double heading_rad = 0.0;
+    double sigma_rad = 0.0;
+    bool from_gyro = false;
+  };
+  [[nodiscard]] std::optional<Heading> heading_at_rest(const Setup& setup, const RestResult& rest,
+                                                       const Eigen::Vector2d& tilt, double gyro_sigma) const;
+
+  // starter_moving.cpp
+  void collect_under_way(const Setup& setup, const Estimate& estimate, const Measurement& measurement,
+                         const SensorConfig& config);
+  [[nodiscard]] bool can_start_in_motion(const StartInputs& in) const;
+  void start_in_motion(const StartInputs& in, Estimate& estimate) const;
+  [[nodiscard]] bool can_start_under_way(const StartInputs& in) const;
+  void start_under_way(const StartInputs& in, Estimate& estimate) const;
+  /// Only an acoustic fix says where the vehicle is.
+  [[nodiscard]] bool usbl_places(const StartInputs& in) const;
+
+  RestWindow window_;
+  Eigen::Vector3d smooth_force_ = Eigen::Vector3d::Zero();
+  double smooth_time_s_ = 0.0;
+  TimeNs gps_seen_ns_ = 0;
+  geo::Geodetic gps_position_;
+  Eigen::Vector3d gps_velocity_N_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gps_sigma_N_m_ = Eigen::Vector3d::Zero();
+  double gps_speed_m_s_ = kUnknown;
+  int fast_fixes_ = 0;
+  UnderWay under_way_;
+};
+
+/// Starts at `now_ns` from a given state: where it was measured somewhere else than at the IMU, or earlier,
+/// it is carried there.
+void begin_given(const Setup& setup, const InitialState& initial, TimeNs now_ns, Estimate& estimate);
+
+}  // namespace fathom::estimation

@@ -1,0 +1,123 @@
+// A start under way: by the course of GPS, or with a compass where a vehicle moves too slowly for its course
+// to be a heading, or is out of reach of GPS.
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/aiding/heading.hpp"
+#include "estimation/aiding/usbl_station.hpp"
+#include "estimation/navigator/start/starter.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kFreshVelocity_s = 1.0;
+constexpr double kFreshFix_s = 5.0;
+constexpr double kVelocitySigma_m_s = 0.3;
+constexpr int kFastFixes = 2;
+
+}  // namespace
+
+void Starter::collect_under_way(const Setup& setup, const Estimate& estimate, const Measurement& measurement,
+                                const SensorConfig& config) {
+  if (const auto* heading = std::get_if<HeadingSample>(&measurement.sample)) {
+    const double psi = true_heading(*heading, setup.magnetic_variation_rad()) - config.mounting_rpy_rad[2];
+    const AlignmentConfig& alignment = setup.config.alignment;
+    if (!(std::abs(psi) < 20.0) || !heading_wanted(alignment, config)) return;
+    if (!config.two_antenna && under_way_.two_antenna &&
+        estimate.since(under_way_.heading_ns) <= kFreshVelocity_s)
+      return;
+    under_way_.heading_rad = psi;
+    under_way_.heading_sigma_rad = heading_sigma(alignment, config, *heading);
+    under_way_.two_antenna = config.two_antenna;
+    under_way_.heading_ns = estimate.now_ns;
+  } else if (const auto* dvl = std::get_if<DvlSample>(&measurement.sample)) {
+    const Vector3d v_D = geo::vec(dvl->velocity_D_m_s);
+    if (dvl->mode != DvlMode::bottom || !v_D.allFinite()) return;
+    under_way_.dvl_velocity_B_m_s = geo::to_matrix(geo::from_rpy(geo::vec(config.mounting_rpy_rad))) * v_D;
+    under_way_.dvl_ns = estimate.now_ns;
+  } else if (const auto* usbl = std::get_if<UsblSample>(&measurement.sample)) {
+    const double surface_m = setup.config.states.surface_altitude_m;
+    const auto place = usbl_place(config, *usbl, surface_m);
+    if (!place) return;
+    const UsblNoise noise(config, *usbl);
+    under_way_.usbl_latitude_rad = place->latitude_rad;
+    under_way_.usbl_longitude_rad = place->longitude_rad;
+    under_way_.usbl_depth_m = surface_m - place->altitude_m;
+    under_way_.usbl_sigma_m =
+        known(usbl->range_m) ? std::hypot(noise.range_m, usbl->range_m * noise.angle_rad) : noise.range_m;
+    under_way_.usbl_lever_B_m = geo::vec(config.lever_B_m);
+    under_way_.usbl_ns = estimate.now_ns;
+  }
+}
+
+bool Starter::can_start_in_motion(const StartInputs& in) const {
+  return fast_fixes_ >= kFastFixes && in.estimate.since(gps_seen_ns_) <= 1.0 &&
+         smooth_time_s_ >= in.setup.config.alignment.in_motion_averaging_s;
+}
+
+void Starter::start_in_motion(const StartInputs& in, Estimate& estimate) const {
+  // (ALN-6): the course is the heading, and the mean specific force points up. Neither is exact; the sigmas
+  // say so, and the filter finds the rest from the GPS velocity.
+  const AlignmentConfig& config = in.setup.config.alignment;
+  const Eigen::Vector2d tilt = level(smooth_force_);
+  FilterState start;
+  const double course = std::atan2(gps_velocity_N_.y(), gps_velocity_N_.x());
+  start.nav.q_NB = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), course));
+  start.nav.position = geo::moved_by(gps_position_, in.estimate.since(gps_seen_ns_) * gps_velocity_N_);
+  start.nav.v_N_m_s = gps_velocity_N_;
+  std::array<double, kMaxStates> sigma = in.setup.initial_sigma;
+  for (std::size_t i = 0; i < 3; ++i) sigma[3 + i] = 1.0;
+  sigma[6] = sigma[7] = config.in_motion_tilt_sigma_rad;
+  sigma[8] = config.in_motion_heading_sigma_rad;
+  begin(in, start, sigma, estimate);
+}
+
+bool Starter::can_start_under_way(const StartInputs& in) const {
+  const AlignmentConfig& config = in.setup.config.alignment;
+  const bool measured =
+      config.heading_source != HeadingSource::given && config.heading_source != HeadingSource::gyrocompass;
+  if (!measured || !(in.estimate.since(under_way_.heading_ns) <= kFreshVelocity_s)) return false;
+  if (smooth_time_s_ < config.in_motion_averaging_s) return false;
+  const bool gps = in.estimate.since(gps_seen_ns_) <= kFreshVelocity_s && known(gps_speed_m_s_);
+  const bool dvl = in.estimate.since(under_way_.dvl_ns) <= kFreshVelocity_s;
+  // At rest the levelling of a longer window is the better start.
+  const double speed_m_s = gps ? gps_speed_m_s_ : dvl ? under_way_.dvl_velocity_B_m_s.norm() : 0.0;
+  return speed_m_s > config.max_speed_m_s && (start_position(in).has_value() || usbl_places(in));
+}
+
+bool Starter::usbl_places(const StartInputs& in) const {
+  return !start_position(in).has_value() && in.estimate.since(under_way_.usbl_ns) <= kFreshFix_s;
+}
+
+void Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
+  // (ALN-8): heading from the compass, level from the mean specific force, velocity from GPS, else from the
+  // DVL turned by that attitude; position from GPS, an order or the configuration, else from an acoustic fix.
+  const AlignmentConfig& config = in.setup.config.alignment;
+  const Eigen::Vector2d tilt = level(smooth_force_);
+  FilterState start;
+  start.nav.q_NB = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), under_way_.heading_rad));
+  const Matrix3d c = geo::to_matrix(start.nav.q_NB);
+  const bool gps = in.estimate.since(gps_seen_ns_) <= kFreshVelocity_s;
+  start.nav.v_N_m_s = gps ? gps_velocity_N_ : Vector3d(c * under_way_.dvl_velocity_B_m_s);
+  double age_s = 0.0;
+  if (usbl_places(in)) {
+    age_s = in.estimate.since(under_way_.usbl_ns);
+    start.nav.position = {under_way_.usbl_latitude_rad, under_way_.usbl_longitude_rad,
+                          in.setup.config.states.surface_altitude_m - under_way_.usbl_depth_m};
+  } else {
+    age_s = in.estimate.since(gps_seen_ns_) <= kFreshFix_s ? in.estimate.since(gps_seen_ns_) : 0.0;
+    start.nav.position = *start_position(in);
+  }
+  start.nav.position = geo::moved_by(start.nav.position, age_s * start.nav.v_N_m_s);
+  std::array<double, kMaxStates> sigma = in.setup.initial_sigma;
+  const double turned = start.nav.v_N_m_s.norm() * (gps ? 0.0 : under_way_.heading_sigma_rad);
+  for (std::size_t i = 0; i < 3; ++i) sigma[3 + i] = std::hypot(kVelocitySigma_m_s, turned);
+  sigma[6] = sigma[7] = config.in_motion_tilt_sigma_rad;
+  sigma[8] = std::hypot(under_way_.heading_sigma_rad, 0.5 * config.in_motion_tilt_sigma_rad);
+  begin(in, start, sigma, estimate);
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+
+#include "estimation/aiding/policy.hpp"
+#include "estimation/navigator/estimate.hpp"
+#include "samples/nav_state.hpp"
+
+namespace fathom::estimation {
+
+/// When navigation was last given a position or a velocity, and what it lives on.
+struct Usage {
+  TimeNs gps_used_ns = 0;
+  TimeNs usbl_used_ns = 0;
+  TimeNs dvl_used_ns = 0;
+  TimeNs bottom_used_ns = 0;  ///< of its velocities those over ground
+  TimeNs velocity_used_ns = 0;
+
+  /// A measurement was used; `with_position`: its first row is one of a position.
+  void note(const AidingPolicy& brought, bool with_position, TimeNs now_ns);
+  /// While it navigates.
+  [[nodiscard]] NavMode mode(const EngineConfig& config, const Estimate& estimate) const;
+  /// A velocity over ground was used lately: what is measured along the vehicle is then over ground as well.
+  [[nodiscard]] bool knows_ground(const EngineConfig& config, const Estimate& estimate) const {
+    return estimate.since(bottom_used_ns) <= config.velocity_timeout_s;
+  }
+
+  template <class Self, class Visit>
+  static void for_each_instant(Self& self, Visit&& visit) {
+    visit(self.gps_used_ns);
+    visit(self.usbl_used_ns);
+    visit(self.dvl_used_ns);
+    visit(self.bottom_used_ns);
+    visit(self.velocity_used_ns);
+  }
+};
+
+inline void Usage::note(const AidingPolicy& brought, bool with_position, TimeNs now_ns) {
+  if (with_position && brought.fix == Fix::satellite) gps_used_ns = now_ns;
+  if (brought.fix == Fix::acoustic) usbl_used_ns = now_ns;
+  if (brought.doppler) dvl_used_ns = now_ns;
+  if (brought.doppler && brought.velocity == VelocityOver::ground) bottom_used_ns = now_ns;
+  if (brought.velocity != VelocityOver::none) velocity_used_ns = now_ns;
+}
+
+inline NavMode Usage::mode(const EngineConfig& config, const Estimate& estimate) const {
+  // Comparisons with NaN are false: never used.
+  if (estimate.since(gps_used_ns) <= config.gps_timeout_s) return NavMode::gps_aided;
+  if (estimate.since(usbl_used_ns) <= config.usbl_timeout_s) return NavMode::acoustic_aided;
+  if (estimate.since(velocity_used_ns) <= config.velocity_timeout_s) return NavMode::dead_reckoning;
+  return NavMode::inertial;
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,260 @@
+// The navigator's parts, each by itself.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "estimation/aiding/registry.hpp"
+#include "estimation/navigator/constraints.hpp"
+#include "estimation/navigator/instruments.hpp"
+#include "estimation/navigator/reacquisition.hpp"
+#include "estimation/navigator/start/alignment_watch.hpp"
+#include "estimation/navigator/start/ordered_position.hpp"
+#include "estimation/navigator/usage.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr TimeNs kNow_ns = 1'000 * kNsPerSecond;
+constexpr double kDegree = 0.017453292519943295;
+
+/// An estimate at the equator that navigates and knows each axis as well as is said.
+Estimate navigating(const estimation::Setup& setup, double position_sigma_m,
+                    double velocity_sigma_m_s = 0.1) {
+  Estimate estimate(setup);
+  estimate.now_ns = kNow_ns;
+  std::array<double, kMaxStates> sigma = setup.initial_sigma;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sigma[i] = position_sigma_m;
+    sigma[3 + i] = velocity_sigma_m_s;
+    sigma[6 + i] = kDegree;
+  }
+  estimate.begin(FilterState{}, sigma);
+  return estimate;
+}
+
+/// Two rows of a fix so far off, north and east.
+Observation fix_off_by(double north_m, double east_m, double sigma_m = 1.0) {
+  Observation out;
+  out.rows = 2;
+  out.innovation = {north_m, east_m};
+  out.sigma = {sigma_m, sigma_m};
+  out.h[0][0] = out.h[1][1] = 1.0;
+  out.list_columns(kNavStates);
+  return out;
+}
+
+TEST(AlignmentWatch, IsAlignedAfterTheHoldAndFallsOutAtTwiceTheLimit) {
+  AlignmentConfig config;
+  config.aligned_tilt_sigma_rad = 1.0 * kDegree;
+  config.aligned_heading_sigma_rad = 2.0 * kDegree;
+  config.aligned_hold_s = 5.0;
+  AlignmentWatch watch;
+  const auto at = [&](double t_s, double tilt_deg, double heading_deg) {
+    const Vector3d sigma = kDegree * Vector3d(tilt_deg, tilt_deg, heading_deg);
+    watch.judge(config, sigma, kNow_ns + from_seconds(t_s));
+    return watch.phase;
+  };
+  EXPECT_EQ(at(0.0, 1.1, 1.0), AlignmentPhase::fine);
+  EXPECT_EQ(at(1.0, 0.9, 1.9), AlignmentPhase::fine);
+  EXPECT_EQ(at(5.9, 0.9, 1.9), AlignmentPhase::fine);
+  EXPECT_EQ(at(6.0, 0.9, 1.9), AlignmentPhase::aligned);
+  EXPECT_EQ(watch.phase_since_ns, kNow_ns + from_seconds(6.0));
+  EXPECT_EQ(at(7.0, 1.9, 3.9), AlignmentPhase::aligned);
+  EXPECT_EQ(at(8.0, 1.0, 4.1), AlignmentPhase::fine);
+  EXPECT_EQ(watch.hold_since_ns, 0);
+}
+
+TEST(Usage, ModeFollowsWhatWasUsedLast) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  Estimate estimate = navigating(setup, 1.0);
+  Usage usage;
+  EXPECT_EQ(usage.mode(config, estimate), NavMode::inertial);
+  AidingPolicy log;
+  log.velocity = VelocityOver::medium;
+  usage.note(log, false, kNow_ns);
+  EXPECT_EQ(usage.mode(config, estimate), NavMode::dead_reckoning);
+  EXPECT_EQ(usage.dvl_used_ns, 0);
+  AidingPolicy acoustic;
+  acoustic.fix = Fix::acoustic;
+  usage.note(acoustic, true, kNow_ns);
+  EXPECT_EQ(usage.mode(config, estimate), NavMode::acoustic_aided);
+  AidingPolicy satellite;
+  satellite.fix = Fix::satellite;
+  usage.note(satellite, false, kNow_ns);  // its position was refused: nobody navigates by it
+  EXPECT_EQ(usage.mode(config, estimate), NavMode::acoustic_aided);
+  usage.note(satellite, true, kNow_ns);
+  EXPECT_EQ(usage.mode(config, estimate), NavMode::gps_aided);
+  estimate.now_ns += from_seconds(config.gps_timeout_s + 1e-3);
+  EXPECT_NE(usage.mode(config, estimate), NavMode::gps_aided);
+}
+
+TEST(Usage, OnlyADopplerOverGroundKnowsTheGround) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  const Estimate estimate = navigating(setup, 1.0);
+  Usage usage;
+  AidingPolicy doppler;
+  doppler.doppler = true;
+  doppler.velocity = VelocityOver::medium;
+  usage.note(doppler, false, kNow_ns);
+  EXPECT_EQ(usage.dvl_used_ns, kNow_ns);
+  EXPECT_FALSE(usage.knows_ground(config, estimate));
+  doppler.velocity = VelocityOver::ground;
+  usage.note(doppler, false, kNow_ns);
+  EXPECT_TRUE(usage.knows_ground(config, estimate));
+}
+
+TEST(InstrumentMemory, AReadingIsFrozenThatStandsStillWhileThePredictionMoves) {
+  Instrument instrument;
+  const std::array<double, 3> reading{1.0, 2.0, kUnknown};
+  EXPECT_FALSE(instrument.is_frozen(reading, Vector3d::Zero(), 1.0));
+  EXPECT_FALSE(instrument.is_frozen(reading, Vector3d(0.9, 0.0, 0.0), 1.0));
+  EXPECT_TRUE(instrument.is_frozen(reading, Vector3d(1.1, 0.0, 0.0), 1.0));
+  EXPECT_FALSE(instrument.is_frozen({1.0, 2.0 + 1e-12, kUnknown}, Vector3d(1.1, 0.0, 0.0), 1.0));
+  // What has nothing to say never repeats itself.
+  const std::array<double, 3> silence{kUnknown, kUnknown, kUnknown};
+  EXPECT_FALSE(instrument.is_frozen(silence, Vector3d::Zero(), 1.0));
+  EXPECT_FALSE(instrument.is_frozen(silence, Vector3d(99.0, 0.0, 0.0), 1.0));
+}
+
+TEST(OrderedPosition, AFarOneIsHeldUntilTheSamePlaceIsConfirmed) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  Estimate estimate = navigating(setup, 10.0);
+  OrderedPosition ordered;
+  Command order;
+  order.kind = CommandKind::set_position;
+  order.latitude_rad = 1e-2;  // 64 km
+  order.longitude_rad = 0.0;
+  order.sigma_m = 1.0;
+  EXPECT_EQ(ordered.propose(setup, estimate, order).judgement.kind, VerdictKind::rejected);
+  order.confirmed = true;
+  Command elsewhere = order;
+  elsewhere.latitude_rad = 2e-2;
+  EXPECT_EQ(ordered.propose(setup, estimate, elsewhere).judgement.kind, VerdictKind::rejected);
+  EXPECT_EQ(ordered.propose(setup, estimate, order).judgement.kind, VerdictKind::rejected);
+  const OrderedPosition::Step step = ordered.propose(setup, estimate, order);
+  EXPECT_EQ(step.judgement.kind, VerdictKind::used);
+  EXPECT_NEAR(step.step_N_m.x(), 63'357.0, 50.0);
+  EXPECT_EQ(step.axes, 2);
+  EXPECT_EQ(ordered.held_ns, 0);
+  // A confirmation comes within a minute.
+  order.confirmed = false;
+  (void)ordered.propose(setup, estimate, order);
+  order.confirmed = true;
+  estimate.now_ns += from_seconds(61.0);
+  EXPECT_EQ(ordered.propose(setup, estimate, order).judgement.kind, VerdictKind::rejected);
+}
+
+TEST(Reacquisition, RefusedRowsAreBelievedOnceTheyAgreeForLongEnough) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  Estimate estimate = navigating(setup, 1.0);
+  SensorConfig sensor;
+  sensor.reacquire_s = 5.0;
+  Instrument instrument;
+  const Reacquisition reacquisition;
+  const Observation off = fix_off_by(30.0, -40.0);
+  const auto believed = [&](double t_s) {
+    estimate.now_ns = kNow_ns + from_seconds(t_s);
+    return reacquisition.believed_rows(instrument, sensor, estimate, off, 3U, false);
+  };
+  EXPECT_EQ(believed(0.0), 0U);
+  EXPECT_EQ(believed(2.0), 0U);
+  EXPECT_EQ(believed(4.9), 0U);
+  EXPECT_EQ(believed(5.1), 3U);
+  // One that is accepted in between begins the count anew.
+  (void)reacquisition.believed_rows(instrument, sensor, estimate, off, 0U, false);
+  EXPECT_EQ(believed(6.0), 0U);
+}
+
+TEST(Reacquisition, AFixHasToAgreeWithTheMotion) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  Estimate estimate = navigating(setup, 10.0, 0.01);
+  SensorConfig sensor;
+  sensor.reacquire_s = 3.0;
+  sensor.dispute_s = 0.0;
+  const Reacquisition reacquisition;
+  const auto try_fixes = [&](double drift_m_s) {
+    Instrument instrument;
+    unsigned believed = 0;
+    for (int second = 0; second <= 8; ++second) {
+      estimate.now_ns = kNow_ns + second * kNsPerSecond;
+      const Observation off = fix_off_by(60.0 + drift_m_s * second, 0.0);
+      believed |= reacquisition.believed_rows(instrument, sensor, estimate, off, 3U, true);
+    }
+    return believed;
+  };
+  EXPECT_EQ(try_fixes(0.0), 3U);
+  EXPECT_EQ(try_fixes(30.0), 0U);
+}
+
+TEST(Reacquisition, RoomGoesWhereTheRowsLook) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  const Estimate estimate = navigating(setup, 1.0);
+  const Instrument instrument;
+  std::array<double, kNavStates> variance{};
+  Reacquisition::make_room({}, instrument, estimate, fix_off_by(3.0, 0.0), 3U, 1.0, variance);
+  EXPECT_DOUBLE_EQ(variance[0], 9.0);
+  for (std::size_t i = 1; i < variance.size(); ++i) EXPECT_EQ(variance[i], 0.0) << i;
+  Observation heading;
+  heading.rows = 1;
+  heading.innovation[0] = 0.2;
+  heading.sigma[0] = 0.01;
+  heading.h[0][6] = 0.5;  // pitched
+  heading.h[0][8] = -1.0;
+  AidingPolicy policy;
+  policy.heading_alone = true;
+  variance.fill(0.0);
+  Reacquisition::make_room(policy, instrument, estimate, heading, 1U, 1.0, variance);
+  EXPECT_DOUBLE_EQ(variance[8], 0.2 * 0.2);
+  EXPECT_EQ(variance[6], 0.0);
+}
+
+TEST(Constraints, RestIsTakenForAVelocityOnceASecond) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  Estimate estimate = navigating(setup, 1.0, 1.0);
+  estimate.state.nav.v_N_m_s = {0.5, -0.5, 0.1};
+  Constraints constraints;
+  ImuStep step;
+  EXPECT_FALSE(constraints.apply(setup, step, estimate));
+  constraints.mark_at_rest(estimate.now_ns, 1.5);
+  EXPECT_TRUE(constraints.apply(setup, step, estimate));
+  EXPECT_LT(estimate.state.nav.v_N_m_s.norm(), 0.05);
+  EXPECT_FALSE(constraints.apply(setup, step, estimate));
+  estimate.now_ns += kNsPerSecond;
+  EXPECT_TRUE(constraints.apply(setup, step, estimate));
+  estimate.now_ns += kNsPerSecond;
+  EXPECT_FALSE(constraints.apply(setup, step, estimate));
+}
+
+TEST(AidingPolicies, EachModelSaysWhatItBrings) {
+  const SensorConfig sensor;
+  int fixes = 0;
+  int velocities = 0;
+  for (const AidingEntry& entry : aiding_registry()) {
+    // A sample of the entry's kind in which nothing is known.
+    EventSample sample;
+    for_each_aiding_kind([&](auto kind) {
+      if (kind.kSource == entry.source) sample = typename decltype(kind)::Sample{};
+    });
+    const AidingPolicy policy = entry.policy(sensor, sample);
+    fixes += policy.position ? 1 : 0;
+    velocities += policy.velocity != VelocityOver::none ? 1 : 0;
+    EXPECT_TRUE(!policy.position || !policy.along_vehicle) << entry.name;
+    EXPECT_TRUE(!policy.follows_motion || policy.position) << entry.name;
+    for (const double value : policy.reading)
+      EXPECT_TRUE(std::isnan(value) || value == 0.0) << entry.name << " repeats what nobody said";
+  }
+  EXPECT_EQ(fixes, 4);
+  EXPECT_GE(velocities, 8);
+}
+
+}  // namespace
+}  // namespace fathom::estimation
