@@ -4,14 +4,14 @@
 
 #include "bus/detail/topic_ops.hpp"
 #include "samples/alignment_status.hpp"
-#include "samples/kinds.hpp"
 #include "samples/command.hpp"
 #include "samples/forecast.hpp"
-#include "samples/health.hpp"
+#include "samples/kinds.hpp"
 #include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
-#include "samples/replication.hpp"
-#include "samples/route.hpp"
+#include "samples/status/health.hpp"
+#include "samples/status/replication.hpp"
+#include "samples/status/route.hpp"
 #include "samples/truth.hpp"
 #include "samples/verdict.hpp"
 

@@ -10,7 +10,7 @@
 #include "base/clock.hpp"
 #include "base/name.hpp"
 #include "bus/participant.hpp"
-#include "samples/route.hpp"
+#include "samples/status/route.hpp"
 
 namespace fathom {
 

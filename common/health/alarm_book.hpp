@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "health/instant.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::health {
 

@@ -1,8 +1,8 @@
 #include <array>
 
 #include "samples/command.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom {

@@ -9,8 +9,8 @@
 #include "base/time.hpp"
 #include "samples/alignment_status.hpp"
 #include "samples/forecast.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::status {

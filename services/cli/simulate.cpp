@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
-#include "cli/solve/progress.hpp"
+#include "cli/progress.hpp"
 #include "config/scenario/scenario_config.hpp"
 #include "dataset/dataset.hpp"
 #include "sim/simulation.hpp"

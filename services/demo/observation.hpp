@@ -11,8 +11,8 @@
 #include "base/unknown.hpp"
 #include "dataset/score.hpp"
 #include "samples/alignment_status.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::demo {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "base/clock.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::fusion {

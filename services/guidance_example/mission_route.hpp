@@ -5,7 +5,7 @@
 #include "config/guidance_config.hpp"
 #include "geo/wgs84.hpp"
 #include "guidance_example/line_of_sight.hpp"
-#include "samples/route.hpp"
+#include "samples/status/route.hpp"
 
 namespace fathom::guidance {
 

@@ -12,7 +12,7 @@
 #include "config/common_config.hpp"
 #include "runtime/log.hpp"
 #include "samples/header.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::host {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/time.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::monitor {
 

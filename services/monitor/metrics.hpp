@@ -11,7 +11,7 @@
 #include <prometheus/metric_family.h>
 
 #include "samples/forecast.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::monitor {

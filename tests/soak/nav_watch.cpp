@@ -22,8 +22,8 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "geo/wgs84.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/status/health.hpp"
 #include "samples/truth.hpp"
 
 namespace {

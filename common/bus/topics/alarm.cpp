@@ -1,6 +1,6 @@
 #include "bus/detail/mapping.hpp"
 #include "idl/health.h"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::bus::detail {
 

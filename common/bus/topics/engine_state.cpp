@@ -1,6 +1,6 @@
 #include "bus/detail/mapping.hpp"
 #include "idl/replication.h"
-#include "samples/replication.hpp"
+#include "samples/status/replication.hpp"
 
 namespace fathom::bus::detail {
 

@@ -4,7 +4,7 @@
 
 #include "health/alarm_book.hpp"
 #include "health/instant.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::health {
 

@@ -7,7 +7,7 @@
 
 #include "health/alarm_book.hpp"
 #include "health/instant.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::health {

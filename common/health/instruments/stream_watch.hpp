@@ -5,7 +5,7 @@
 
 #include "base/time.hpp"
 #include "base/unknown.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::health {
 

@@ -2,7 +2,7 @@
 
 #include "health/instant.hpp"
 #include "samples/forecast.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::health {
 

@@ -8,7 +8,7 @@
 
 #include "base/unknown.hpp"
 #include "bus/network_map.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::cli {
 

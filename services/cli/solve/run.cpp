@@ -5,7 +5,7 @@
 #include "base/clock.hpp"
 #include "base/unknown.hpp"
 #include "cli/command.hpp"
-#include "cli/solve/progress.hpp"
+#include "cli/progress.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 
 namespace fathom::cli {

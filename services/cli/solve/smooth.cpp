@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/clock.hpp"
-#include "cli/solve/progress.hpp"
+#include "cli/progress.hpp"
 #include "estimation/smoothing/smoother.hpp"
 
 namespace fathom::cli {

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
-#include "cli/solve/progress.hpp"
+#include "cli/progress.hpp"
 #include "cli/study/scenarios.hpp"
 #include "config/registry.hpp"
 #include "runtime/build_info.hpp"

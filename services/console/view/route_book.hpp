@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "health/instant.hpp"
-#include "samples/route.hpp"
+#include "samples/status/route.hpp"
 
 namespace fathom::console {
 

@@ -10,7 +10,7 @@
 #include "base/name.hpp"
 #include "base/time.hpp"
 #include "bus/participant.hpp"
-#include "samples/replication.hpp"
+#include "samples/status/replication.hpp"
 
 namespace fathom::fusion {
 

@@ -11,7 +11,7 @@
 #include "base/name.hpp"
 #include "base/time.hpp"
 #include "samples/nav_state.hpp"
-#include "samples/replication.hpp"
+#include "samples/status/replication.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::fusion {

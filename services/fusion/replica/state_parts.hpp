@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bus/participant.hpp"
-#include "samples/replication.hpp"
+#include "samples/status/replication.hpp"
 
 namespace fathom::fusion {
 

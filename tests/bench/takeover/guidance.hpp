@@ -13,9 +13,9 @@
 #include "base/clock.hpp"
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
-#include "samples/replication.hpp"
+#include "samples/status/health.hpp"
+#include "samples/status/replication.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 

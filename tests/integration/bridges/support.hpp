@@ -17,7 +17,7 @@
 #include "base/time.hpp"
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom::test {
 

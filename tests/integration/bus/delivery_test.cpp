@@ -10,9 +10,9 @@
 #include "bus/writer.hpp"
 #include "samples/command.hpp"
 #include "samples/gps.hpp"
-#include "samples/health.hpp"
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/status/health.hpp"
 #include "support.hpp"
 
 namespace fathom::test {

@@ -1,5 +1,5 @@
 // Waypoints from a guidance program to the page, over DDS.
-#include "samples/route.hpp"
+#include "samples/status/route.hpp"
 
 #include <cmath>
 #include <functional>

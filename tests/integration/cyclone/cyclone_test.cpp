@@ -26,7 +26,7 @@
 #include "samples/gps.hpp"
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
-#include "samples/route.hpp"
+#include "samples/status/route.hpp"
 
 namespace fathom {
 namespace {

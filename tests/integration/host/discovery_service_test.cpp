@@ -11,7 +11,7 @@
 
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "fusion_fixture.hpp"
-#include "samples/replication.hpp"
+#include "samples/status/replication.hpp"
 
 namespace fathom::test {
 namespace {

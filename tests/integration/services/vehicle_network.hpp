@@ -14,8 +14,8 @@
 #include "samples/alignment_status.hpp"
 #include "samples/command.hpp"
 #include "samples/gps.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/status/health.hpp"
 #include "support/presence.hpp"
 
 namespace fathom::test {

@@ -6,8 +6,8 @@
 #include "base/time.hpp"
 #include "health/instant.hpp"
 #include "samples/gps.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::health {

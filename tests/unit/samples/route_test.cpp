@@ -1,4 +1,4 @@
-#include "samples/route.hpp"
+#include "samples/status/route.hpp"
 
 #include <functional>
 #include <limits>

@@ -29,9 +29,9 @@
 #include "base/clock.hpp"
 #include "base/time.hpp"
 #include "samples/alignment_status.hpp"
-#include "samples/health.hpp"
 #include "samples/nav_state.hpp"
-#include "samples/route.hpp"
+#include "samples/status/health.hpp"
+#include "samples/status/route.hpp"
 
 namespace fathom {
 

@@ -1,4 +1,4 @@
-#include "cli/solve/progress.hpp"
+#include "cli/progress.hpp"
 
 #include <algorithm>
 #include <cstdio>

@@ -1,4 +1,4 @@
-#include "samples/health.hpp"
+#include "samples/status/health.hpp"
 
 namespace fathom {
 
