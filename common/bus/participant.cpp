@@ -107,7 +107,7 @@ bool loopback(const std::string& address) {
   return address.starts_with("127.");
 }
 
-constexpr std::string_view kLooksOn = ";looks_on";
+constexpr std::string_view kLowPriorityMark = ";looks_on";
 
 dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
                                           const std::string& profiles_dir) {
@@ -118,7 +118,7 @@ dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
   }
   qos.name(options.name);
   std::string user = "host=" + host_name() + ";pid=" + std::to_string(getpid());
-  if (options.looks_on) user += kLooksOn;
+  if (options.low_priority) user += kLowPriorityMark;
   qos.user_data().setValue(std::vector<rtps::octet>(user.begin(), user.end()));
 
   // The profile's transport is shared by everybody in this process who loads it: give interfaces to a copy.
@@ -160,7 +160,7 @@ Peer to_peer(const detail::Announcement& announcement) {
   if (host != 0 || pid == std::string::npos) return peer;
   peer.host = text.substr(5, pid - 5);
   peer.pid = static_cast<std::uint32_t>(std::strtoul(text.c_str() + pid + 5, nullptr, 10));
-  peer.looks_on = text.ends_with(kLooksOn);
+  peer.low_priority = text.ends_with(kLowPriorityMark);
   return peer;
 }
 
@@ -198,7 +198,7 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
   auto* factory = dds::DomainParticipantFactory::get_instance();
   {
     const detail::ScopedChores chores;
-    if (!options.looks_on) samples_as = chores.before();
+    if (!options.low_priority) samples_as = chores.before();
     participant = factory->create_participant(options.domain, qos, this, dds::StatusMask::none());
   }
   if (participant != nullptr) {
@@ -297,7 +297,7 @@ void Participant::Impl::refuse_datagram(const std::string& address) {
 void Participant::Impl::participant_seen(const detail::GuidPrefix& who,
                                          const detail::Announcement& announcement) {
   const Peer peer = to_peer(announcement);
-  if (peer.looks_on) {
+  if (peer.low_priority) {
     low_priority_peers_->seen(who, announcement.samples_at);
   } else {
     low_priority_peers_->gone(who);

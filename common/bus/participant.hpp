@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "base/writer_guid.hpp"
 
 namespace fathom::bus {
 
@@ -45,7 +45,7 @@ struct ParticipantOptions {
   /// It looks on and nobody waits for what it makes of the samples: it is sent them after all others, and
   /// receiving them gives way to the services that do more, on a processor that has not enough for all at
   /// once.
-  bool looks_on = false;
+  bool low_priority = false;
   /// "address:port" of discovery servers. Not empty: others are found through them alone, without multicast,
   /// and `peers` is not used. Only participants with a topic in common get to know each other, and one that
   /// falls silent is not told from one that leaves: its writers are no BusEventKind::writer_lost.
@@ -95,16 +95,13 @@ struct BusCounters {
   std::uint64_t malformed_datagram = 0;
 };
 
-/// Identity of a writer, unique on the network; SampleInfo carries it.
-using WriterGuid = std::array<std::uint8_t, 16>;
-
 /// Another participant, as discovery knows it.
 struct Peer {
   std::string name;  ///< ParticipantOptions::name for services of this project
   std::string host;  ///< empty when the participant does not say
   std::uint32_t pid = 0;
   bool offers_identity = false;  ///< it expects others to prove theirs
-  bool looks_on = false;         ///< as its ParticipantOptions have it
+  bool low_priority = false;     ///< as its ParticipantOptions have it
 };
 
 /// Somebody on a protected network who has not proved an identity of this vehicle. Name and address are

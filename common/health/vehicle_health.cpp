@@ -50,7 +50,7 @@ VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start, D
       services_(config.services, config.service, config.startup_s, start) {}
 
 void VehicleHealth::heard(SourceKind kind, const SampleHeader& header, const Instant& now,
-                          const WriterId& writer) {
+                          const WriterGuid& writer) {
   if (!ours(header)) return;
   sensors_.heard(kind, header.sensor, now);
   stamps_.heard(kind, header, now);
@@ -58,7 +58,7 @@ void VehicleHealth::heard(SourceKind kind, const SampleHeader& header, const Ins
   if (kind == SourceKind::imu) changes_.heard_imu(header.sensor, writer, now);
 }
 
-void VehicleHealth::add(const GpsSample& sample, const Instant& now, const WriterId& writer) {
+void VehicleHealth::add(const GpsSample& sample, const Instant& now, const WriterGuid& writer) {
   if (!ours(sample.header)) return;
   heard(SourceKind::gps, sample.header, now, writer);
   const bool alive = fixes_.add(sample, now);
@@ -68,7 +68,7 @@ void VehicleHealth::add(const GpsSample& sample, const Instant& now, const Write
   if (!alive) gps_.doubt(sample.header.sensor, fixes_.same_since_ns(sample.header.sensor));
 }
 
-void VehicleHealth::add(const DvlSample& sample, const Instant& now, const WriterId& writer) {
+void VehicleHealth::add(const DvlSample& sample, const Instant& now, const WriterGuid& writer) {
   if (!ours(sample.header)) return;
   if (!is_second_half(sample)) heard(SourceKind::dvl, sample.header, now, writer);
   fixes_.add(sample, now);
@@ -83,7 +83,7 @@ bool VehicleHealth::is_second_half(const DvlSample& sample) {
   return false;
 }
 
-void VehicleHealth::add(const NavState& state, const Instant& now, const WriterId& writer) {
+void VehicleHealth::add(const NavState& state, const Instant& now, const WriterGuid& writer) {
   if (!ours(state.header)) return;
   changes_.heard(state, writer, now);
   orders_.add(state);

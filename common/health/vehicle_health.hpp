@@ -50,11 +50,11 @@ class VehicleHealth {
   VehicleHealth(const HealthConfig& config, const Instant& start, DescribeWriter describe = {});
 
   /// Any sensor sample: that it came, and who wrote it.
-  void heard(SourceKind kind, const SampleHeader& header, const Instant& now, const WriterId& writer = {});
+  void heard(SourceKind kind, const SampleHeader& header, const Instant& now, const WriterGuid& writer = {});
   /// heard() is included.
-  void add(const GpsSample& sample, const Instant& now, const WriterId& writer = {});
-  void add(const DvlSample& sample, const Instant& now, const WriterId& writer = {});
-  void add(const NavState& state, const Instant& now, const WriterId& writer = {});
+  void add(const GpsSample& sample, const Instant& now, const WriterGuid& writer = {});
+  void add(const DvlSample& sample, const Instant& now, const WriterGuid& writer = {});
+  void add(const NavState& state, const Instant& now, const WriterGuid& writer = {});
   void add(const AlignmentStatus& status, const Instant& now);
   void add(const ServiceStatus& status, const Instant& now);
   void add(const Verdict& verdict, const Instant& now);

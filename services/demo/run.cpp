@@ -128,7 +128,7 @@ ExitCode run(const Options& options) {
   // The observer first: it must not miss the first navigation state.
   bus::ParticipantOptions presence;
   presence.name = "demo";
-  presence.looks_on = true;
+  presence.low_priority = true;
   presence.domain = static_cast<std::uint32_t>(options.domain);
   presence.interfaces = options.interfaces;
   presence.peers = options.peers;

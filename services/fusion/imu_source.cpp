@@ -3,7 +3,7 @@
 #include "base/writer_guid.hpp"
 
 namespace fathom::fusion {
-ImuSource::Hearing ImuSource::hear(const Name& unit, const bus::WriterGuid& writer, TimeNs now_ns) {
+ImuSource::Hearing ImuSource::hear(const Name& unit, const WriterGuid& writer, TimeNs now_ns) {
   if (unit != unit_) return Hearing::other_unit;
   if (heard_ && !of_same_process(writer, writer_)) {
     if (now_ns - last_ns_ <= patience_ns_) {

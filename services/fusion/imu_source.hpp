@@ -23,7 +23,7 @@ class ImuSource {
   ImuSource(Name unit, DurationNs patience_ns) : unit_(unit), patience_ns_(patience_ns) {}
 
   /// `now_ns` is monotonic.
-  [[nodiscard]] Hearing hear(const Name& unit, const bus::WriterGuid& writer, TimeNs now_ns);
+  [[nodiscard]] Hearing hear(const Name& unit, const WriterGuid& writer, TimeNs now_ns);
   [[nodiscard]] const Name& unit() const { return unit_; }
   /// How often another one was listened to from then on.
   [[nodiscard]] std::uint64_t changes() const { return changes_; }
@@ -33,7 +33,7 @@ class ImuSource {
  private:
   Name unit_;
   DurationNs patience_ns_;
-  bus::WriterGuid writer_{};
+  WriterGuid writer_{};
   bool heard_ = false;
   TimeNs last_ns_ = 0;
   std::uint64_t changes_ = 0;

@@ -34,7 +34,7 @@ class VerdictDesk {
   /// One that the engine does not know of, a final one. Mutex not held.
   void publish(const Verdict& verdict);
   /// Of the inertial samples. Mutex held.
-  void set_imu_writer(const bus::WriterGuid& writer) { imu_writer_ = writer; }
+  void set_imu_writer(const WriterGuid& writer) { imu_writer_ = writer; }
   /// The engine goes on from another state. Mutex held.
   void begin_anew() { relay_.clear(); }
   /// Mutex held.
@@ -53,7 +53,7 @@ class VerdictDesk {
   bool publishing_ = false;  ///< a thread is in publish()
   VerdictRelay relay_;
   VerdictFigures figures_;
-  bus::WriterGuid imu_writer_{};
+  WriterGuid imu_writer_{};
   bus::Writer<Verdict> verdicts_;
   std::optional<bus::Reader<Verdict>> others_;  ///< where there are several; ends first
 };

@@ -32,7 +32,7 @@ runtime::LogLevel log_level(const std::string& word) {
 bus::ParticipantOptions participant_options(const ServiceHost::Start& start) {
   bus::ParticipantOptions out;
   out.name = start.info.name;
-  out.looks_on = start.info.looks_on;
+  out.low_priority = start.info.low_priority;
   out.domain = static_cast<std::uint32_t>(start.common.bus.domain);
   out.interfaces = start.common.bus.interfaces;
   out.peers = start.common.bus.peers;

@@ -18,9 +18,9 @@ namespace fathom::host {
 
 /// What a service's main says about itself.
 struct ServiceInfo {
-  std::string name;         ///< e.g. "fusion"; the executable is fathom-fusion
-  std::string description;  ///< one sentence for --help
-  bool looks_on = false;    ///< as bus::ParticipantOptions has it
+  std::string name;           ///< e.g. "fusion"; the executable is fathom-fusion
+  std::string description;    ///< one sentence for --help
+  bool low_priority = false;  ///< as bus::ParticipantOptions has it
 };
 
 /// What every service shares: log, clock, presence on the bus, life sign once a second, orderly end.

@@ -51,7 +51,7 @@ struct MonitorService::Impl {
       : host(service_host),
         config(monitor_config),
         health(health_of(monitor_config), now(),
-               [this](const health::WriterId& writer) { return describe(writer); }),
+               [this](const WriterGuid& writer) { return describe(writer); }),
         status_writer(host.participant()),
         alarm_writer(host.participant()),
         journal(monitor_config.journal.path),
@@ -80,7 +80,7 @@ struct MonitorService::Impl {
     host.on_status([this](ServiceStatus& status) { fill(status); });
   }
 
-  [[nodiscard]] std::string describe(const health::WriterId& writer) const {
+  [[nodiscard]] std::string describe(const WriterGuid& writer) const {
     const auto peer = host.participant().peer(writer);
     const std::string name = host.participant().writer_name(writer);
     if (!peer || peer->host.empty()) return name + " (host and process not told)";

@@ -11,9 +11,9 @@ constexpr double kDescribeS = 1.0;  // what discovery knows of a writer comes a 
 
 }  // namespace
 
-void WriterChange::note(Stream& stream, const WriterId& writer, const Instant& now) {
-  if (writer == WriterId{}) return;
-  const bool first = stream.writer == WriterId{};
+void WriterChange::note(Stream& stream, const WriterGuid& writer, const Instant& now) {
+  if (writer == WriterGuid{}) return;
+  const bool first = stream.writer == WriterGuid{};
   if (!first && !of_same_process(writer, stream.writer)) {
     // Of several changes between two reports the first writer and the last one are told.
     if (!stream.changed) stream.before = stream.words;
@@ -24,7 +24,7 @@ void WriterChange::note(Stream& stream, const WriterId& writer, const Instant& n
   stream.last_ns = now.monotonic_ns;
 }
 
-void WriterChange::heard_imu(const Name& sensor, const WriterId& writer, const Instant& now) {
+void WriterChange::heard_imu(const Name& sensor, const WriterGuid& writer, const Instant& now) {
   auto found = units_.find(sensor);
   if (found == units_.end()) {
     if (units_.size() >= kMostUnits) return;
@@ -33,14 +33,14 @@ void WriterChange::heard_imu(const Name& sensor, const WriterId& writer, const I
   note(found->second, writer, now);
 }
 
-void WriterChange::heard(const NavState& state, const WriterId& writer, const Instant& now) {
+void WriterChange::heard(const NavState& state, const WriterGuid& writer, const Instant& now) {
   note(navigation_, writer, now);
   instance_ = state.header.sensor;
 }
 
 void WriterChange::tell(Stream& stream, const Name& key, const std::string& what, AlarmBook& book,
                         const Instant& now, const DescribeWriter& describe) {
-  if (stream.writer == WriterId{}) return;
+  if (stream.writer == WriterGuid{}) return;
   if (stream.described_ns == 0 || to_seconds(now.monotonic_ns - stream.described_ns) >= kDescribeS) {
     stream.words = describe ? describe(stream.writer) : "a writer";
     stream.described_ns = now.monotonic_ns;

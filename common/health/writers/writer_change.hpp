@@ -23,21 +23,21 @@ class WriterChange {
   /// `services`: those expected; where there is none, any may write.
   explicit WriterChange(std::vector<Name> services) : services_(std::move(services)) {}
 
-  void heard_imu(const Name& sensor, const WriterId& writer, const Instant& now);
-  void heard(const NavState& state, const WriterId& writer, const Instant& now);
+  void heard_imu(const Name& sensor, const WriterGuid& writer, const Instant& now);
+  void heard(const NavState& state, const WriterGuid& writer, const Instant& now);
   void report(AlarmBook& book, const Instant& now, const DescribeWriter& describe);
 
  private:
   static constexpr std::size_t kMostUnits = 16;  ///< names come from the network: bounded
   struct Stream {
-    WriterId writer{};
+    WriterGuid writer{};
     std::string words;        ///< of the writer, as known while it was there
     TimeNs described_ns = 0;  ///< monotonic
     TimeNs last_ns = 0;       ///< monotonic
     std::string before;       ///< words of the one before, until the change is reported
     bool changed = false;
   };
-  static void note(Stream& stream, const WriterId& writer, const Instant& now);
+  static void note(Stream& stream, const WriterGuid& writer, const Instant& now);
   static void tell(Stream& stream, const Name& key, const std::string& what, AlarmBook& book,
                    const Instant& now, const DescribeWriter& describe);
 

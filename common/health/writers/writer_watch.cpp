@@ -11,8 +11,8 @@ constexpr std::size_t kMaxSensors = 64;  // names come from the network: bounded
 
 }  // namespace
 
-void WriterWatch::heard(SourceKind kind, const Name& name, const WriterId& writer, const Instant& now) {
-  if (writer == WriterId{}) return;
+void WriterWatch::heard(SourceKind kind, const Name& name, const WriterGuid& writer, const Instant& now) {
+  if (writer == WriterGuid{}) return;
   auto found = sensors_.find({kind, name});
   if (found == sensors_.end()) {
     if (sensors_.size() >= kMaxSensors) return;
@@ -47,7 +47,7 @@ void WriterWatch::heard(SourceKind kind, const Name& name, const WriterId& write
   known->order = sensor.samples;
 }
 
-void WriterWatch::note_return(Sensor& sensor, const WriterId& other, const WriterId& again,
+void WriterWatch::note_return(Sensor& sensor, const WriterGuid& other, const WriterGuid& again,
                               const Instant& now) const {
   const bool fresh = sensor.returns > 0 && to_seconds(now.monotonic_ns - sensor.returned_ns) < kWindowS;
   sensor.returns = fresh ? sensor.returns + 1 : 1;
@@ -60,7 +60,7 @@ void WriterWatch::note_return(Sensor& sensor, const WriterId& other, const Write
 }
 
 void WriterWatch::report(AlarmBook& book, const Instant& now, const DescribeWriter& describe) const {
-  const auto who = [&](const WriterId& id) { return describe ? describe(id) : std::string("a writer"); };
+  const auto who = [&](const WriterGuid& id) { return describe ? describe(id) : std::string("a writer"); };
   for (const auto& [id, sensor] : sensors_) {
     const Name key = alarm_key("second_writer", id.second.view());
     const std::string kind(to_string(id.first));

@@ -15,11 +15,8 @@
 
 namespace fathom::health {
 
-/// Identity of a writer on the vehicle network; all zero: not known.
-using WriterId = WriterGuid;
-
 /// "gps_bridge (process 12 on host auv1)": what discovery knows of a writer.
-using DescribeWriter = std::function<std::string(const WriterId&)>;
+using DescribeWriter = std::function<std::string(const WriterGuid&)>;
 
 /// Second writers of a sensor: two that publish the same sensor in turn, or a sensor that nobody expects
 /// beside the expected ones of its kind. A restarted bridge is a new writer, but the old one does not come
@@ -31,14 +28,14 @@ class WriterWatch {
   /// `expected`: the sensors that have to be there. A kind without any is not judged by name.
   explicit WriterWatch(std::vector<std::pair<SourceKind, Name>> expected) : expected_(std::move(expected)) {}
 
-  void heard(SourceKind kind, const Name& sensor, const WriterId& writer, const Instant& now);
+  void heard(SourceKind kind, const Name& sensor, const WriterGuid& writer, const Instant& now);
   /// "second_writer:<sensor>".
   void report(AlarmBook& book, const Instant& now, const DescribeWriter& describe) const;
 
  private:
   static constexpr std::size_t kMaxWriters = 4;  ///< remembered per sensor
   struct Writer {
-    WriterId id{};
+    WriterGuid id{};
     TimeNs last_ns = 0;
     std::uint64_t order = 0;  ///< of its last sample among this sensor's
   };
@@ -49,10 +46,11 @@ class WriterWatch {
     int returns = 0;  ///< of a writer after another one, within the window
     TimeNs first_ns = 0;
     TimeNs returned_ns = 0;
-    std::array<WriterId, 2> rivals{};
+    std::array<WriterGuid, 2> rivals{};
   };
 
-  void note_return(Sensor& sensor, const WriterId& other, const WriterId& again, const Instant& now) const;
+  void note_return(Sensor& sensor, const WriterGuid& other, const WriterGuid& again,
+                   const Instant& now) const;
 
   std::vector<std::pair<SourceKind, Name>> expected_;
   std::map<std::pair<SourceKind, Name>, Sensor> sensors_;

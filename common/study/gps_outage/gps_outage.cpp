@@ -136,7 +136,7 @@ struct Runner {
   [[nodiscard]] Errors errors(const Truth& truth) const {
     return engine ? errors_of(*engine, truth) : errors_of(*navigator, truth);
   }
-  void foretell() {
+  void predict() {
     if (!engine) return;
     Forecast forecast;
     engine->fill(forecast);
@@ -150,7 +150,7 @@ struct Runner {
   Errors scored;
   double time_to_limit_s = kUnknown;
   double predicted_s = kUnknown;
-  double foretold_m = kUnknown;  ///< 95 % radius at the end of the outage
+  double predicted_m = kUnknown;  ///< 95 % radius at the end of the outage
 };
 
 void report(const Runner& one, bool outage, Scores& scores) {
@@ -250,7 +250,7 @@ class GpsOutage final : public Study {
       const double gone_s = t - one.outage_at_s;
       if (!begun && gone_s > -1e-6) {
         begun = true;
-        for (Runner& runner : runners) runner.foretell();
+        for (Runner& runner : runners) runner.predict();
       }
       if (!begun) continue;
       const bool due = !scored && gone_s > one.scored_after_s - 1e-6;
@@ -287,14 +287,14 @@ class GpsOutage final : public Study {
       if (!inside && t >= outage.from_s) {
         inside = true;
         for (Runner& runner : runners)
-          if (runner.engine) runner.foretold_m = runner.engine->forecast_horizontal_95_m(outage.to_s - t);
+          if (runner.engine) runner.predicted_m = runner.engine->forecast_horizontal_95_m(outage.to_s - t);
       } else if (inside && t >= outage.to_s) {
         inside = false;
         ++next;
         for (const Runner& runner : runners)
           if (runner.engine)
             scores.add(runner.method, kCoverage,
-                       runner.errors(simulation.truth()).horizontal_m <= runner.foretold_m ? 1.0 : 0.0);
+                       runner.errors(simulation.truth()).horizontal_m <= runner.predicted_m ? 1.0 : 0.0);
       }
     }
   }

@@ -40,8 +40,8 @@ class Latest {
 /// Makes points of a tenth of a second out of navigation states.
 class Log {
  public:
-  explicit Log(const Passage& passage)
-      : config_(passage.config->engine), rpm_(passage.data->propulsion), fins_(passage.data->fins) {}
+  explicit Log(const SolveRun& solve_run)
+      : config_(solve_run.config->engine), rpm_(solve_run.data->propulsion), fins_(solve_run.data->fins) {}
 
   void add(const NavState& state) {
     const PropulsionSample* shaft = rpm_.at(state.header.stamp_ns);
@@ -151,25 +151,25 @@ std::string text_of(const Calibration& found) {
 
 }  // namespace
 
-std::string calibrate_hydro(const Passage& passage, const std::string& directory,
+std::string calibrate_hydro(const SolveRun& solve_run, const std::string& directory,
                             const std::string& config_file, const std::string& out_file) {
-  const auto& start = passage.config->engine.vehicle_model.coefficients;
+  const auto& start = solve_run.config->engine.vehicle_model.coefficients;
   if (const std::string complaint = start.validate(); !complaint.empty()) {
     throw Failure(ExitCode::bad_configuration,
                   config_file + ": engine.vehicle_model.coefficients." + complaint + ", to calibrate from");
   }
-  if (passage.data->propulsion.empty()) {
+  if (solve_run.data->propulsion.empty()) {
     throw Failure(ExitCode::bad_input,
                   directory + "/propulsion.csv: no rows, expected the shaft speed to calibrate with");
   }
-  if (passage.data->dvl.empty()) {
+  if (solve_run.data->dvl.empty()) {
     throw Failure(ExitCode::bad_input,
                   directory + "/dvl.csv: no rows, expected velocities over ground to calibrate with");
   }
   // What is to be calibrated must not have had a hand in the velocity.
-  config::FusionConfig config = *passage.config;
+  config::FusionConfig config = *solve_run.config;
   config.engine.vehicle_model.enabled = false;
-  Passage own = passage;
+  SolveRun own = solve_run;
   own.config = &config;
   own.label = "calibrate";
   Log log(own);
@@ -177,7 +177,7 @@ std::string calibrate_hydro(const Passage& passage, const std::string& directory
   (void)run(own);
   const Calibration found = estimation::hydro::calibrate(start, log.points());
   if (!found.failure.empty()) throw Failure(ExitCode::bad_input, directory + ": " + found.failure);
-  write_file(out_file, found, passage.config->common.vehicle, directory);
+  write_file(out_file, found, solve_run.config->common.vehicle, directory);
   return text_of(found);
 }
 

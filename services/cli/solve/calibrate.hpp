@@ -6,11 +6,11 @@
 
 namespace fathom::cli {
 
-/// One more passage of the data set, without the vehicle model, and the coefficients that its navigated
+/// One more run of the data set, without the vehicle model, and the coefficients that its navigated
 /// velocity asks for (HYD-5): a coefficient file for the engine with the sigma of each value. Returns what is
 /// told people about it. Throws
 /// Failure.
-[[nodiscard]] std::string calibrate_hydro(const Passage& passage, const std::string& directory,
+[[nodiscard]] std::string calibrate_hydro(const SolveRun& solve_run, const std::string& directory,
                                           const std::string& config_file, const std::string& out_file);
 
 }  // namespace fathom::cli

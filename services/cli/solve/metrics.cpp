@@ -119,8 +119,8 @@ json heading(const HeadingFigures& figures) {
   return out;
 }
 
-double us_per_sample(const PassageResult& passage) {
-  return passage.imu_samples > 0 ? 1e6 * passage.wall_s / static_cast<double>(passage.imu_samples) : kUnknown;
+double us_per_sample(const SolveResult& result) {
+  return result.imu_samples > 0 ? 1e6 * result.wall_s / static_cast<double>(result.imu_samples) : kUnknown;
 }
 
 template <class... Arguments>
@@ -140,13 +140,13 @@ std::string to_json(const SolveReport& report) {
   out["version"] = std::string(runtime::version());
   out["start"] = report.start;
   out["smoothed"] = report.smoothed;
-  out["imu_samples"] = report.passage.imu_samples;
-  out["nav_states"] = report.passage.nav_states;
+  out["imu_samples"] = report.result.imu_samples;
+  out["nav_states"] = report.result.nav_states;
   out["positions"] = report.positions;
   out["alignment"] = std::string(to_string(report.alignment));
-  out["wall_time_s"] = report.passage.wall_s;
-  out["time_per_imu_sample_us"] = number(us_per_sample(report.passage));
-  out["verdicts"] = verdicts(report.passage.verdicts);
+  out["wall_time_s"] = report.result.wall_s;
+  out["time_per_imu_sample_us"] = number(us_per_sample(report.result));
+  out["verdicts"] = verdicts(report.result.verdicts);
   if (!report.smoothed) out["heading"] = heading(report.heading);
   const dataset::Score& score = report.score;
   out["scored"] = score.count;
@@ -158,7 +158,7 @@ std::string to_json(const SolveReport& report) {
   if (report.filtered.count > 0) out["filtered"] = errors(report.filtered, report.distance_m);
   if (report.at_fixes.count > 0) {
     out["at_fixes"] = {{"count", report.at_fixes.count},
-                       {"latency_found_s", report.passage.gps_latency_s},
+                       {"latency_found_s", report.result.gps_latency_s},
                        {"horizontal_error_m", {{"rms", number(report.at_fixes.rms_m())}}}};
     if (report.smoothed)
       out["at_fixes"]["filtered"] = {
@@ -173,9 +173,9 @@ std::string to_json(const SolveReport& report) {
 
 std::string to_text(const SolveReport& report) {
   std::string out = line("%s: %llu inertial samples in %.2f s, %.1f us each", report.dataset.c_str(),
-                         static_cast<unsigned long long>(report.passage.imu_samples), report.passage.wall_s,
-                         us_per_sample(report.passage));
-  for (const auto& [source, kinds] : report.passage.verdicts) {
+                         static_cast<unsigned long long>(report.result.imu_samples), report.result.wall_s,
+                         us_per_sample(report.result));
+  for (const auto& [source, kinds] : report.result.verdicts) {
     std::string words = std::string(to_string(source)) + ":";
     for (std::size_t i = 0; i < kVerdictKinds; ++i) {
       if (kinds[i] == 0) continue;

@@ -17,7 +17,7 @@ struct SolveReport {
   std::string config;
   std::string config_hash;
   std::string start;  ///< "configured" or "reference"
-  PassageResult passage;
+  SolveResult result;
   bool smoothed = false;
   std::uint64_t positions = 0;                      ///< navigation states with a position
   AlignmentPhase alignment = AlignmentPhase::none;  ///< at the end

@@ -148,13 +148,13 @@ void take_forecast(Watch& watch, estimation::FusionEngine& engine) {
       watch.window.time_to_limit_s[forecast.limits[i].name.str()] = forecast.limits[i].time_to_limit_s;
 }
 
-// One passage with windows removed; appends what became of them.
-void run_windows(Passage passage, const std::vector<GpsWindow>& removed, bool smooth, TimeNs epoch_ns,
+// One run with windows removed; appends what became of them.
+void run_windows(SolveRun solve_run, const std::vector<GpsWindow>& removed, bool smooth, TimeNs epoch_ns,
                  OutageFigures& figures) {
   std::vector<Watch> watches;
   for (const GpsWindow& window : removed) {
     Watch watch;
-    watch.fixes = fixes_in(passage.data->gps, window);
+    watch.fixes = fixes_in(solve_run.data->gps, window);
     if (watch.fixes.empty()) continue;  // GPS was out by itself: nothing to compare with
     watch.begin_ns = window.begin_ns;
     watch.end_ns = watch.fixes.back()->header.stamp_ns;
@@ -162,10 +162,10 @@ void run_windows(Passage passage, const std::vector<GpsWindow>& removed, bool sm
     watch.window.end_s = to_seconds(watch.end_ns - epoch_ns);
     watches.push_back(std::move(watch));
   }
-  passage.gps_removed = removed;
+  solve_run.gps_removed = removed;
   Path path;
   std::size_t next = 0;
-  passage.on_state = [&](const NavState& state, estimation::FusionEngine& engine) {
+  solve_run.on_state = [&](const NavState& state, estimation::FusionEngine& engine) {
     path.add(state);
     if (next >= watches.size() || !known(state.latitude_rad)) return;
     Watch& watch = watches[next];
@@ -175,18 +175,18 @@ void run_windows(Passage passage, const std::vector<GpsWindow>& removed, bool sm
     watch.done = true;
     ++next;
   };
-  const PassageResult result = run(passage);
+  const SolveResult result = run(solve_run);
   Path smoothed;
   if (smooth)
-    static_cast<void>(run_smoothed(passage, {{}, [&](const NavState& state) { smoothed.add(state); }}));
-  const Antenna antenna = antenna_of(*passage.config, result.gps_latency_s);
+    static_cast<void>(run_smoothed(solve_run, {{}, [&](const NavState& state) { smoothed.add(state); }}));
+  const Antenna antenna = antenna_of(*solve_run.config, result.gps_latency_s);
   for (Watch& watch : watches) {
     if (!watch.done) continue;
     for (const GpsSample* fix : watch.fixes) {
       watch.window.inside.add(path.error_m(*fix, antenna));
       if (smooth) watch.window.smoothed_inside.add(smoothed.error_m(*fix, antenna));
     }
-    watch.window.fix_95_m = fix_95_m(*passage.config);
+    watch.window.fix_95_m = fix_95_m(*solve_run.config);
     watch.window.horizontal_error_m = path.error_m(*watch.fixes.back(), antenna);
     figures.windows.push_back(watch.window);
   }
@@ -257,16 +257,16 @@ std::vector<GpsWindow> first_windows(const dataset::Dataset& data, const OutageR
   return planned(data, request, request.durations_s.front(), 0.0, epoch_ns, directory);
 }
 
-std::vector<OutageFigures> run_outages(const Passage& passage, const OutageRequest& request, bool smooth,
+std::vector<OutageFigures> run_outages(const SolveRun& solve_run, const OutageRequest& request, bool smooth,
                                        TimeNs epoch_ns, const std::string& directory) {
   std::vector<OutageFigures> all;
   if (request.random > 0) {
     OutageFigures& figures = all.emplace_back();
     for (int pass = 0; static_cast<int>(figures.windows.size()) < request.random; ++pass) {
       const std::size_t before = figures.windows.size();
-      Passage one = passage;
+      SolveRun one = solve_run;
       one.label = "random outages";
-      run_windows(std::move(one), random_windows(*passage.data, request, pass, epoch_ns, directory), smooth,
+      run_windows(std::move(one), random_windows(*solve_run.data, request, pass, epoch_ns, directory), smooth,
                   epoch_ns, figures);
       if (figures.windows.size() == before && pass > kMostEmptyPasses) break;
     }
@@ -280,9 +280,9 @@ std::vector<OutageFigures> run_outages(const Passage& passage, const OutageReque
     OutageFigures& figures = all.emplace_back();
     figures.duration_s = duration_s;
     for (const double offset_s : kPooledStarts_s) {
-      const auto removed = planned(*passage.data, request, duration_s, offset_s, epoch_ns, directory);
+      const auto removed = planned(*solve_run.data, request, duration_s, offset_s, epoch_ns, directory);
       if (removed.empty()) continue;
-      Passage one = passage;
+      SolveRun one = solve_run;
       one.label = "outage of " + std::to_string(static_cast<int>(duration_s)) + " s";
       run_windows(std::move(one), removed, smooth, epoch_ns, figures);
     }

@@ -62,8 +62,8 @@ struct OutageFigures {
 
 /// Runs the data set with the windows removed, once for start, start + 13, + 26 and + 39 s of each duration.
 /// With `smooth` each also through the smoother. Throws Failure (exit 3) when no window fits.
-/// `passage.on_state` and `passage.gps_removed` are not used.
-[[nodiscard]] std::vector<OutageFigures> run_outages(const Passage& passage, const OutageRequest& request,
+/// `solve_run.on_state` and `solve_run.gps_removed` are not used.
+[[nodiscard]] std::vector<OutageFigures> run_outages(const SolveRun& solve_run, const OutageRequest& request,
                                                      bool smooth, TimeNs epoch_ns,
                                                      const std::string& directory);
 

@@ -22,22 +22,23 @@ void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig&
 
 }  // namespace
 
-bool Passage::removes(const GpsSample& fix) const {
+bool SolveRun::removes(const GpsSample& fix) const {
   return std::any_of(gps_removed.begin(), gps_removed.end(),
                      [&](const GpsWindow& window) { return window.contains(fix.header.stamp_ns); });
 }
 
-std::optional<estimation::InitialState> start_of(const Passage& passage) {
-  if (passage.start) return passage.start;
-  if (config::starts_from_state(passage.config->start.mode)) return config::initial_state(*passage.config);
+std::optional<estimation::InitialState> start_of(const SolveRun& solve_run) {
+  if (solve_run.start) return solve_run.start;
+  if (config::starts_from_state(solve_run.config->start.mode))
+    return config::initial_state(*solve_run.config);
   return std::nullopt;
 }
 
-PassageResult run(const Passage& passage) {
-  estimation::FusionEngine engine(config::engine_config(*passage.config));
-  if (const auto start = start_of(passage)) engine.start_from(*start);
-  PassageResult result;
-  Progress progress(passage.label, passage.arrivals->size());
+SolveResult run(const SolveRun& solve_run) {
+  estimation::FusionEngine engine(config::engine_config(*solve_run.config));
+  if (const auto start = start_of(solve_run)) engine.start_from(*start);
+  SolveResult result;
+  Progress progress(solve_run.label, solve_run.arrivals->size());
   const SystemClock clock;
   const TimeNs begin_ns = clock.monotonic_ns();
   const auto take_verdicts = [&] {
@@ -46,13 +47,13 @@ PassageResult run(const Passage& passage) {
       if (verdict.is_final) ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
   };
   std::uint64_t done = 0;
-  for_each_sample(passage, [&](const auto& sample) {
+  for_each_sample(solve_run, [&](const auto& sample) {
     progress.update(++done);
     if constexpr (std::is_same_v<std::decay_t<decltype(sample)>, ImuSample>) {
       ++result.imu_samples;
       if (engine.add(sample)) {
         ++result.nav_states;
-        if (passage.on_state) passage.on_state(engine.nav_state(), engine);
+        if (solve_run.on_state) solve_run.on_state(engine.nav_state(), engine);
       }
     } else {
       engine.add(sample);

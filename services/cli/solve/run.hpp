@@ -34,8 +34,8 @@ struct GpsWindow {
   [[nodiscard]] bool contains(TimeNs stamp_ns) const { return stamp_ns >= begin_ns && stamp_ns < end_ns; }
 };
 
-/// One passage of a data set through the engine.
-struct Passage {
+/// One run of a data set through the engine.
+struct SolveRun {
   const config::FusionConfig* config = nullptr;
   const dataset::Dataset* data = nullptr;
   const std::vector<dataset::Arrival>* arrivals = nullptr;
@@ -50,20 +50,20 @@ struct Passage {
 
 /// Calls `consumer` with each sample in the order of arrival, without the removed fixes.
 template <class Consumer>
-void for_each_sample(const Passage& passage, Consumer&& consumer) {
-  for (const dataset::Arrival& arrival : *passage.arrivals) {
-    dataset::visit(*passage.data, arrival, [&](const auto& sample) {
+void for_each_sample(const SolveRun& solve_run, Consumer&& consumer) {
+  for (const dataset::Arrival& arrival : *solve_run.arrivals) {
+    dataset::visit(*solve_run.data, arrival, [&](const auto& sample) {
       if constexpr (std::is_same_v<std::decay_t<decltype(sample)>, GpsSample>)
-        if (passage.removes(sample)) return;
+        if (solve_run.removes(sample)) return;
       consumer(sample);
     });
   }
 }
 
-/// The state that the passage or its configuration gives to start from, if any.
-[[nodiscard]] std::optional<estimation::InitialState> start_of(const Passage& passage);
+/// The state that the run or its configuration gives to start from, if any.
+[[nodiscard]] std::optional<estimation::InitialState> start_of(const SolveRun& solve_run);
 
-struct PassageResult {
+struct SolveResult {
   VerdictCounts verdicts;
   std::uint64_t imu_samples = 0;
   std::uint64_t nav_states = 0;
@@ -75,7 +75,7 @@ struct PassageResult {
 [[nodiscard]] double gps_latency_s(const NavDetail& detail);
 
 /// Hands every sample to the engine in the order of its arrival: what the fusion service does on the network.
-[[nodiscard]] PassageResult run(const Passage& passage);
+[[nodiscard]] SolveResult run(const SolveRun& solve_run);
 
 /// Gives each stream the name of the first configured sensor of its kind, so that one configuration serves
 /// the vehicle and its recordings.

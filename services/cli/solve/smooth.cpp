@@ -9,18 +9,18 @@
 
 namespace fathom::cli {
 
-PassageResult run_smoothed(const Passage& passage, const SmoothedStates& states) {
+SolveResult run_smoothed(const SolveRun& solve_run, const SmoothedStates& states) {
   constexpr double kProgressSteps = 1000.0;
-  estimation::Smoother smoother(config::engine_config(*passage.config));
-  if (const auto start = start_of(passage)) smoother.start_from(*start);
-  PassageResult result;
-  Progress progress(passage.label, static_cast<std::uint64_t>(kProgressSteps));
+  estimation::Smoother smoother(config::engine_config(*solve_run.config));
+  if (const auto start = start_of(solve_run)) smoother.start_from(*start);
+  SolveResult result;
+  Progress progress(solve_run.label, static_cast<std::uint64_t>(kProgressSteps));
   const SystemClock clock;
   const TimeNs begin_ns = clock.monotonic_ns();
-  for_each_sample(passage, [&](const auto& sample) { smoother.add(sample); });
-  result.imu_samples = passage.data->imu.size();
+  for_each_sample(solve_run, [&](const auto& sample) { smoother.add(sample); });
+  result.imu_samples = solve_run.data->imu.size();
   std::vector<NavState> smoothed;
-  smoothed.reserve(passage.data->imu.size());
+  smoothed.reserve(solve_run.data->imu.size());
   estimation::Smoother::Output output;
   output.verdict = [&](const Verdict& verdict) {
     ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];

@@ -95,15 +95,15 @@ SolveReport solve(const SolveOptions& options) {
   const dataset::Dataset data = read_dataset(options.directory, loaded.value);
   const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
 
-  Passage passage;
-  passage.config = &loaded.value;
-  passage.data = &data;
-  passage.arrivals = &arrivals;
-  passage.label = "solve";
+  SolveRun solve_run;
+  solve_run.config = &loaded.value;
+  solve_run.data = &data;
+  solve_run.arrivals = &arrivals;
+  solve_run.label = "solve";
   if (options.start == "reference")
-    passage.start = start_from_reference(data, loaded.value, options.directory);
+    solve_run.start = start_from_reference(data, loaded.value, options.directory);
   if (outages) {
-    passage.gps_removed = first_windows(data, *outages, dataset::kDefaultEpochNs, options.directory);
+    solve_run.gps_removed = first_windows(data, *outages, dataset::kDefaultEpochNs, options.directory);
   }
 
   const dataset::TruthTrack truth(data.reference);
@@ -130,7 +130,7 @@ SolveReport solve(const SolveOptions& options) {
   report.dataset = options.directory;
   report.config = options.config;
   report.config_hash = loaded.hash;
-  report.start = passage.start ? "reference" : "configured";
+  report.start = solve_run.start ? "reference" : "configured";
   report.smoothed = options.smooth;
   if (options.smooth) {
     dataset::Scorer filtered;
@@ -138,36 +138,37 @@ SolveReport solve(const SolveOptions& options) {
       score(state, filtered);
       if (!data.gps.empty()) filtered_path.add(state);
     };
-    report.passage = run_smoothed(passage, {take_filtered, take});
+    report.result = run_smoothed(solve_run, {take_filtered, take});
     report.filtered = filtered.score();
   } else {
     HeadingWatch heading(loaded.value, data.gps);
     NavDetail detail;
-    passage.on_state = [&](const NavState& state, const estimation::FusionEngine& engine) {
+    solve_run.on_state = [&](const NavState& state, const estimation::FusionEngine& engine) {
       take(state);
       if (heading.wants_detail(state)) engine.fill(detail);
       heading.add(state, detail);
       if (const auto at = truth.at(state.header.stamp_ns)) heading.add(state, *at);
     };
-    report.passage = run(passage);
+    report.result = run(solve_run);
     report.heading = heading.figures();
   }
   csv.close();
   report.score = scorer.score();
   if (report.score.count > 0)
     report.distance_m = truth.distance_m(report.score.first_ns, report.score.last_ns);
-  const Antenna antenna = antenna_of(loaded.value, report.passage.gps_latency_s);
+  const Antenna antenna = antenna_of(loaded.value, report.result.gps_latency_s);
   for (const GpsSample& fix : data.gps) {
-    if (fix.fix == GpsFix::none || passage.removes(fix)) continue;
+    if (fix.fix == GpsFix::none || solve_run.removes(fix)) continue;
     report.at_fixes.add(path.error_m(fix, antenna));
     if (options.smooth) report.filtered_at_fixes.add(filtered_path.error_m(fix, antenna));
   }
   if (outages) {
     report.outages =
-        run_outages(passage, *outages, options.smooth, dataset::kDefaultEpochNs, options.directory);
+        run_outages(solve_run, *outages, options.smooth, dataset::kDefaultEpochNs, options.directory);
   }
   if (!options.calibrate_hydro.empty())
-    report.calibration = calibrate_hydro(passage, options.directory, options.config, options.calibrate_hydro);
+    report.calibration =
+        calibrate_hydro(solve_run, options.directory, options.config, options.calibrate_hydro);
   return report;
 }
 

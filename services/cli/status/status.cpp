@@ -138,7 +138,7 @@ ExitCode run(const StatusOptions& options) {
 void add_status(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<StatusOptions>();
   options->bus.name = "fathom_status";
-  options->bus.looks_on = true;
+  options->bus.low_priority = true;
   CLI::App* command = app.add_subcommand("status", "Shows how the vehicle and its navigation are.");
   command->footer("Exit code: 0 healthy, 1 degraded, 2 no navigation.");
   command->add_flag("--watch", options->watch, "Keep showing until interrupted");

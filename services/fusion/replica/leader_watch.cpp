@@ -2,19 +2,19 @@
 
 namespace fathom::fusion {
 
-LeaderWatch::Participant LeaderWatch::of(const bus::WriterGuid& writer) {
+LeaderWatch::Participant LeaderWatch::of(const WriterGuid& writer) {
   Participant out;
   std::copy_n(writer.begin(), out.size(), out.begin());
   return out;
 }
 
-void LeaderWatch::heard(const Name& instance, const bus::WriterGuid& writer, TimeNs now_ns) {
+void LeaderWatch::heard(const Name& instance, const WriterGuid& writer, TimeNs now_ns) {
   leader_ = instance;
   led_by_ = of(writer);
   heard_ns_ = now_ns;
 }
 
-void LeaderWatch::told(const ReplicaStatus& status, const bus::WriterGuid& writer, TimeNs now_ns) {
+void LeaderWatch::told(const ReplicaStatus& status, const WriterGuid& writer, TimeNs now_ns) {
   const Participant from = of(writer);
   if (!accounts_.contains(from) && accounts_.size() == kMost) {
     std::erase_if(accounts_, [&](const auto& one) { return now_ns - one.second.told_ns > patience_ns_; });
@@ -29,7 +29,7 @@ void LeaderWatch::told(const ReplicaStatus& status, const bus::WriterGuid& write
   account.told_ns = now_ns;
 }
 
-LeaderWatch::Objection LeaderWatch::objection(const Name& instance, const bus::WriterGuid& writer,
+LeaderWatch::Objection LeaderWatch::objection(const Name& instance, const WriterGuid& writer,
                                               TimeNs now_ns) const {
   const Participant from = of(writer);
   const auto found = accounts_.find(from);

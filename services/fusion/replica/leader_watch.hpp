@@ -22,15 +22,15 @@ class LeaderWatch {
   explicit LeaderWatch(DurationNs patience_ns) : patience_ns_(patience_ns) {}
 
   /// A navigation state of another instance was delivered.
-  void heard(const Name& instance, const bus::WriterGuid& writer, TimeNs now_ns);
+  void heard(const Name& instance, const WriterGuid& writer, TimeNs now_ns);
   /// An account of another instance.
-  void told(const ReplicaStatus& status, const bus::WriterGuid& writer, TimeNs now_ns);
+  void told(const ReplicaStatus& status, const WriterGuid& writer, TimeNs now_ns);
   struct Objection {
     std::string why;      ///< the state is not taken, in words; empty when it is
     bool forged = false;  ///< no change of leadership explains it
   };
   /// To a state that this instance is said to send.
-  [[nodiscard]] Objection objection(const Name& instance, const bus::WriterGuid& writer, TimeNs now_ns) const;
+  [[nodiscard]] Objection objection(const Name& instance, const WriterGuid& writer, TimeNs now_ns) const;
 
  private:
   using Participant = std::array<std::uint8_t, 12>;
@@ -42,7 +42,7 @@ class LeaderWatch {
     std::optional<TimeNs> leads_since_ns;  ///< when it last began to say so
     std::optional<TimeNs> led_ns;          ///< when it last said so
   };
-  [[nodiscard]] static Participant of(const bus::WriterGuid& writer);
+  [[nodiscard]] static Participant of(const WriterGuid& writer);
   [[nodiscard]] bool fresh(TimeNs at_ns, TimeNs now_ns) const { return now_ns - at_ns <= patience_ns_; }
 
   DurationNs patience_ns_;

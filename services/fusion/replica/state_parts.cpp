@@ -23,7 +23,7 @@ bool send_in_parts(EngineStatePart head, std::span<const std::byte> bytes,
 }
 
 std::optional<StateAssembler::Whole> StateAssembler::add(const EngineStatePart& part,
-                                                         const bus::WriterGuid& writer) {
+                                                         const WriterGuid& writer) {
   const bool sane = part.parts > 0 && part.parts <= kMostParts && part.part < part.parts && part.size > 0 &&
                     part.size <= EngineStatePart::kBytes;
   if (!sane) return std::nullopt;

@@ -28,10 +28,10 @@ class StateAssembler {
     std::vector<std::byte> bytes;
   };
   /// A state when this part was the last that it lacked.
-  [[nodiscard]] std::optional<Whole> add(const EngineStatePart& part, const bus::WriterGuid& writer);
+  [[nodiscard]] std::optional<Whole> add(const EngineStatePart& part, const WriterGuid& writer);
 
  private:
-  bus::WriterGuid writer_{};
+  WriterGuid writer_{};
   Whole whole_;
   std::uint32_t next_ = 0;  ///< part expected; parts of one writer come in order
 };

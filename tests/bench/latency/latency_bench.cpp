@@ -74,7 +74,7 @@ class Publications {
  private:
   static bus::ParticipantOptions options() {
     auto out = presence(kDomain, "latency_bench_publications");
-    out.looks_on = true;
+    out.low_priority = true;
     return out;
   }
   std::mutex mutex_;

@@ -86,7 +86,7 @@ class Witness {
   }
   static bus::ParticipantOptions options() {
     auto out = presence(kDomain, "takeover_bench_witness");
-    out.looks_on = true;
+    out.low_priority = true;
     return out;
   }
   template <class T>

@@ -71,8 +71,8 @@ TYPED_TEST(Successors, GoOnInOrderWithoutASampleLostOrTwice) {
 
   TypeParam sample;
   sample.header.vehicle = "auv";
-  const bus::WriterGuid first = writer.guid();
-  std::set<bus::WriterGuid> writers;
+  const WriterGuid first = writer.guid();
+  std::set<WriterGuid> writers;
   EXPECT_TRUE(eventually(
       [&] {
         ++sample.header.sequence;
@@ -104,7 +104,7 @@ TEST(Successor, IsNotOfAWriterThatKeepsSamplesForLateReaders) {
   bus::WriterOptions with;
   with.successor_after = 1;
   bus::Writer<ServiceStatus> writer(a, with);
-  const bus::WriterGuid first = writer.guid();
+  const WriterGuid first = writer.guid();
   for (int i = 0; i < 20; ++i) EXPECT_TRUE(writer.write(ServiceStatus{}));
   let_pass(milliseconds(3500));
   EXPECT_EQ(writer.guid(), first);
@@ -126,7 +126,7 @@ TEST(Successor, OfAnExclusiveTopicIsHeardAlsoWhenTheIdentitiesBeginAnew) {
   ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
   NavState sample;
   sample.header.vehicle = "auv";
-  const bus::WriterGuid first = writer.guid();
+  const WriterGuid first = writer.guid();
   const auto write = [&] {
     ++sample.header.sequence;
     EXPECT_TRUE(writer.write(sample));
@@ -160,7 +160,7 @@ int policy_of_handler(bus::ParticipantOptions made_with) {
   EXPECT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
   const auto others = a.peers();
   EXPECT_EQ(others.size(), 1U);
-  for (const bus::Peer& other : others) EXPECT_EQ(other.looks_on, made_with.looks_on);
+  for (const bus::Peer& other : others) EXPECT_EQ(other.low_priority, made_with.low_priority);
   EXPECT_TRUE(writer.write(GpsSample{}));
   auto said = policy.get_future();
   return said.wait_for(std::chrono::seconds(10)) == std::future_status::ready ? said.get() : -1;
@@ -170,7 +170,7 @@ TEST(Delivery, OneThatLooksOnGivesWay) {
   ASSERT_EQ(sched_getscheduler(0), SCHED_OTHER);
   bus::ParticipantOptions made_with = options(103, "monitor");
   EXPECT_EQ(policy_of_handler(made_with), SCHED_OTHER);
-  made_with.looks_on = true;
+  made_with.low_priority = true;
   EXPECT_EQ(policy_of_handler(made_with), SCHED_BATCH);
 }
 

@@ -75,7 +75,7 @@ TEST(HostileDatagrams, AreLeftOutCountedAndReported) {
 }
 
 /// A heartbeat as if from this writer, that it has nothing below sample `leap` (a multiple of 65536).
-rtps::Bytes forged_heartbeat(const bus::WriterGuid& writer, std::uint32_t leap) {
+rtps::Bytes forged_heartbeat(const WriterGuid& writer, std::uint32_t leap) {
   rtps::Bytes heartbeat = rtps::submessage(rtps::kHeartbeat, 28);
   std::fill(heartbeat.begin() + 4, heartbeat.end(), 0);
   std::copy(writer.begin() + 12, writer.end(), heartbeat.begin() + 8);

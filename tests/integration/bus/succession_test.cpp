@@ -67,13 +67,13 @@ class Source {
       T sample;
       sample.header.vehicle = "auv";
       sample.header.sensor = "one";
-      bus::WriterGuid guid = writer_.guid();
+      WriterGuid guid = writer_.guid();
       for (auto next = steady_clock::now(); !stop_; next += period_) {
         std::this_thread::sleep_until(next);
         ++sample.header.sequence;
         if (!writer_.write(sample)) ++failed;
         written = sample.header.sequence;
-        if (const bus::WriterGuid now = writer_.guid(); now != guid) {
+        if (const WriterGuid now = writer_.guid(); now != guid) {
           guid = now;
           ++successions;
         }

@@ -83,15 +83,15 @@ TEST(Permissions, AreWhatTheServicesUseAndNoMore) {
   ASSERT_TRUE(wait_until([&] { return demo.out().find(sign) != std::string::npos; }, 240.0)) << demo.err();
   const std::string said = demo.out().substr(demo.out().find(sign) + sign.size());
 
-  bus::ParticipantOptions presence = options(kDomain, "onlooker");
+  bus::ParticipantOptions presence = options(kDomain, "observer");
   presence.security = {said.substr(0, said.find(' ')), "cli"};
   {
-    bus::Participant onlooker(presence);
+    bus::Participant observer(presence);
     const Uses expected = table();
-    EXPECT_TRUE(wait_until([&] { return uses(onlooker) == expected; }, 240.0));
-    EXPECT_EQ(uses(onlooker), expected);
-    EXPECT_EQ(onlooker.counters().stranger_refused, 0U);
-    EXPECT_EQ(onlooker.counters().permission_refused, 0U);
+    EXPECT_TRUE(wait_until([&] { return uses(observer) == expected; }, 240.0));
+    EXPECT_EQ(uses(observer), expected);
+    EXPECT_EQ(observer.counters().stranger_refused, 0U);
+    EXPECT_EQ(observer.counters().permission_refused, 0U);
   }
   demo.kill(SIGINT);
   (void)demo.wait();

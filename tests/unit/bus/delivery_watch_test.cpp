@@ -30,9 +30,9 @@ WriterGuid writer(std::uint8_t number) {
   return guid;
 }
 
-class Hearings : public testing::Test {
+class Deliveries : public testing::Test {
  protected:
-  Hearings() { join(false); }
+  Deliveries() { join(false); }
 
   void join(bool one_at_a_time) {
     delivery_watch.leave(this);
@@ -55,7 +55,7 @@ class Hearings : public testing::Test {
   std::uint64_t number = 0;
 };
 
-TEST_F(Hearings, NoneHandedOverForThreeSeconds) {
+TEST_F(Deliveries, NoneHandedOverForThreeSeconds) {
   arrive(30, writer(1));
   EXPECT_EQ(deaf, 0);
   arrive(1, writer(1));
@@ -66,7 +66,7 @@ TEST_F(Hearings, NoneHandedOverForThreeSeconds) {
   EXPECT_EQ(deaf, 2);
 }
 
-TEST_F(Hearings, OneHandedOverNowAndThenIsEnough) {
+TEST_F(Deliveries, OneHandedOverNowAndThenIsEnough) {
   for (int i = 0; i < 10; ++i) {
     arrive(20, writer(1));
     delivery_watch.heard(this, writer(1));
@@ -74,7 +74,7 @@ TEST_F(Hearings, OneHandedOverNowAndThenIsEnough) {
   EXPECT_EQ(deaf, 0);
 }
 
-TEST_F(Hearings, AnotherWritersSamplesDoNotHelpUnlessOneOwnsTheInstance) {
+TEST_F(Deliveries, AnotherWritersSamplesDoNotHelpUnlessOneOwnsTheInstance) {
   for (int i = 0; i < 40; ++i) {
     arrive(1, writer(1));
     delivery_watch.heard(this, writer(2));
@@ -88,13 +88,13 @@ TEST_F(Hearings, AnotherWritersSamplesDoNotHelpUnlessOneOwnsTheInstance) {
   EXPECT_EQ(deaf, 1);
 }
 
-TEST_F(Hearings, AFewThatCameLongAgoAreNothing) {
+TEST_F(Deliveries, AFewThatCameLongAgoAreNothing) {
   arrive(4, writer(1));
   now_ns += 3600 * kNsPerSecond;
   EXPECT_EQ(deaf, 0);
 }
 
-TEST_F(Hearings, WhatIsNotForThisReaderIsNothing) {
+TEST_F(Deliveries, WhatIsNotForThisReaderIsNothing) {
   arrive(100, writer(1), kReader + 256);
   arrive(100, writer(3));
   delivery_watch.unmatched(this, writer(1));
@@ -104,7 +104,7 @@ TEST_F(Hearings, WhatIsNotForThisReaderIsNothing) {
   EXPECT_EQ(deaf, 0);
 }
 
-TEST_F(Hearings, WhatWasRefusedForWantOfRoomWasHeard) {
+TEST_F(Deliveries, WhatWasRefusedForWantOfRoomWasHeard) {
   for (int i = 0; i < 10; ++i) {
     arrive(20, writer(1));
     delivery_watch.refused(this);
@@ -112,7 +112,7 @@ TEST_F(Hearings, WhatWasRefusedForWantOfRoomWasHeard) {
   EXPECT_EQ(deaf, 0);
 }
 
-TEST_F(Hearings, ALeapThatNoWriterMakesIsNotTrue) {
+TEST_F(Deliveries, ALeapThatNoWriterMakesIsNotTrue) {
   constexpr std::uint64_t kLongAfloat = 40'000'000;
   EXPECT_TRUE(delivery_watch.arrived({writer(1), 0, kLongAfloat, false}));  // how far it was when we met
   EXPECT_TRUE(delivery_watch.arrived({writer(1), kReader, kLongAfloat + DeliveryWatch::kLeap, false}));
@@ -127,7 +127,7 @@ TEST_F(Hearings, ALeapThatNoWriterMakesIsNotTrue) {
   EXPECT_FALSE(delivery_watch.arrived({writer(1), 0, kLongAfloat, false}));
 }
 
-TEST_F(Hearings, DiscoveryIsNotLong) {
+TEST_F(Deliveries, DiscoveryIsNotLong) {
   WriterGuid discovery = writer(9);
   discovery[15] = 0xC2;
   EXPECT_TRUE(delivery_watch.arrived({discovery, 0, DeliveryWatch::kDiscovery, false}));

@@ -201,7 +201,7 @@ class Transports : public testing::Test {
   const std::unique_ptr<fastdds::ChainingTransport> transport;
 };
 
-TEST_F(Transports, SendToOnlookersLast) {
+TEST_F(Transports, SendToLowPriorityPeersLast) {
   low_priority_peers->seen(prefix(1), {locator(7413)});
   rtps::LocatorList_t list;
   for (const std::uint32_t port : {7411, 7413, 7415}) list.push_back(locator(port));

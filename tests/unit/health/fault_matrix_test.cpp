@@ -17,9 +17,9 @@ namespace {
 
 using Alarms = std::set<std::string>;
 constexpr double kSpeed_m_s = 2.0;
-constexpr WriterId kBridge{1};
-constexpr WriterId kBridgeRestarted{2};
-constexpr WriterId kRogue{9};
+constexpr WriterGuid kBridge{1};
+constexpr WriterGuid kBridgeRestarted{2};
+constexpr WriterGuid kRogue{9};
 
 /// A vehicle that goes north at 2 m/s; every stream with the age and the noise of a real one. A fault changes
 /// what a fix says, or adds to it.
@@ -30,14 +30,14 @@ class Vehicle {
   bool moored = false;
   bool water_layer = false;
   double host_clock_set_s = 0.0;
-  WriterId writer = kBridge;
+  WriterGuid writer = kBridge;
   std::uint32_t bridge_pid = 10;
   std::uint64_t bridge_time_steps = 0;
   std::uint64_t bridge_time_implausible = 0;
   std::function<void(GpsSample&, double t)> spoil;             ///< every fix before it is published
   std::function<void(const GpsSample&, const Instant&)> also;  ///< after it was
 
-  VehicleHealth health{config(), at(0.0), [](const WriterId& id) {
+  VehicleHealth health{config(), at(0.0), [](const WriterGuid& id) {
                          return id == kRogue ? std::string("rogue (process 99 on host far)")
                                              : std::string("gps_bridge (process 10 on host near)");
                        }};

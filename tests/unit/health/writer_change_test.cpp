@@ -11,14 +11,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
-WriterId writer(std::uint8_t process, std::uint8_t entity = 1) {
-  WriterId out{};
+WriterGuid writer(std::uint8_t process, std::uint8_t entity = 1) {
+  WriterGuid out{};
   out[0] = process;
   out[15] = entity;
   return out;
 }
 
-std::string describe(const WriterId& id) {
+std::string describe(const WriterGuid& id) {
   return "process " + std::to_string(id[0]);
 }
 

@@ -7,8 +7,8 @@ namespace {
 
 constexpr DurationNs kMs = kNsPerMillisecond;
 
-bus::WriterGuid writer(std::uint8_t process, std::uint8_t entity = 1) {
-  bus::WriterGuid out{};
+WriterGuid writer(std::uint8_t process, std::uint8_t entity = 1) {
+  WriterGuid out{};
   out[0] = process;
   out[15] = entity;
   return out;

@@ -5,8 +5,8 @@
 namespace fathom::fusion {
 namespace {
 
-bus::WriterGuid writer(std::uint8_t participant, std::uint8_t entity) {
-  bus::WriterGuid out{};
+WriterGuid writer(std::uint8_t participant, std::uint8_t entity) {
+  WriterGuid out{};
   out[3] = participant;
   out[15] = entity;
   return out;

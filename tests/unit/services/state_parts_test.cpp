@@ -22,8 +22,8 @@ std::vector<EngineStatePart> parts_of(std::span<const std::byte> bytes, std::uin
   return out;
 }
 
-const bus::WriterGuid kA{1};
-const bus::WriterGuid kB{2};
+const WriterGuid kA{1};
+const WriterGuid kB{2};
 
 TEST(StateParts, AreWholeAgainAtTheOtherEnd) {
   for (const std::size_t size : {std::size_t{1}, EngineStatePart::kBytes, EngineStatePart::kBytes + 1,

@@ -16,13 +16,13 @@ void LowPriorityPeers::gone(const GuidPrefix& prefix) {
 
 void LowPriorityPeers::to_the_back(std::vector<Locator>& destinations) const {
   const std::lock_guard lock(mutex_);
-  const auto looks_on = [&](const Locator& destination) {
+  const auto is_low_priority = [&](const Locator& destination) {
     return std::any_of(all_.begin(), all_.end(), [&](const One& one) { return one.at == destination; });
   };
   // Not std::stable_partition: it allocates.
   auto front = destinations.begin();
   for (auto one = front; one != destinations.end(); ++one) {
-    if (looks_on(*one)) continue;
+    if (is_low_priority(*one)) continue;
     std::rotate(front, one, one + 1);
     ++front;
   }

@@ -8,7 +8,7 @@
 
 namespace fathom::bus::detail {
 
-/// Where the participants that look on (ParticipantOptions::looks_on) receive samples. Thread-safe.
+/// Where the participants that look on (ParticipantOptions::low_priority) receive samples. Thread-safe.
 class LowPriorityPeers {
  public:
   using Locator = rtps::Locator_t;
