@@ -1,7 +1,9 @@
 #include "health/alarm_book.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
+#include <utility>
 
 namespace fathom::health {
 namespace {
@@ -14,12 +16,28 @@ void describe(Alarm& alarm, const Condition& condition) {
 
 }  // namespace
 
-void AlarmBook::hold(const Condition& condition, const Instant& now) {
+std::string_view to_string(AlarmEvent event) {
+  switch (event) {
+    case AlarmEvent::restored:
+      return "restored";
+    case AlarmEvent::raised:
+      return "raised";
+    case AlarmEvent::worsened:
+      return "worsened";
+    case AlarmEvent::cleared:
+      return "cleared";
+    case AlarmEvent::acknowledged:
+      break;
+  }
+  return "acknowledged";
+}
+
+std::optional<AlarmEvent> AlarmBook::hold(const Condition& condition, const Instant& now) {
   auto found = entries_.find(condition.key);
   if (found == entries_.end()) {
     if (!make_room(condition.severity)) {
       ++dropped_;
-      return;
+      return std::nullopt;
     }
     found = entries_.emplace(condition.key, Entry{}).first;
     found->second.alarm.header.vehicle = vehicle_;
@@ -31,48 +49,45 @@ void AlarmBook::hold(const Condition& condition, const Instant& now) {
   entry.unknown_until_ns = 0;
   entry.clear_hold_s = condition.clear_hold_s;
   describe(alarm, condition);
-  const bool raised = !alarm.active;
-  if (raised) {
+  if (!alarm.active) {
     alarm.active = true;
     alarm.acknowledged = false;
     alarm.severity = condition.severity;
     alarm.since_ns = now.utc_ns - from_seconds(condition.began_ago_s);
     alarm.cleared_ns = 0;
-  } else if (condition.severity > alarm.severity) {
+    return record(AlarmEvent::raised, alarm);
+  }
+  if (condition.severity > alarm.severity) {
     alarm.severity = condition.severity;
     alarm.acknowledged = false;
-  } else {
-    return;  // nothing an operator has to be told at once
+    return record(AlarmEvent::worsened, alarm);
   }
-  note_change(alarm);
+  return std::nullopt;  // a new text or value is nothing that an operator has to be told at once
 }
 
-void AlarmBook::release(const Name& key, const Instant& now, bool certain) {
+std::optional<AlarmEvent> AlarmBook::release(const Name& key, const Instant& now, bool certain) {
   const auto found = entries_.find(key);
-  if (found == entries_.end() || !found->second.alarm.active) return;
+  if (found == entries_.end() || !found->second.alarm.active) return std::nullopt;
   Entry& entry = found->second;
-  if (entry.unknown_until_ns != 0 && !certain && now.monotonic_ns < entry.unknown_until_ns) return;
+  if (entry.unknown_until_ns != 0 && !certain && now.monotonic_ns < entry.unknown_until_ns)
+    return std::nullopt;
   if (!entry.away) {
     entry.away = true;
     entry.away_since_ns = now.monotonic_ns;
   }
-  if (now.monotonic_ns - entry.away_since_ns < from_seconds(entry.clear_hold_s)) return;
-  clear(entry, now);
-  erase_if_done(found);
+  if (now.monotonic_ns - entry.away_since_ns < from_seconds(entry.clear_hold_s)) return std::nullopt;
+  clear(found, now);
+  return AlarmEvent::cleared;
 }
 
-void AlarmBook::set(bool active, const Condition& condition, const Instant& now) {
-  if (active) {
-    hold(condition, now);
-  } else {
-    release(condition.key, now);
-  }
+std::optional<AlarmEvent> AlarmBook::set(bool active, const Condition& condition, const Instant& now) {
+  return active ? hold(condition, now) : release(condition.key, now);
 }
 
 void AlarmBook::event(const Condition& condition, const Instant& now) {
   hold(condition, now);
   const auto found = entries_.find(condition.key);
-  if (found != entries_.end() && found->second.alarm.active) clear(found->second, now);
+  if (found != entries_.end() && found->second.alarm.active) clear(found, now);
 }
 
 void AlarmBook::restore(const Alarm& alarm, const Instant& now, double unknown_s) {
@@ -85,22 +100,19 @@ void AlarmBook::restore(const Alarm& alarm, const Instant& now, double unknown_s
   } else if (entry.alarm.cleared_ns == 0) {
     entry.alarm.cleared_ns = now.utc_ns;
   }
-  note_change(entry.alarm);
+  record(AlarmEvent::restored, entry.alarm);
 }
 
 void AlarmBook::settle(const Instant& now) {
   for (auto entry = entries_.begin(); entry != entries_.end();) {
     const auto next = std::next(entry);
     const TimeNs until_ns = entry->second.unknown_until_ns;
-    if (entry->second.alarm.active && until_ns != 0 && now.monotonic_ns >= until_ns) {
-      clear(entry->second, now);
-      erase_if_done(entry);
-    }
+    if (entry->second.alarm.active && until_ns != 0 && now.monotonic_ns >= until_ns) clear(entry, now);
     entry = next;
   }
 }
 
-int AlarmBook::acknowledge(std::string_view target, const Instant& /*now*/) {
+int AlarmBook::acknowledge(std::string_view target) {
   int acknowledged = 0;
   for (auto entry = entries_.begin(); entry != entries_.end();) {
     const auto next = std::next(entry);
@@ -108,7 +120,7 @@ int AlarmBook::acknowledge(std::string_view target, const Instant& /*now*/) {
     if (!alarm.acknowledged && (target == "*" || alarm.alarm.view() == target)) {
       alarm.acknowledged = true;
       ++acknowledged;
-      note_change(alarm);
+      record(AlarmEvent::acknowledged, alarm);
       erase_if_done(entry);
     }
     entry = next;
@@ -116,10 +128,8 @@ int AlarmBook::acknowledge(std::string_view target, const Instant& /*now*/) {
   return acknowledged;
 }
 
-std::vector<Alarm> AlarmBook::take_changes() {
-  std::vector<Alarm> changes;
-  changes.swap(changes_);
-  return changes;
+std::vector<AlarmTransition> AlarmBook::take_transitions() {
+  return std::exchange(transitions_, {});
 }
 
 std::vector<Alarm> AlarmBook::all() const {
@@ -168,27 +178,22 @@ bool AlarmBook::make_room(Severity severity) {
   return true;
 }
 
-void AlarmBook::clear(Entry& entry, const Instant& now) {
+void AlarmBook::clear(Entries::iterator found, const Instant& now) {
+  Entry& entry = found->second;
   entry.away = false;
   entry.unknown_until_ns = 0;
   entry.alarm.active = false;
   entry.alarm.cleared_ns = now.utc_ns;
-  note_change(entry.alarm);
+  record(AlarmEvent::cleared, entry.alarm);
+  erase_if_done(found);
 }
 
-void AlarmBook::note_change(const Alarm& alarm) {
-  // Several changes between two calls collapse into the latest, except that raising and clearing both remain:
-  // a reader that keeps only the last one is right, a log that counts them is too.
-  const auto same = std::find_if(changes_.rbegin(), changes_.rend(),
-                                 [&](const Alarm& change) { return change.alarm == alarm.alarm; });
-  if (same != changes_.rend() && same->active == alarm.active) {
-    *same = alarm;
-  } else {
-    changes_.push_back(alarm);
-  }
+AlarmEvent AlarmBook::record(AlarmEvent event, const Alarm& alarm) {
+  transitions_.push_back({event, alarm});
+  return event;
 }
 
-void AlarmBook::erase_if_done(std::map<Name, Entry>::iterator entry) {
+void AlarmBook::erase_if_done(Entries::iterator entry) {
   const Alarm& alarm = entry->second.alarm;
   if (!alarm.active && alarm.acknowledged) entries_.erase(entry);
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,7 +13,7 @@
 
 namespace fathom::health {
 
-/// A condition worth an alarm, as a watcher states it at every evaluation.
+/// A condition that is worth an alarm, as a watcher states it at every evaluation.
 struct Condition {
   Name key;
   Severity severity = Severity::warning;
@@ -22,50 +24,71 @@ struct Condition {
   double clear_hold_s = 0.5;  ///< the condition must stay away this long before the alarm clears
 };
 
-/// Latched alarms.
+/// What can happen to an alarm.
+enum class AlarmEvent : std::uint8_t {
+  restored,  ///< It was in the book of a monitor that ran before this one.
+  raised,
+  worsened,  ///< Its severity rose.
+  cleared,
+  acknowledged,
+};
+[[nodiscard]] std::string_view to_string(AlarmEvent event);
+
+/// One transition of an alarm, with the alarm as it was right after it.
+struct AlarmTransition {
+  AlarmEvent event = AlarmEvent::raised;
+  Alarm alarm;
+};
+
+/// The latched alarms of one vehicle, and their transitions.
 ///
-/// An alarm leaves the book only when it is cleared and acknowledged, in either order. Raised again while it
-/// is still in the book, it is active and unacknowledged anew, with a new `since`.
+/// An alarm leaves the book only when it is cleared and acknowledged, in either order. When it is raised
+/// again while it is still in the book, it is active and unacknowledged again, with a new `since`.
 ///
-/// At most kMaxAlarms are kept. A new one then pushes out the oldest cleared alarm, else the oldest active
-/// one of lower severity, else it is refused; either way dropped() counts it.
+/// Each transition is recorded once, when it happens. take_transitions() hands the record out: that list is
+/// what is published, written to the journal and logged. An alarm whose text or value alone is new makes no
+/// transition.
+///
+/// At most kMaxAlarms are kept. A new alarm then pushes out the oldest cleared one, or else the oldest active
+/// one of lower severity. When there is neither, the new alarm is refused. dropped() counts both.
 class AlarmBook {
  public:
   static constexpr std::size_t kMaxAlarms = 64;
 
   explicit AlarmBook(Name vehicle = {}) : vehicle_(vehicle) {}
 
-  /// The condition holds now. Raises the alarm, or keeps it and refreshes text and value. While it is active
-  /// its severity only rises; a rise withdraws an acknowledgement, for it is news.
-  void hold(const Condition& condition, const Instant& now);
-  /// The condition does not hold. The alarm clears once that has been so for `clear_hold_s`: a condition that
-  /// flickers faster is one alarm, not many.
-  /// `certain` false: as far as is known. An alarm of before a restart then waits for its time.
-  void release(const Name& key, const Instant& now, bool certain = false);
-  /// hold() or release() by `active`, for conditions whose text is cheap.
-  void set(bool active, const Condition& condition, const Instant& now);
-  /// A momentary event: raised and cleared in one, it stays until acknowledged.
+  /// The condition holds now. The alarm is raised, or it is kept with the new text and value. While an alarm
+  /// is active its severity only rises. A rise withdraws the acknowledgement.
+  /// Returns what happened to the alarm: raised, worsened or nothing.
+  std::optional<AlarmEvent> hold(const Condition& condition, const Instant& now);
+  /// The condition does not hold now. The alarm clears after this was so for `clear_hold_s`, so that a
+  /// condition that flickers faster makes one alarm and not many. An alarm that restore() kept active does
+  /// not clear before its time, unless the caller is `certain` that the condition does not hold. Returns what
+  /// happened to the alarm: cleared or nothing.
+  std::optional<AlarmEvent> release(const Name& key, const Instant& now, bool certain = false);
+  /// Calls hold() or release(), by `active`.
+  std::optional<AlarmEvent> set(bool active, const Condition& condition, const Instant& now);
+  /// A momentary event. The alarm is raised and cleared at once, and stays until it is acknowledged.
   void event(const Condition& condition, const Instant& now);
 
-  /// An alarm of before a restart. One that was active stays active until its condition is known again not to
-  /// hold, at most for `unknown_s`; one that was over stays until it is acknowledged. Ignored when the book
-  /// has it already.
+  /// Takes over an alarm from before a restart. An alarm that was active stays active until its condition is
+  /// known not to hold, at most for `unknown_s`. One that was cleared stays until it is acknowledged. An
+  /// alarm that the book has already is ignored.
   void restore(const Alarm& alarm, const Instant& now, double unknown_s);
-  /// Clears what restore() kept active and nothing has confirmed in time.
+  /// Clears what restore() kept active and what nothing has confirmed in time.
   void settle(const Instant& now);
 
-  /// "*" acknowledges every alarm. Returns how many were newly acknowledged.
-  int acknowledge(std::string_view target, const Instant& now);
+  /// Acknowledges the alarm `target`, or every alarm when it is "*". Returns how many were acknowledged now.
+  int acknowledge(std::string_view target);
 
-  /// What changed since the last call, oldest change first, each alarm as it is now. A removed alarm appears
-  /// once more, cleared and acknowledged.
-  [[nodiscard]] std::vector<Alarm> take_changes();
-  /// Everything in the book, active first, then by severity, then by age.
+  /// The transitions since the last call, the oldest first.
+  [[nodiscard]] std::vector<AlarmTransition> take_transitions();
+  /// Every alarm: active ones first, then by severity, then by age.
   [[nodiscard]] std::vector<Alarm> all() const;
   [[nodiscard]] const Alarm* find(const Name& key) const;
   [[nodiscard]] std::uint32_t active_count() const;
   [[nodiscard]] std::uint32_t unacknowledged_count() const;
-  /// True when an active alarm is at least this severe.
+  /// Whether an active alarm is at least this severe.
   [[nodiscard]] bool any_active(Severity at_least) const;
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
   [[nodiscard]] const Name& vehicle() const { return vehicle_; }
@@ -73,20 +96,22 @@ class AlarmBook {
  private:
   struct Entry {
     Alarm alarm;
-    TimeNs away_since_ns = 0;  ///< monotonic; when the condition was first released, while still active
+    TimeNs away_since_ns =
+        0;  ///< Monotonic; when the condition was first released while the alarm is active.
     bool away = false;
-    TimeNs unknown_until_ns = 0;  ///< monotonic; of an alarm of before a restart, 0: known
+    TimeNs unknown_until_ns = 0;  ///< Monotonic; how long a restored alarm stays unconfirmed, 0: confirmed.
     double clear_hold_s = 0.5;
   };
+  using Entries = std::map<Name, Entry>;
 
   bool make_room(Severity severity);
-  void clear(Entry& entry, const Instant& now);
-  void note_change(const Alarm& alarm);
-  void erase_if_done(std::map<Name, Entry>::iterator entry);
+  void clear(Entries::iterator found, const Instant& now);
+  AlarmEvent record(AlarmEvent event, const Alarm& alarm);
+  void erase_if_done(Entries::iterator entry);
 
   Name vehicle_;
-  std::map<Name, Entry> entries_;
-  std::vector<Alarm> changes_;
+  Entries entries_;
+  std::vector<AlarmTransition> transitions_;
   std::uint64_t dropped_ = 0;
 };
 

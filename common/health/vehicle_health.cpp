@@ -121,7 +121,7 @@ int VehicleHealth::apply(const Command& command, const Instant& now) {
   if (!ours(command.header)) return 0;
   orders_.apply(command, book_, now);
   if (command.kind != CommandKind::acknowledge_alarm) return 0;
-  return book_.acknowledge(command.target.view(), now);
+  return book_.acknowledge(command.target.view());
 }
 
 void VehicleHealth::evaluate(const Instant& now) {

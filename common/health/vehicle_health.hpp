@@ -26,10 +26,10 @@
 
 namespace fathom::health {
 
-/// What the monitor watches and when it speaks up.
+/// What the monitor watches, and its limits.
 struct HealthConfig {
   Name vehicle = "auv";
-  double startup_s = 15.0;  ///< sensors, services and the navigation state may stay unheard of this long
+  double startup_s = 15.0;  ///< sensors, services and the navigation state may stay silent this long
   GpsOutageConfig gps;
   NavWatchConfig nav;
   AlignmentWatchConfig alignment;
@@ -41,17 +41,17 @@ struct HealthConfig {
   std::vector<ExpectedService> services;
 };
 
-/// Everything the monitor knows: feed it what is heard, evaluate it often, take status and alarms out.
-/// Pure: time is an argument, durations are measured on the monotonic clock. Samples of other vehicles are
-/// ignored.
+/// The health of one vehicle, all that the monitor knows. The caller adds every sample, calls evaluate()
+/// often, and takes out the status and the alarms. Pure: time is an argument, and durations are measured on
+/// the monotonic clock. Samples of other vehicles are ignored.
 class VehicleHealth {
  public:
-  /// `describe` is asked for the names of writers that raise an alarm.
+  /// `describe` gives the names of writers in alarms.
   VehicleHealth(const HealthConfig& config, const Instant& start, DescribeWriter describe = {});
 
-  /// Any sensor sample: that it came, and who wrote it.
+  /// Records that a sample of any sensor came, and who wrote it.
   void heard(SourceKind kind, const SampleHeader& header, const Instant& now, const WriterGuid& writer = {});
-  /// heard() is included.
+  /// These include heard().
   void add(const GpsSample& sample, const Instant& now, const WriterGuid& writer = {});
   void add(const DvlSample& sample, const Instant& now, const WriterGuid& writer = {});
   void add(const NavState& state, const Instant& now, const WriterGuid& writer = {});
@@ -63,32 +63,33 @@ class VehicleHealth {
   void strangers(std::vector<std::string> present, const Instant& now) {
     intruders_.strangers(std::move(present), now);
   }
-  /// Acknowledgements, and positions far from where navigation is; other orders are not for the monitor.
-  /// Returns how many alarms were acknowledged.
+  /// Takes acknowledgements, and orders of positions far from where navigation is. Other orders are not for
+  /// the monitor. Returns how many alarms were acknowledged.
   int apply(const Command& command, const Instant& now);
-  /// See AlarmBook::restore(). What was active stays so for the time that sensors and services have to be
-  /// heard.
+  /// See AlarmBook::restore(). An active alarm stays active for as long as sensors and services may stay
+  /// silent after the start.
   void restore(const Alarm& alarm, const Instant& now) { book_.restore(alarm, now, config_.startup_s); }
   /// See GpsOutage::resume() and books().
   void resume(const std::vector<GpsOutageBook>& books, const Instant& now) { gps_.resume(books, now); }
   [[nodiscard]] std::vector<GpsOutageBook> books(const Instant& now) const { return gps_.books(now); }
-  /// What the monitor cannot do itself, e.g. keep its journal: an alarm while `active`.
+  /// Holds or releases an alarm about the monitor itself, e.g. when it cannot write its journal.
   void set(bool active, const Condition& condition, const Instant& now) { book_.set(active, condition, now); }
 
-  /// States of all watchers into the alarm book.
+  /// Brings the alarm book up to date with all watches.
   void evaluate(const Instant& now);
 
-  /// As of the last evaluate(). header: vehicle and stamps; the rest is the writer's.
+  /// The status as of the last evaluate(). The header has vehicle and stamps; the writer fills the rest.
   [[nodiscard]] MonitorStatus status(const Instant& now) const;
-  [[nodiscard]] std::vector<Alarm> take_changes() { return book_.take_changes(); }
+  /// See AlarmBook::take_transitions().
+  [[nodiscard]] std::vector<AlarmTransition> take_transitions() { return book_.take_transitions(); }
   [[nodiscard]] const AlarmBook& alarms() const { return book_; }
-  /// Of the last navigation state; NaN when unknown or missing.
+  /// The 95 % radius of the last navigation state; NaN when it is unknown or missing.
   [[nodiscard]] double horizontal_95_m() const { return nav_.horizontal_95_m(); }
 
  private:
-  /// Whether enough was heard since the start to say how the vehicle is.
+  /// Whether enough has arrived since the start to say how the vehicle is.
   [[nodiscard]] bool known(const Instant& now) const;
-  /// What a ping measured of the water layer, behind what it measured of the bottom.
+  /// Whether the sample is the water-layer half of a ping whose bottom half came before.
   bool is_second_half(const DvlSample& sample);
   [[nodiscard]] bool ours(const SampleHeader& header) const { return header.vehicle == config_.vehicle; }
 
@@ -98,7 +99,7 @@ class VehicleHealth {
   AlarmBook book_;
   GpsOutage gps_;
   FixWatch fixes_;
-  std::map<Name, TimeNs> pings_;  ///< stamp of the last one on the bottom, by DVL
+  std::map<Name, TimeNs> pings_;  ///< stamp of the last ping on the bottom, by DVL
   InterferenceWatch interference_;
   DisputeWatch disputes_;
   StampWatch stamps_;

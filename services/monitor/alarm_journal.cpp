@@ -119,20 +119,6 @@ void sync_folder(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string_view to_string(JournalEvent event) {
-  switch (event) {
-    case JournalEvent::raised:
-      return "raised";
-    case JournalEvent::worsened:
-      return "worsened";
-    case JournalEvent::cleared:
-      return "cleared";
-    case JournalEvent::acknowledged:
-      break;
-  }
-  return "acknowledged";
-}
-
 AlarmJournal::~AlarmJournal() {
   close();
 }
@@ -237,9 +223,10 @@ bool AlarmJournal::write_line(const std::string& line) {
   return true;
 }
 
-bool AlarmJournal::append(const Alarm& alarm, JournalEvent event, TimeNs utc_ns) {
+bool AlarmJournal::append(const health::AlarmTransition& transition, TimeNs utc_ns) {
+  const Alarm& alarm = transition.alarm;
   return write_line(line_of({{"time_utc", instant(utc_ns)},
-                             {"event", to_string(event)},
+                             {"event", to_string(transition.event)},
                              {"vehicle", alarm.header.vehicle.view()},
                              {"alarm", alarm.alarm.view()},
                              {"severity", to_string(alarm.severity)},

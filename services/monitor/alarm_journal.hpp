@@ -6,19 +6,17 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "health/alarm_book.hpp"
 #include "samples/status/health.hpp"
 
 namespace fathom::monitor {
 
-enum class JournalEvent : std::uint8_t { raised, worsened, cleared, acknowledged };
-[[nodiscard]] std::string_view to_string(JournalEvent event);
-
 /// Append-only record of alarms: one JSON object a line, on the disk (fdatasync) before append() returns.
 ///
-/// A line is written in one piece. What a power cut left of the last one is replaced at the next start by a
-/// "repaired" line that quotes it, so that the file is JSON lines from its first byte to its last and nothing
-/// that was ever complete is touched. A line that the disk had no room for is taken back whole. One process
-/// writes a journal at a time.
+/// A line is written in one piece. When a power cut leaves half a line at the end, the next start replaces it
+/// by a "repaired" line that quotes it. So the file is JSON lines from its first byte to its last, and a line
+/// that was complete is never touched. When the disk has no room for a line, the whole line is taken back.
+/// One process at a time writes a journal.
 class AlarmJournal {
  public:
   struct Counters {
@@ -27,23 +25,23 @@ class AlarmJournal {
     std::uint64_t repaired_bytes = 0;
   };
 
-  /// Opens nothing yet. Folders that are missing are made.
+  /// Opens nothing yet. open() makes missing folders.
   explicit AlarmJournal(std::string path) : path_(std::move(path)) {}
   ~AlarmJournal();
   AlarmJournal(const AlarmJournal&) = delete;
   AlarmJournal& operator=(const AlarmJournal&) = delete;
 
-  /// Opens and repairs. False: error() says why; to be tried again later.
+  /// Opens and repairs. False: error() says why, and the caller may try again later.
   bool open(TimeNs utc_ns);
-  /// As of open(): alarms that were active or that nobody had acknowledged when the journal ended, in their
-  /// last state.
+  /// Alarms that were active or that nobody had acknowledged when the journal ended, in their last state, as
+  /// open() found them.
   [[nodiscard]] const std::vector<Alarm>& latched() const { return latched_; }
   [[nodiscard]] bool is_open() const { return file_ >= 0; }
-  bool append(const Alarm& alarm, JournalEvent event, TimeNs utc_ns);
-  /// The monitor's own beginning and end: a beginning without an end before it was a crash.
+  bool append(const health::AlarmTransition& transition, TimeNs utc_ns);
+  /// Writes the monitor's own start or end. A start with no end before it follows a crash.
   bool note(std::string_view event, std::string_view text, TimeNs utc_ns);
 
-  /// One line, as of the last call that failed; empty when the last one succeeded.
+  /// Why the last call failed, in one line. Empty when it succeeded.
   [[nodiscard]] const std::string& error() const { return error_; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
 

@@ -16,7 +16,7 @@
 
 namespace fathom::monitor {
 
-/// Everything that metrics are made of, at one moment.
+/// The values that metrics are made of, at one moment.
 struct MetricsSnapshot {
   MonitorStatus status;
   std::vector<Alarm> alarms;
@@ -30,8 +30,8 @@ struct MetricsSnapshot {
   std::uint64_t journal_failures = 0;
 };
 
-/// The metrics as Prometheus knows them: base units, counters end in _total. A quantity that is unknown has
-/// no series. Every series has the label `vehicle`.
+/// The metrics in the form of Prometheus: base units, counters end in _total. An unknown quantity has no
+/// series. Every series has the label `vehicle`.
 [[nodiscard]] std::vector<prometheus::MetricFamily> metric_families(const MetricsSnapshot& snapshot);
 
 /// Answers GET /metrics. `take` is called for each scrape, on a thread of the server.
@@ -42,7 +42,7 @@ class MetricsServer {
   MetricsServer(const MetricsServer&) = delete;
   MetricsServer& operator=(const MetricsServer&) = delete;
 
-  /// Empty when it answers now, else one line why it does not; to be tried again later.
+  /// Starts to answer. Returns nothing, or why it failed in one line; the caller may try again later.
   [[nodiscard]] std::string start(const std::string& address, int port);
   [[nodiscard]] bool running() const;
 

@@ -155,7 +155,6 @@ struct MonitorService::Impl {
     for (const Alarm& alarm : journal.latched()) {
       if (alarm.header.vehicle.view() != config.common.vehicle) continue;
       health.restore(alarm, at);
-      told[alarm.alarm] = alarm;
       restored += alarm.acknowledged ? 0 : 1;
     }
     if (restored > 0) {
@@ -240,7 +239,7 @@ struct MonitorService::Impl {
     if (const health::Instant at = now(); at.monotonic_ns - tried_ns >= kRetryNs) open_outputs(at);
     std::vector<std::string> strangers;
     for (const bus::Stranger& one : host.participant().strangers()) strangers.push_back(bus::to_string(one));
-    std::vector<Alarm> changes;
+    std::vector<health::AlarmTransition> transitions;
     std::vector<Alarm> repeats;
     std::optional<MonitorStatus> status;
     std::vector<health::GpsOutageBook> books;
@@ -251,7 +250,7 @@ struct MonitorService::Impl {
       judge_outputs(at);
       health.strangers(std::move(strangers), at);
       health.evaluate(at);
-      changes = health.take_changes();
+      transitions = health.take_transitions();
       books = health.books(at);
       if (at.monotonic_ns - repeated_ns >= from_seconds(config.alarm_repeat_s)) {
         repeated_ns = at.monotonic_ns;
@@ -265,7 +264,7 @@ struct MonitorService::Impl {
         status = std::move(fresh);
       }
     }
-    for (const Alarm& alarm : changes) publish(alarm);
+    for (const health::AlarmTransition& one : transitions) publish(one.alarm);
     for (const Alarm& alarm : repeats) publish(alarm);
     if (status) {
       status->header = host.header();
@@ -274,7 +273,7 @@ struct MonitorService::Impl {
     }
     // Last: a disk may take its time.
     keep_outages(books);
-    for (const Alarm& alarm : changes) record(alarm);
+    for (const health::AlarmTransition& one : transitions) record(one);
   }
 
   /// Once a second, and at once when an outage has begun or ended.
@@ -295,47 +294,27 @@ struct MonitorService::Impl {
     alarm_writer.write(alarm);
   }
 
-  /// What a change of the book means to those who read on: nothing when it says what was said before.
-  std::optional<JournalEvent> event_of(const Alarm& alarm) {
-    const auto known = told.find(alarm.alarm);
-    const bool was_active = known != told.end() && known->second.active;
-    std::optional<JournalEvent> event;
-    if (alarm.active && !was_active) {
-      event = JournalEvent::raised;
-    } else if (!alarm.active && was_active) {
-      event = JournalEvent::cleared;
-    } else if (alarm.active && alarm.severity > known->second.severity) {
-      event = JournalEvent::worsened;
-    } else if (alarm.acknowledged && known != told.end() && !known->second.acknowledged) {
-      event = JournalEvent::acknowledged;
-    }
-    if (alarm.active || !alarm.acknowledged) {
-      told[alarm.alarm] = alarm;
-    } else if (known != told.end()) {
-      told.erase(known);
-    }
-    return event;
-  }
-
-  /// A line in the log and one in the journal; acknowledgements are logged by apply().
-  void record(const Alarm& alarm) {
-    const auto event = event_of(alarm);
-    if (!event) return;
+  /// A line in the log and one in the journal. apply() logs acknowledgements, with who gave them, and
+  /// restore() what comes from the journal.
+  void record(const health::AlarmTransition& transition) {
+    using health::AlarmEvent;
+    const auto& [event, alarm] = transition;
+    if (event == AlarmEvent::restored) return;
     const std::string text = " alarm " + alarm.alarm.str() + ": " + alarm.text;
-    if (*event == JournalEvent::cleared) {
+    if (event == AlarmEvent::cleared) {
       host.log().info("cleared" + text);
-    } else if (*event != JournalEvent::acknowledged) {
+    } else if (event != AlarmEvent::acknowledged) {
       const auto level = alarm.severity == Severity::critical  ? runtime::LogLevel::error
                          : alarm.severity == Severity::warning ? runtime::LogLevel::warning
                                                                : runtime::LogLevel::info;
       host.log().write(level, std::string(to_string(alarm.severity)) + text);
     }
     if (!config.journal.path.empty()) {
-      journal.append(alarm, *event, host.clock().utc_ns());
+      journal.append(transition, host.clock().utc_ns());
       complain(journal.error(), journal_trouble);
     }
     const std::lock_guard lock(mutex);
-    if (*event == JournalEvent::raised) ++raised[static_cast<std::size_t>(alarm.severity)];
+    if (event == AlarmEvent::raised) ++raised[static_cast<std::size_t>(alarm.severity)];
     journal_counters = journal.counters();
   }
 
@@ -364,7 +343,6 @@ struct MonitorService::Impl {
   TimeNs published_ns = 0;
   TimeNs repeated_ns = 0;
   std::optional<MonitorStatus> said;
-  std::map<Name, Alarm> told;  ///< alarms as last recorded, until they are over and acknowledged
   TimeNs tried_ns = 0;
   std::uint64_t kept_turns = 0;
   TimeNs kept_ns = 0;

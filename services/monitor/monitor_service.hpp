@@ -7,9 +7,9 @@
 
 namespace fathom::monitor {
 
-/// Listens to everything the vehicle says about itself, judges it by the host's monotonic clock, publishes
-/// MonitorStatus and Alarm, and takes acknowledgements. Works from its own observations alone: it needs
-/// neither fusion nor any other service to be alive.
+/// The monitor on the vehicle network. It listens to everything the vehicle publishes, judges it by the
+/// host's monotonic clock, publishes MonitorStatus and Alarm, and takes acknowledgements. Its own
+/// observations are enough: neither fusion nor any other service has to be alive.
 class MonitorService {
  public:
   /// Installs its tick and its life sign in `host`, which must outlive it. Throws bus::BusError.

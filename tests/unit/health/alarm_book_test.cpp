@@ -1,5 +1,6 @@
 #include "health/alarm_book.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,14 @@ Condition condition(const Name& key, Severity severity = Severity::warning, doub
 TEST(AlarmBook, RaisedOnceHoweverOftenItIsHeld) {
   AlarmBook book("auv");
   for (int i = 0; i < 100; ++i) book.hold(condition("a", Severity::warning, 0.1 * i), at(0.1 * i));
-  const auto changes = book.take_changes();
-  ASSERT_EQ(changes.size(), 1u);
-  EXPECT_TRUE(changes[0].active);
-  EXPECT_EQ(changes[0].header.vehicle, Name("auv"));
-  EXPECT_EQ(changes[0].since_ns, at(0.0).utc_ns);
+  const auto transitions = book.take_transitions();
+  ASSERT_EQ(transitions.size(), 1u);
+  EXPECT_EQ(transitions[0].event, AlarmEvent::raised);
+  EXPECT_TRUE(transitions[0].alarm.active);
+  EXPECT_EQ(transitions[0].alarm.header.vehicle, Name("auv"));
+  EXPECT_EQ(transitions[0].alarm.since_ns, at(0.0).utc_ns);
   EXPECT_NEAR(book.find("a")->value, 9.9, 0.01) << "text and value stay present";
-  EXPECT_TRUE(book.take_changes().empty());
+  EXPECT_TRUE(book.take_transitions().empty());
 }
 
 TEST(AlarmBook, StaysUntilClearedAndAcknowledgedInEitherOrder) {
@@ -36,21 +38,22 @@ TEST(AlarmBook, StaysUntilClearedAndAcknowledgedInEitherOrder) {
   EXPECT_FALSE(book.find("a")->active);
   EXPECT_EQ(book.find("a")->cleared_ns, at(2.0).utc_ns);
   EXPECT_EQ(book.unacknowledged_count(), 1u);
-  EXPECT_EQ(book.acknowledge("a", at(3.0)), 1);
+  EXPECT_EQ(book.acknowledge("a"), 1);
   EXPECT_EQ(book.find("a"), nullptr);
 
   book.hold(condition("b"), at(4.0));
-  EXPECT_EQ(book.acknowledge("b", at(5.0)), 1);
+  EXPECT_EQ(book.acknowledge("b"), 1);
   ASSERT_NE(book.find("b"), nullptr);
   EXPECT_TRUE(book.find("b")->active);
-  EXPECT_EQ(book.acknowledge("b", at(5.0)), 0) << "once is enough";
+  EXPECT_EQ(book.acknowledge("b"), 0) << "once is enough";
   book.release("b", at(6.0));
   book.release("b", at(7.0));
   EXPECT_EQ(book.find("b"), nullptr);
-  const auto changes = book.take_changes();
-  ASSERT_FALSE(changes.empty());
-  EXPECT_FALSE(changes.back().active);
-  EXPECT_TRUE(changes.back().acknowledged) << "readers are told of the end";
+  const auto transitions = book.take_transitions();
+  ASSERT_FALSE(transitions.empty());
+  EXPECT_EQ(transitions.back().event, AlarmEvent::cleared);
+  EXPECT_FALSE(transitions.back().alarm.active);
+  EXPECT_TRUE(transitions.back().alarm.acknowledged) << "readers are told of the end";
 }
 
 TEST(AlarmBook, FlickeringFasterThanTheHoldIsOneAlarm) {
@@ -64,7 +67,10 @@ TEST(AlarmBook, FlickeringFasterThanTheHoldIsOneAlarm) {
     } else {
       book.release("a", at(t));
     }
-    for (const Alarm& change : book.take_changes()) (change.active ? raised : cleared)++;
+    for (const AlarmTransition& one : book.take_transitions()) {
+      raised += one.event == AlarmEvent::raised ? 1 : 0;
+      cleared += one.event == AlarmEvent::cleared ? 1 : 0;
+    }
   }
   EXPECT_EQ(raised, 1);
   EXPECT_EQ(cleared, 0);
@@ -88,7 +94,7 @@ TEST(AlarmBook, RaisedAgainItIsUnacknowledgedWithANewBeginning) {
 TEST(AlarmBook, SeverityOnlyRisesWhileActiveAndARiseWithdrawsTheAcknowledgement) {
   AlarmBook book;
   book.hold(condition("a", Severity::warning), at(0.0));
-  book.acknowledge("*", at(0.5));
+  book.acknowledge("*");
   book.hold(condition("a", Severity::notice), at(1.0));
   EXPECT_EQ(book.find("a")->severity, Severity::warning);
   EXPECT_TRUE(book.find("a")->acknowledged);
@@ -98,11 +104,40 @@ TEST(AlarmBook, SeverityOnlyRisesWhileActiveAndARiseWithdrawsTheAcknowledgement)
   EXPECT_EQ(book.find("a")->since_ns, at(0.0).utc_ns);
 }
 
+TEST(AlarmBook, EachTransitionIsRecordedOnceAsItHappened) {
+  AlarmBook book;
+  EXPECT_EQ(book.hold(condition("a", Severity::warning, 1.0), at(0.0)), AlarmEvent::raised);
+  EXPECT_EQ(book.hold(condition("a", Severity::warning, 2.0), at(0.1)), std::nullopt) << "a new value alone";
+  EXPECT_EQ(book.acknowledge("a"), 1);
+  EXPECT_EQ(book.hold(condition("a", Severity::critical, 3.0), at(0.2)), AlarmEvent::worsened);
+  EXPECT_EQ(book.release("a", at(1.0)), std::nullopt) << "it may be a flicker";
+  EXPECT_EQ(book.release("a", at(2.0)), AlarmEvent::cleared);
+  EXPECT_EQ(book.release("a", at(3.0)), std::nullopt) << "it is cleared already";
+  EXPECT_EQ(book.acknowledge("a"), 1);
+  EXPECT_EQ(book.release("a", at(4.0)), std::nullopt) << "it is no longer in the book";
+
+  const auto transitions = book.take_transitions();
+  ASSERT_EQ(transitions.size(), 5u);
+  const auto expect = [&](std::size_t i, AlarmEvent event, Severity severity, bool active,
+                          bool acknowledged) {
+    EXPECT_EQ(transitions[i].event, event) << i;
+    EXPECT_EQ(transitions[i].alarm.severity, severity) << i;
+    EXPECT_EQ(transitions[i].alarm.active, active) << i;
+    EXPECT_EQ(transitions[i].alarm.acknowledged, acknowledged) << i;
+  };
+  expect(0, AlarmEvent::raised, Severity::warning, true, false);
+  expect(1, AlarmEvent::acknowledged, Severity::warning, true, true);
+  expect(2, AlarmEvent::worsened, Severity::critical, true, false);
+  expect(3, AlarmEvent::cleared, Severity::critical, false, false);
+  expect(4, AlarmEvent::acknowledged, Severity::critical, false, true);
+  EXPECT_TRUE(book.take_transitions().empty()) << "each is handed out once";
+}
+
 TEST(AlarmBook, StarAcknowledgesAll) {
   AlarmBook book;
   for (const char* key : {"a", "b", "c"}) book.hold(condition(key), at(0.0));
-  EXPECT_EQ(book.acknowledge("no such alarm", at(1.0)), 0);
-  EXPECT_EQ(book.acknowledge("*", at(1.0)), 3);
+  EXPECT_EQ(book.acknowledge("no such alarm"), 0);
+  EXPECT_EQ(book.acknowledge("*"), 3);
   EXPECT_EQ(book.unacknowledged_count(), 0u);
   EXPECT_EQ(book.active_count(), 3u);
 }
@@ -112,11 +147,13 @@ TEST(AlarmBook, AnEventIsOverAtOnceAndStaysUntilAcknowledged) {
   book.event(condition("restarted", Severity::notice), at(1.0));
   ASSERT_NE(book.find("restarted"), nullptr);
   EXPECT_FALSE(book.find("restarted")->active);
-  const auto changes = book.take_changes();
-  ASSERT_EQ(changes.size(), 2u);
-  EXPECT_TRUE(changes[0].active);
-  EXPECT_FALSE(changes[1].active);
-  EXPECT_EQ(book.acknowledge("restarted", at(2.0)), 1);
+  const auto transitions = book.take_transitions();
+  ASSERT_EQ(transitions.size(), 2u);
+  EXPECT_EQ(transitions[0].event, AlarmEvent::raised);
+  EXPECT_TRUE(transitions[0].alarm.active);
+  EXPECT_EQ(transitions[1].event, AlarmEvent::cleared);
+  EXPECT_FALSE(transitions[1].alarm.active);
+  EXPECT_EQ(book.acknowledge("restarted"), 1);
   EXPECT_EQ(book.find("restarted"), nullptr);
 }
 
@@ -182,7 +219,9 @@ TEST(AlarmBookRestored, StaysUntilAcknowledgedAndGivesWayToWhatHoldsNow) {
   EXPECT_TRUE(book.find("gps_outage")->active) << "nothing is known against it";
   EXPECT_EQ(book.find("gps_outage")->since_ns, 7);
   EXPECT_EQ(book.unacknowledged_count(), 1u);
-  EXPECT_EQ(book.take_changes().size(), 1u);
+  const auto transitions = book.take_transitions();
+  ASSERT_EQ(transitions.size(), 1u);
+  EXPECT_EQ(transitions[0].event, AlarmEvent::restored);
   // A watcher that has heard nothing yet does not clear it; one that knows does.
   book.release("gps_outage", at(1.0));
   book.release("gps_outage", at(2.0));
@@ -190,7 +229,7 @@ TEST(AlarmBookRestored, StaysUntilAcknowledgedAndGivesWayToWhatHoldsNow) {
   book.release("gps_outage", at(3.0), true);
   book.release("gps_outage", at(4.0), true);
   EXPECT_FALSE(book.find("gps_outage")->active);
-  EXPECT_EQ(book.acknowledge("*", at(5.0)), 1);
+  EXPECT_EQ(book.acknowledge("*"), 1);
   EXPECT_EQ(book.find("gps_outage"), nullptr);
 }
 

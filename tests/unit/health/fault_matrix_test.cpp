@@ -131,7 +131,7 @@ class Vehicle {
     }
     if (tick_ % 5 != 0) return;
     health.evaluate(now);
-    for (const Alarm& alarm : health.take_changes()) {
+    for (const auto& [event, alarm] : health.take_transitions()) {
       if (!alarm.active) {
         active_.erase(alarm.alarm);
       } else if (active_.insert(alarm.alarm).second) {

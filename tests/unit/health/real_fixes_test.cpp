@@ -37,7 +37,7 @@ TEST_P(RealFixes, RaiseNoAlarmOfASourceThatLies) {
     const Instant now = at(sample.header.stamp_ns + 100 * kNsPerMillisecond);
     health.add(sample, now);
     health.evaluate(now);
-    for (const Alarm& alarm : health.take_changes()) {
+    for (const auto& [event, alarm] : health.take_transitions()) {
       if (!alarm.alarm.view().starts_with("gps_outage")) raised.insert(alarm.alarm.str() + ": " + alarm.text);
     }
   }

@@ -45,7 +45,7 @@ class Vehicle {
       }
       if (tick_ % 5 == 0) {
         health.evaluate(now);
-        for (const Alarm& alarm : health.take_changes()) {
+        for (const auto& [event, alarm] : health.take_transitions()) {
           // Once per occurrence: what becomes more severe is not raised anew.
           if (!alarm.active) {
             active_.erase(alarm.alarm.str());
@@ -146,7 +146,7 @@ TEST(VehicleHealth, AFinalVerdictOnTheLastRefusalIsNoSecondOne) {
     health.add(refused, at(t));
     health.evaluate(at(t));
   }
-  for (const Alarm& alarm : health.take_changes()) EXPECT_NE(alarm.alarm, Name("refused:dvl"));
+  for (const auto& [event, alarm] : health.take_transitions()) EXPECT_NE(alarm.alarm, Name("refused:dvl"));
 }
 
 TEST(VehicleHealth, DeadFusionIsSeenAndGpsOutagesAreStillKept) {

@@ -82,12 +82,12 @@ TEST(SensorWatch, MissingAfterTheLimitBackAfterARunAndNeverFlapping) {
   step(22.1);
   EXPECT_TRUE(alarmed(book, "sensor_missing:dvl"));
   EXPECT_NEAR(to_seconds(book.find("sensor_missing:dvl")->since_ns - kEpoch), 19.8, 0.01);
-  (void)book.take_changes();
+  (void)book.take_transitions();
   // One sample every 1.5 s is no recovery: the alarm stays as it is.
   for (double t = 23.0; t < 60.0; t += 1.5)
     watch.heard(SourceKind::dvl, "dvl", at(t)), step(t), step(t + 0.7);
   EXPECT_TRUE(alarmed(book, "sensor_missing:dvl"));
-  EXPECT_TRUE(book.take_changes().empty());
+  EXPECT_TRUE(book.take_transitions().empty());
   for (double t = 60.0; t < 62.0; t += 0.2) watch.heard(SourceKind::dvl, "dvl", at(t)), step(t);
   EXPECT_FALSE(alarmed(book, "sensor_missing:dvl"));
 }
@@ -328,7 +328,7 @@ TEST(RefusalWatch, TwoKindsUnderOneNameShareAnAlarm) {
       watch.add(verdict(SourceKind::propulsion, VerdictKind::used, t, "actuator"), at(t));
       watch.add(verdict(SourceKind::fins, fins, t, "actuator"), at(t));
       watch.report(book, at(t));
-      for (const Alarm& one : book.take_changes()) changes += one.active ? 1 : 0;
+      for (const auto& [event, alarm] : book.take_transitions()) changes += alarm.active ? 1 : 0;
     }
     return changes;
   };

@@ -18,6 +18,8 @@
 namespace fathom::monitor {
 namespace {
 
+using health::AlarmEvent;
+
 constexpr TimeNs kNow = 1'700'000'000 * kNsPerSecond;
 
 class AlarmJournalTest : public ::testing::Test {
@@ -70,11 +72,11 @@ TEST_F(AlarmJournalTest, KeepsOneObjectALineAndGoesOnWhereItWas) {
   {
     AlarmJournal journal(path);
     ASSERT_TRUE(journal.open(kNow)) << journal.error();
-    EXPECT_TRUE(journal.append(alarm("No fix for 5.0 s."), JournalEvent::raised, kNow));
+    EXPECT_TRUE(journal.append({AlarmEvent::raised, alarm("No fix for 5.0 s.")}, kNow));
   }
   AlarmJournal journal(path);
   ASSERT_TRUE(journal.open(kNow));
-  EXPECT_TRUE(journal.append(alarm("A \"quoted\"\nline."), JournalEvent::cleared, kNow + kNsPerSecond));
+  EXPECT_TRUE(journal.append({AlarmEvent::cleared, alarm("A \"quoted\"\nline.")}, kNow + kNsPerSecond));
   const auto all = lines();
   ASSERT_EQ(all.size(), 2U);
   EXPECT_EQ(all[0]["event"], "raised");
@@ -91,8 +93,8 @@ TEST_F(AlarmJournalTest, APowerCutAnywhereInTheLastLineCostsThatLineOnly) {
   {
     AlarmJournal journal(path);
     ASSERT_TRUE(journal.open(kNow));
-    journal.append(alarm("The first."), JournalEvent::raised, kNow);
-    journal.append(alarm("The second."), JournalEvent::cleared, kNow);
+    journal.append({AlarmEvent::raised, alarm("The first.")}, kNow);
+    journal.append({AlarmEvent::cleared, alarm("The second.")}, kNow);
   }
   const std::string whole = contents();
   const std::size_t first = whole.find('\n') + 1;
@@ -102,7 +104,7 @@ TEST_F(AlarmJournalTest, APowerCutAnywhereInTheLastLineCostsThatLineOnly) {
     put(whole.substr(0, length));
     AlarmJournal journal(path);
     ASSERT_TRUE(journal.open(kNow)) << journal.error();
-    ASSERT_TRUE(journal.append(alarm("After the cut."), JournalEvent::raised, kNow));
+    ASSERT_TRUE(journal.append({AlarmEvent::raised, alarm("After the cut.")}, kNow));
     const auto all = lines();
     const bool torn = length != 0 && length != first && length != whole.size();
     const std::size_t complete = length < first ? 0 : length < whole.size() ? 1 : 2;
@@ -128,15 +130,15 @@ TEST_F(AlarmJournalTest, KnowsWhatWasActiveAndWhatNobodyAcknowledged) {
     Alarm seen = alarm("Seen.");
     Alarm over = alarm("Over.");
     over.alarm = "sensor_missing:dvl";
-    journal.append(seen, JournalEvent::raised, kNow);
-    journal.append(over, JournalEvent::raised, kNow);
+    journal.append({AlarmEvent::raised, seen}, kNow);
+    journal.append({AlarmEvent::raised, over}, kNow);
     seen.acknowledged = true;
-    journal.append(seen, JournalEvent::acknowledged, kNow);
+    journal.append({AlarmEvent::acknowledged, seen}, kNow);
     over.active = false;
     over.severity = Severity::critical;
     over.cleared_ns = kNow + 1500 * kNsPerMillisecond;
     over.limit = kUnknown;
-    journal.append(over, JournalEvent::cleared, kNow);
+    journal.append({AlarmEvent::cleared, over}, kNow);
     journal.note("stopped", "in good order", kNow);
   }
   AlarmJournal journal(path);
@@ -185,7 +187,7 @@ TEST_F(AlarmJournalTest, SurvivesBeingKilledAtAnyMoment) {
       AlarmJournal journal(path);
       if (!journal.open(kNow)) _exit(1);
       for (int i = 0; i < 100'000; ++i) {
-        journal.append(alarm("Number " + std::to_string(i)), JournalEvent::raised, kNow);
+        journal.append({AlarmEvent::raised, alarm("Number " + std::to_string(i))}, kNow);
         if (write(told[1], "", 1) != 1) _exit(1);
       }
       _exit(0);
@@ -208,20 +210,20 @@ TEST_F(AlarmJournalTest, SurvivesBeingKilledAtAnyMoment) {
 TEST_F(AlarmJournalTest, ADiskWithoutRoomCostsWholeLinesAndIsSaid) {
   AlarmJournal journal(path);
   ASSERT_TRUE(journal.open(kNow));
-  ASSERT_TRUE(journal.append(alarm("Fits."), JournalEvent::raised, kNow));
+  ASSERT_TRUE(journal.append({AlarmEvent::raised, alarm("Fits.")}, kNow));
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit tight{contents().size() + 40, before.rlim_max};  // room for a part of the next line
   setrlimit(RLIMIT_FSIZE, &tight);
-  const bool written = journal.append(alarm("Does not."), JournalEvent::cleared, kNow);
+  const bool written = journal.append({AlarmEvent::cleared, alarm("Does not.")}, kNow);
   const std::string error = journal.error();
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, old_handler);
   EXPECT_FALSE(written);
   EXPECT_NE(error.find(path), std::string::npos) << error;
   EXPECT_EQ(journal.counters().failures, 1U);
-  EXPECT_TRUE(journal.append(alarm("Room again."), JournalEvent::raised, kNow));
+  EXPECT_TRUE(journal.append({AlarmEvent::raised, alarm("Room again.")}, kNow));
   EXPECT_TRUE(journal.error().empty());
   const auto all = lines();
   ASSERT_EQ(all.size(), 2U);
@@ -234,7 +236,7 @@ TEST_F(AlarmJournalTest, RefusesWhatIsNoFileOfItsOwn) {
   AlarmJournal second(path);
   EXPECT_FALSE(second.open(kNow));
   EXPECT_NE(second.error().find("another process"), std::string::npos) << second.error();
-  EXPECT_FALSE(second.append(alarm("Lost."), JournalEvent::raised, kNow));
+  EXPECT_FALSE(second.append({AlarmEvent::raised, alarm("Lost.")}, kNow));
   EXPECT_EQ(second.counters().failures, 1U);
   AlarmJournal device("/dev/null");
   EXPECT_FALSE(device.open(kNow));
