@@ -1,8 +1,6 @@
 #include "fusion/fusion_service.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -19,11 +17,12 @@
 #include "fusion/checkpoint/checkpoint.hpp"
 #include "fusion/checkpoint/keeper.hpp"
 #include "fusion/checkpoint/start.hpp"
-#include "fusion/imu_source.hpp"
+#include "fusion/intake/arrival.hpp"
+#include "fusion/intake/intake.hpp"
 #include "fusion/life_sign.hpp"
-#include "fusion/replica/arrival_log.hpp"
+#include "fusion/order_text.hpp"
 #include "fusion/replica/link.hpp"
-#include "fusion/verdict_desk.hpp"
+#include "fusion/verdict_publisher.hpp"
 
 namespace fathom::fusion {
 namespace {
@@ -38,23 +37,6 @@ bus::WriterOptions nav_state_options(const host::ServiceHost& host, const config
 
 // Longer than the scheduler keeps a bridge that is there, shorter than one takes to start again. Of the host.
 constexpr DurationNs kImuSilence_ns = 200 * kNsPerMillisecond;
-
-std::string in_words(const estimation::OrderOutcome& outcome) {
-  std::array<char, 160> text{};
-  switch (outcome.fate) {
-    case estimation::OrderFate::done:
-      return "done";
-    case estimation::OrderFate::not_done:
-      return "not done: navigation began anew before its instant came";
-    case estimation::OrderFate::held:
-      break;
-  }
-  std::snprintf(text.data(), text.size(),
-                "held: it lies %.0f m from where navigation is, expected %.0f m at most; the same position, "
-                "ordered and confirmed within 60 s, is set",
-                outcome.apart_m, outcome.allowed_m);
-  return text.data();
-}
 
 bus::WriterOptions slow_options(const config::FusionConfig& config) {
   bus::WriterOptions options;
@@ -90,8 +72,9 @@ struct FusionService::Impl {
       : host(the_host),
         vehicle(config.common.vehicle),
         label(label_of(the_host)),
-        imu_source(Name(config.imu_sensor), static_cast<DurationNs>(static_cast<double>(kImuSilence_ns) *
-                                                                    std::max(1.0, the_host.clock().rate()))),
+        intake(vehicle, Name(config.imu_sensor),
+               static_cast<DurationNs>(static_cast<double>(kImuSilence_ns) *
+                                       std::max(1.0, the_host.clock().rate()))),
         start(started(the_host, config, label)),
         nav_states(host.participant(), nav_state_options(host, config)),
         details(host.participant(), slow_options(config)),
@@ -102,15 +85,14 @@ struct FusionService::Impl {
         aiding_readers(listen_to_aiding()),
         commands(host.participant(),
                  [this](const Command& command, const bus::SampleInfo&) { on_command(command); }),
-        imu(host.participant(),
-            [this](const ImuSample& sample, const bus::SampleInfo& info) { on_imu(sample, info); }) {
+        imu(host.participant(), arrivals_of<ImuSample>()) {
     if (link) link->begin();
     host.on_tick(kNsPerSecond, [this] { publish_slow(); });
     host.on_status([this](ServiceStatus& status) { fill(status); });
     if (!config.checkpoint.path.empty()) {
       keeper.emplace(
           config.checkpoint, label, host.log(),
-          [this](TimeNs& stamp_ns, std::vector<std::byte>& image) { return save(stamp_ns, image); });
+          [this](TimeNs& stamp_ns, std::vector<std::byte>& archive) { return save(stamp_ns, archive); });
     }
   }
 
@@ -124,7 +106,8 @@ struct FusionService::Impl {
   ~Impl() {
     host.on_tick(kNsPerSecond, [] {});
     host.on_status([](ServiceStatus&) {});
-    // Neither a fusion that goes on from a checkpoint nor another one will say what became of what is held.
+    // What the engine still holds back is judged later by the next start, from the checkpoint, or by another
+    // fusion service. Without both it is judged now.
     if (keeper || link) return;
     {
       const std::lock_guard lock(mutex);
@@ -138,90 +121,80 @@ struct FusionService::Impl {
     std::vector<std::shared_ptr<void>> readers;
     for_each_aiding_kind([&](auto kind) {
       using T = typename decltype(kind)::Sample;
-      readers.push_back(std::make_shared<bus::Reader<T>>(host.participant(), aiding<T>()));
+      readers.push_back(std::make_shared<bus::Reader<T>>(host.participant(), arrivals_of<T>()));
     });
     return readers;
   }
 
+  /// Handler of a reader: makes each sample an arrival.
   template <class T>
-  typename bus::Reader<T>::Handler aiding() {
+  typename bus::Reader<T>::Handler arrivals_of() {
     return [this](const T& sample, const bus::SampleInfo& info) {
-      std::uint64_t missed = 0;
-      // Now, as it may be gone when the last verdict is given.
-      const Name writer(host.participant().writer_name(info.writer_guid));
-      {
-        const std::lock_guard lock(mutex);
-        if (ended) return;
-        if (sample.header.vehicle != vehicle) {
-          ++counts.other_vehicle;
-          return;
-        }
-        log.note(sample, writer);
-        missed = gaps.note(kSourceOf<T>, sample.header);
-        engine.add(sample, writer);
-      }
-      if (link && missed > 0) link->missed(missed);
-      verdicts.publish();
+      take({sample, info.writer_guid, Name(host.participant().writer_name(info.writer_guid)),
+            host.clock().monotonic_ns()});
     };
   }
 
-  void on_imu(const ImuSample& sample, const bus::SampleInfo& info) {
+  /// Gives an arrival to the engine. True when there is a new navigation state. Mutex held.
+  bool give(const Arrival& arrival) {
+    return std::visit(
+        [&]<class T>(const T& sample) {
+          if constexpr (std::is_same_v<T, ImuSample>) {
+            return engine.add(sample);
+          } else {
+            if constexpr (Aiding<T>) engine.add(sample, arrival.writer);
+            return false;
+          }
+        },
+        arrival.sample);
+  }
+
+  void take(const Arrival& arrival) {
     NavState state;
     bool fresh = false;
-    AlignmentStatus alignment;
-    bool alignment_changed = false;
-    std::uint64_t missed = 0;
-    bool other = false;
-    {
-      const std::lock_guard lock(mutex);
-      if (ended) return;
-      if (sample.header.vehicle != vehicle) {
-        ++counts.other_vehicle;
-        return;
-      }
-      const auto heard = imu_source.hear(sample.header.sensor, info.writer_guid, host.clock().monotonic_ns());
-      other = heard != ImuSource::Hearing::taken;
-    }
-    if (other) return refuse_other(sample, info);
+    std::optional<AlignmentStatus> alignment;
+    Intake::Answer answer;
     std::vector<estimation::OrderOutcome> outcomes;
     {
       const std::lock_guard lock(mutex);
-      verdicts.set_imu_writer(info.writer_guid);
-      log.note(sample, {});
-      missed = gaps.note(SourceKind::imu, sample.header);
-      ++counts.imu_samples;
-      fresh = engine.add(sample);
-      if (fresh) {
-        state = engine.nav_state();
-        newest_nav_state_ns = host.clock().monotonic_ns();
-        alignment_changed = state.alignment != phase;
-        phase = state.alignment;
-        if (alignment_changed) engine.fill(alignment);
+      if (ended) return;
+      answer = intake.take(arrival);
+      if (answer.fate == Intake::Fate::taken) {
+        if (arrival.source() == SourceKind::imu) verdicts.set_imu_writer(arrival.writer);
+        fresh = give(arrival);
+        if (fresh) {
+          state = engine.nav_state();
+          newest_nav_state_ns = host.clock().monotonic_ns();
+          if (std::exchange(phase, state.alignment) != state.alignment) engine.fill(alignment.emplace());
+        }
+        collect(outcomes);
       }
-      take(outcomes);
     }
-    say(outcomes);
-    if (link && missed > 0) link->missed(missed);
+    if (answer.fate == Intake::Fate::other_vehicle) return;
+    if (answer.fate == Intake::Fate::other_imu) return refuse(arrival);
+    report(outcomes);
+    if (link && answer.missed > 0) link->missed(answer.missed);
     if (fresh && (!link || link->own(state))) {
       nav_states.write(state);
       const std::lock_guard lock(mutex);
       ++counts.nav_states;
     }
-    if (alignment_changed) {
-      if (speaks()) alignments.write(alignment);
-      host.log().info("alignment: " + std::string(to_string(alignment.phase)));
+    if (alignment) {
+      if (speaks()) alignments.write(*alignment);
+      host.log().info("alignment: " + std::string(to_string(alignment->phase)));
     }
     verdicts.publish();
   }
 
-  // Another unit, or another writer of this one, never mixes with it: the samples are judged, not integrated.
-  void refuse_other(const ImuSample& sample, const bus::SampleInfo& info) {
+  /// Inertial samples of another unit, or of another writer of this unit, are never integrated. They get a
+  /// verdict.
+  void refuse(const Arrival& arrival) {
     Verdict verdict;
-    verdict.header = sample.header;
-    verdict.source = SourceKind::imu;
+    verdict.header = arrival.header();
+    verdict.source = arrival.source();
     verdict.kind = verdict.previous = VerdictKind::source_disabled;
     verdict.is_final = true;
-    verdict.writer = Name(host.participant().writer_name(info.writer_guid));
+    verdict.writer = arrival.writer;
     verdicts.publish(verdict);
   }
 
@@ -231,28 +204,23 @@ struct FusionService::Impl {
     {
       const std::lock_guard lock(mutex);
       ++counts.commands;
-      log.note(command);
+      intake.take(command);
       objection = engine.apply(command);
       if (!objection.empty()) ++counts.orders_refused;
     }
     if (!objection.empty()) host.log().warning(in_words(command) + ": refused: " + objection);
   }
 
-  static std::string in_words(const Command& order) {
-    const std::string target = order.target.empty() ? "" : " " + order.target.str();
-    return "order " + std::string(to_string(order.kind)) + target + " of " + order.header.sensor.str();
-  }
-
-  /// What became of orders since. Mutex held.
-  void take(std::vector<estimation::OrderOutcome>& outcomes) {
+  /// Collects what became of orders since the last call. Mutex held.
+  void collect(std::vector<estimation::OrderOutcome>& outcomes) {
     for (estimation::OrderOutcome one; engine.next_outcome(one);) {
       if (one.fate == estimation::OrderFate::held) ++counts.orders_held;
       outcomes.push_back(one);
     }
   }
-  void say(const std::vector<estimation::OrderOutcome>& outcomes) {
+  void report(const std::vector<estimation::OrderOutcome>& outcomes) {
     for (const estimation::OrderOutcome& one : outcomes) {
-      const std::string text = in_words(one.order) + ": " + fusion::in_words(one) +
+      const std::string text = in_words(one.order) + ": " + in_words(one) +
                                (one.again ? " (judged anew, after a late measurement)" : "");
       host.log().write(
           one.fate == estimation::OrderFate::done ? runtime::LogLevel::info : runtime::LogLevel::warning,
@@ -260,10 +228,10 @@ struct FusionService::Impl {
     }
   }
 
-  bool save(TimeNs& stamp_ns, std::vector<std::byte>& image) {
-    if (link && !link->in_step()) return false;  // the one on the disk may be better
+  bool save(TimeNs& stamp_ns, std::vector<std::byte>& archive) {
+    if (link && !link->in_step()) return false;  // the checkpoint on the disk may be better
     const std::lock_guard lock(mutex);
-    if (!engine.save(image)) return false;
+    if (!engine.save(archive)) return false;
     stamp_ns = engine.nav_state().header.stamp_ns;
     return true;
   }
@@ -292,9 +260,8 @@ struct FusionService::Impl {
     {
       const std::lock_guard lock(mutex);
       counts.verdicts = verdicts.figures();
-      counts.imu_changes = imu_source.changes();
-      counts.imu_rivals = imu_source.rivals();
-      moment = {counts, newest_nav_state_ns, phase, imu_source.unit(), start.resumption.how};
+      counts.intake = intake.counts();
+      moment = {counts, newest_nav_state_ns, phase, intake.imu_unit(), start.resumption.how};
     }
     life_sign.fill(moment, host.clock(), status);
     if (link) link->fill(status);
@@ -306,32 +273,26 @@ struct FusionService::Impl {
       status.text += (status.text.empty() ? "checkpoint " : "; checkpoint ") + kept.failure;
   }
 
-  // What arrived since the state was saved is told the engine again. What comes of it has been said by the
-  // one that saved it.
+  // The engine is given again what has arrived since the state was saved. The service that saved it has
+  // published the verdicts and outcomes.
   ReplicaLink::Restored restore(const SharedState& state) {
     const std::lock_guard lock(mutex);
-    if (imu_source.unit() != state.imu_sensor) {
+    if (intake.imu_unit() != state.imu_sensor) {
       return {"", "is of inertial unit " + state.imu_sensor.str() + ", and this one listens to " +
-                      imu_source.unit().str()};
+                      intake.imu_unit().str()};
     }
-    if (std::string why = gap_between(state, log); !why.empty())
+    if (std::string why = gap_between(state, intake.log()); !why.empty())
       return {"", "does not reach this one: " + why};
-    if (std::string why = engine.restore(state.image); !why.empty()) return {"", "is none: " + why, true};
-    for (const Command& order : log.orders()) (void)engine.apply(order);
-    gaps.go_on_from(state.last);
+    if (std::string why = engine.restore(state.archive); !why.empty()) return {"", "is none: " + why, true};
+    for (const Command& order : intake.log().orders()) (void)engine.apply(order);
+    intake.go_on_from(state.last);
     int told_again = 0;
-    for (const ArrivalLog::Arrival& arrival : log.arrivals()) {
-      std::visit(
-          [&]<class T>(const T& one) {
-            if constexpr (std::is_same_v<T, ImuSample>) {
-              if (one.header.stamp_ns <= engine.nav_state().header.stamp_ns) return;
-              engine.add(one);
-            } else {
-              engine.add(one, arrival.writer);
-            }
-            ++told_again;
-          },
-          arrival.sample);
+    for (const Arrival& arrival : intake.log().arrivals()) {
+      const bool known = arrival.source() == SourceKind::imu &&
+                         arrival.header().stamp_ns <= engine.nav_state().header.stamp_ns;
+      if (known) continue;
+      give(arrival);
+      ++told_again;
       for (Verdict verdict; engine.next_verdict(verdict);) continue;
     }
     for (estimation::OrderOutcome outcome; engine.next_outcome(outcome);) continue;
@@ -342,11 +303,11 @@ struct FusionService::Impl {
 
   bool share(SharedState& state) {
     const std::lock_guard lock(mutex);
-    state.image.clear();
-    if (!engine.save(state.image)) return false;
+    state.archive.clear();
+    if (!engine.save(state.archive)) return false;
     state.stamp_ns = engine.nav_state().header.stamp_ns;
-    state.imu_sensor = imu_source.unit();
-    state.last = gaps.last();
+    state.imu_sensor = intake.imu_unit();
+    state.last = intake.last();
     return true;
   }
 
@@ -356,13 +317,14 @@ struct FusionService::Impl {
     hooks.restore = [this](const SharedState& state) { return restore(state); };
     hooks.keep_arrivals = [this](bool on) {
       const std::lock_guard lock(mutex);
-      log.keep(on);
+      intake.keep(on);
     };
     hooks.leads_now = [this] { publish_slow(); };
     return hooks;
   }
 
-  // Of several fusion services the one that leads speaks for all but the navigation state.
+  // Of several fusion services the one that leads publishes for all of them. Each one publishes its own
+  // navigation state, and DDS chooses.
   [[nodiscard]] bool speaks() const { return !link || link->leads(); }
 
   host::ServiceHost& host;
@@ -370,9 +332,9 @@ struct FusionService::Impl {
 
   const CheckpointLabel label;
 
-  std::mutex forecast_mutex;  // of the taken forecast; before the other
+  std::mutex forecast_mutex;  // guards the taken forecast; locked before the other mutex
   std::mutex mutex;           // guards what follows up to the writers
-  ImuSource imu_source;
+  Intake intake;
   Started start;
   estimation::FusionEngine& engine = start.engine;
   LifeSign::Counts counts;
@@ -380,9 +342,6 @@ struct FusionService::Impl {
   TimeNs newest_nav_state_ns = 0;
 
   bool ended = false;
-
-  ArrivalLog log;
-  SampleGaps gaps;
 
   LifeSign life_sign;  // used by the thread of the life sign only
 
@@ -392,7 +351,7 @@ struct FusionService::Impl {
   bus::Writer<Forecast> forecasts;
 
   std::unique_ptr<ReplicaLink> link;  // none where this is the only fusion
-  VerdictDesk verdicts;
+  VerdictPublisher verdicts;
 
   // Readers end first: their handlers use everything above.
   std::vector<std::shared_ptr<void>> aiding_readers;

@@ -15,8 +15,8 @@ void LifeSign::fill(const Moment& now, const Clock& clock, ServiceStatus& status
   status.text.clear();
   if (now.newest_nav_state_ns == 0) {
     status.state = ServiceState::starting;
-    status.text = counts.imu_samples == 0 ? "waiting for inertial samples" + from
-                                          : "no inertial sample" + from + " could be used yet";
+    status.text = counts.intake.imu_samples == 0 ? "waiting for inertial samples" + from
+                                                 : "no inertial sample" + from + " could be used yet";
   } else if (clock_ns - now.newest_nav_state_ns > patience) {
     status.state = ServiceState::degraded;
     std::array<char, 96> text{};
@@ -32,10 +32,11 @@ void LifeSign::fill(const Moment& now, const Clock& clock, ServiceStatus& status
   }
   const double span_s = to_seconds(clock_ns - last_ns_);
   if (last_ns_ != 0 && span_s > 0.0) {
-    status.rates.push_back({"imu", static_cast<double>(counts.imu_samples - last_.imu_samples) / span_s});
+    status.rates.push_back(
+        {"imu", static_cast<double>(counts.intake.imu_samples - last_.intake.imu_samples) / span_s});
     status.rates.push_back({"nav_state", static_cast<double>(counts.nav_states - last_.nav_states) / span_s});
   }
-  status.counters.push_back({"imu_samples", counts.imu_samples});
+  status.counters.push_back({"imu_samples", counts.intake.imu_samples});
   status.counters.push_back({"nav_states", counts.nav_states});
   for (std::size_t kind = 0; kind < kVerdictKinds; ++kind) {
     status.counters.push_back(
@@ -49,13 +50,13 @@ void LifeSign::fill(const Moment& now, const Clock& clock, ServiceStatus& status
     status.text += (status.text.empty() ? "" : "; ") + std::to_string(dropped) +
                    " verdicts were dropped because too many waited to be published";
   }
-  status.counters.push_back({"other_vehicle", counts.other_vehicle});
+  status.counters.push_back({"other_vehicle", counts.intake.other_vehicle});
   status.counters.push_back({"commands", counts.commands});
   status.counters.push_back({"orders_refused", counts.orders_refused});
   status.counters.push_back({"orders_held", counts.orders_held});
-  status.counters.push_back({"imu_writer_changes", counts.imu_changes});
-  status.counters.push_back({"imu_rival_samples", counts.imu_rivals});
-  if (counts.imu_rivals > last_.imu_rivals) {
+  status.counters.push_back({"imu_writer_changes", counts.intake.imu_changes});
+  status.counters.push_back({"imu_rival_samples", counts.intake.imu_rivals});
+  if (counts.intake.imu_rivals > last_.intake.imu_rivals) {
     if (status.state == ServiceState::healthy) status.state = ServiceState::degraded;
     status.text += (status.text.empty() ? "" : "; ") + std::string("another process writes samples") + from +
                    " as well, which are left out";

@@ -38,7 +38,7 @@ void put(std::vector<std::byte>& out, std::string_view text) {
   for (const char c : text) out.push_back(static_cast<std::byte>(c));
 }
 
-/// Reads what put() wrote; once the bytes are too few everything is empty.
+/// Parser of what put() wrote. After the bytes have run out, every value is empty.
 class Parser {
  public:
   explicit Parser(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -90,18 +90,18 @@ bool write_all(int file, std::span<const std::byte> bytes) {
 
 }  // namespace
 
-void encode(const CheckpointLabel& label, std::span<const std::byte> image, std::vector<std::byte>& out) {
+void encode(const CheckpointLabel& label, std::span<const std::byte> archive, std::vector<std::byte>& out) {
   out.clear();
   for (const char c : kMagic) out.push_back(static_cast<std::byte>(c));
   put(out, kFormat);
-  put(out, std::uint32_t{0});  // the checksum, when the rest stands
+  put(out, std::uint32_t{0});  // place of the checksum, which follows from the rest
   put(out, std::string_view(label.vehicle));
   put(out, std::string_view(label.service));
   put(out, std::string_view(label.configuration));
   put(out, std::string_view(label.build));
   put(out, label.stamp_ns);
-  put(out, static_cast<std::uint64_t>(image.size()));
-  out.insert(out.end(), image.begin(), image.end());
+  put(out, static_cast<std::uint64_t>(archive.size()));
+  out.insert(out.end(), archive.begin(), archive.end());
   const std::uint32_t sum = checksum(std::span(out).subspan(kHead));
   for (std::size_t i = 0; i < sizeof sum; ++i) {
     out[kHead - sizeof sum + i] = static_cast<std::byte>(sum >> (8 * i) & 0xFFU);
@@ -128,14 +128,14 @@ Result<Checkpoint> decode(std::span<const std::byte> bytes) {
   out.label.configuration = body.text();
   out.label.build = body.text();
   out.label.stamp_ns = body.number<TimeNs>();
-  const auto image = body.take(body.number<std::uint64_t>());
+  const auto archive = body.take(body.number<std::uint64_t>());
   if (!body.at_end()) return Error{"is damaged: its lengths do not add up"};
-  out.image.assign(image.begin(), image.end());
+  out.archive.assign(archive.begin(), archive.end());
   return out;
 }
 
 std::string objection(const CheckpointLabel& found, const CheckpointLabel& own, double max_age_s) {
-  // Clocks of one host agree; a state from ahead of them was saved before the clock was set back.
+  // The clocks of one host agree. A state of the future was saved before the clock was set back.
   constexpr double kTolerated_s = 1.0;
   const auto other = [](const char* what, const std::string& theirs, const std::string& ours) {
     return std::string("is of ") + what + " " + theirs + ", not of " + ours;
@@ -157,7 +157,7 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) return Error{"is not there"};
   if (!std::filesystem::is_regular_file(path, error)) return Error{"is no regular file"};
-  // Far more than any engine holds: whatever else lies there is not read into memory.
+  // Far more than any engine holds, so that another large file is not read into memory.
   constexpr std::uintmax_t kMost = 256U << 20U;
   if (std::filesystem::file_size(path, error) > kMost || error) return Error{"is no checkpoint: too large"};
   std::ifstream file(path, std::ios::binary);

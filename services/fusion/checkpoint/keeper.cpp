@@ -40,9 +40,9 @@ void CheckpointKeeper::run() {
 }
 
 void CheckpointKeeper::write() {
-  image_.clear();
-  if (!save_(label_.stamp_ns, image_)) return;
-  encode(label_, image_, file_);
+  archive_.clear();
+  if (!save_(label_.stamp_ns, archive_)) return;
+  encode(label_, archive_, file_);
   const std::string failure = replace_file(config_.path, file_, config_.sync);
   if (failure.empty()) forget_trial(config_.path);
   bool news = false;

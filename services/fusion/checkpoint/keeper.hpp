@@ -14,8 +14,9 @@
 
 namespace fathom::fusion {
 
-/// Writes a checkpoint each period on a thread of its own, and one more at the end: the disk may be slow,
-/// full or gone, navigation does not wait for it. A failure is said once, counted, and tried again.
+/// Keeper of the checkpoint: it writes one each period on a thread of its own, and a last one at the end.
+/// Navigation never waits for a disk that is slow, full or gone. A failure is logged once, counted, and the
+/// next period tries again.
 class CheckpointKeeper {
  public:
   struct Counts {
@@ -23,9 +24,9 @@ class CheckpointKeeper {
     std::uint64_t failed = 0;
     std::string failure;  ///< why the last one could not be written; empty when it was
   };
-  /// Fills the stamp and the image; false when there is nothing to save yet. Called on the keeper's thread,
-  /// and by the destructor's caller.
-  using Save = std::function<bool(TimeNs& stamp_ns, std::vector<std::byte>& image)>;
+  /// Fills the stamp and the archive. False when there is nothing to save yet. It is called on the keeper's
+  /// thread.
+  using Save = std::function<bool(TimeNs& stamp_ns, std::vector<std::byte>& archive)>;
 
   /// `label` without its stamp.
   CheckpointKeeper(const config::CheckpointConfig& config, CheckpointLabel label, runtime::Log& log,
@@ -44,7 +45,7 @@ class CheckpointKeeper {
   CheckpointLabel label_;
   runtime::Log& log_;
   Save save_;
-  std::vector<std::byte> image_;  // of the keeper's thread, with their capacity
+  std::vector<std::byte> archive_;  // of the keeper's thread; the capacity is kept
   std::vector<std::byte> file_;
 
   mutable std::mutex mutex_;

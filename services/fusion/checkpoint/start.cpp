@@ -24,7 +24,7 @@ std::string taken_up(estimation::FusionEngine& engine, const fs::path& file, con
   if (!checkpoint) return checkpoint.error().message;
   found = checkpoint.value().label;
   if (std::string why = objection(found, own, max_age_s); !why.empty()) return why;
-  const std::string why = engine.restore(checkpoint.value().image);
+  const std::string why = engine.restore(checkpoint.value().archive);
   return why.empty() ? why : "holds no state of this engine: " + why;
 }
 

@@ -16,15 +16,15 @@ struct Resumption {
   std::string how;       ///< in words
 };
 
-/// Goes on from the checkpoint where there is one that may be gone on from. One that may not be is put aside
-/// as PATH.refused, and the engine is as it was.
+/// Restores the engine from the checkpoint, when there is one that it may go on from. Another checkpoint is
+/// put aside as PATH.refused, and the engine stays as it was.
 ///
-/// While it is being tried the file is called PATH.tried, until the first new checkpoint is written: a state
-/// that ends the process is met once more, in case something else did, and not a third time.
+/// The file is called PATH.tried until the first new checkpoint is written. So a state that ends the process
+/// is tried a second time, because something else may have ended it, and not a third time.
 [[nodiscard]] Resumption resume(estimation::FusionEngine& engine, const config::CheckpointConfig& config,
                                 const CheckpointLabel& own);
 
-/// What is left of the trial once a new checkpoint stands.
+/// Removes PATH.tried after a new checkpoint was written.
 void forget_trial(const std::filesystem::path& checkpoint);
 
 }  // namespace fathom::fusion

@@ -14,33 +14,34 @@
 
 namespace fathom::fusion {
 
-/// Knows who leads: whose navigation state DDS delivers, and who says so in its account of itself. A state is
-/// taken from there only. Pure and not thread-safe; `now_ns` is monotonic, `writer` that of the sample.
+/// A watch over who leads: the service whose navigation state DDS delivers and whose status says so. An
+/// engine takes over a state of that service only. Pure and not thread-safe; `now_ns` is monotonic, `writer`
+/// is the writer of the sample.
 class LeaderWatch {
  public:
-  /// `patience_ns`: for which a state and an account count.
+  /// `patience_ns`: how long a state and a status count.
   explicit LeaderWatch(DurationNs patience_ns) : patience_ns_(patience_ns) {}
 
-  /// A navigation state of another instance was delivered.
+  /// Takes a navigation state of another instance that DDS delivered.
   void heard(const Name& instance, const WriterGuid& writer, TimeNs now_ns);
-  /// An account of another instance.
+  /// Takes the status of another instance.
   void told(const ReplicaStatus& status, const WriterGuid& writer, TimeNs now_ns);
   struct Objection {
-    std::string why;      ///< the state is not taken, in words; empty when it is
+    std::string why;      ///< why the state is not taken, in words; empty when it is
     bool forged = false;  ///< no change of leadership explains it
   };
-  /// To a state that this instance is said to send.
+  /// The objection to a state of an engine that claims to come from `instance`.
   [[nodiscard]] Objection objection(const Name& instance, const WriterGuid& writer, TimeNs now_ns) const;
 
  private:
   using Participant = std::array<std::uint8_t, 12>;
-  static constexpr std::size_t kMost = 16;  // accounts of participants; further ones are not heard
+  static constexpr std::size_t kMost = 16;  // statuses of participants; further ones are ignored
   struct Account {
     Name instance;
     bool leads = false;
     TimeNs told_ns = 0;
-    std::optional<TimeNs> leads_since_ns;  ///< when it last began to say so
-    std::optional<TimeNs> led_ns;          ///< when it last said so
+    std::optional<TimeNs> leads_since_ns;  ///< when it last began to claim the lead
+    std::optional<TimeNs> led_ns;          ///< when it last claimed the lead
   };
   [[nodiscard]] static Participant of(const WriterGuid& writer);
   [[nodiscard]] bool fresh(TimeNs at_ns, TimeNs now_ns) const { return now_ns - at_ns <= patience_ns_; }

@@ -20,17 +20,18 @@ namespace {
 constexpr DurationNs kTick_ns = 50 * kNsPerMillisecond;
 constexpr DurationNs kTell_ns = 200 * kNsPerMillisecond;
 constexpr DurationNs kGive_ns = 500 * kNsPerMillisecond;
-constexpr double kSilenceOfListening = 0.4;  // a leader is missed sooner than nobody is found
+constexpr double kSilenceOfListening =
+    0.4;  // the silence of a known leader shows sooner than the lack of any leader
 constexpr DurationNs kQuarrel_ns = 2 * kNsPerSecond;
 constexpr DurationNs kLeastGap_ns = 100 * kNsPerMillisecond;
 constexpr DurationNs kLate_ns = 250 * kNsPerMillisecond;
 constexpr DurationNs kHold_ns = 2 * kNsPerSecond;
 constexpr DurationNs kHoldSilence_ns = 100 * kNsPerMillisecond;
 constexpr DurationNs kLeaderPatience_ns = 2 * kNsPerSecond;  // of the host: ten accounts
-constexpr int kSaidAfterTicks = 6;  // what lasts shorter is a hiccup of the scheduler
+constexpr int kSaidAfterTicks = 6;                           // a shorter state is a hiccup of the scheduler
 
-/// In vehicle time, as the clock runs; never shorter on the host, whose scheduling is no faster in an
-/// accelerated run.
+/// Options in vehicle time, as the clock runs. On the host they are never shorter, because its scheduling is
+/// no faster in an accelerated run.
 Replica::Options replica_options(const Clock& clock, const config::FusionConfig& config) {
   const double rate = std::max(1.0, clock.rate());
   const auto at_least = [rate](DurationNs host_ns) {
@@ -53,7 +54,7 @@ Replica::Options replica_options(const Clock& clock, const config::FusionConfig&
 bus::ReaderOptions nav_state_options(const host::ServiceHost& host, const config::FusionConfig& config) {
   bus::ReaderOptions options;
   options.deadline_ns = host.host_duration(from_seconds(3.0 / config.engine.imu.nominal_rate_hz));
-  options.profile_suffix = "deep";  // each one is compared
+  options.profile_suffix = "deep";  // each state is compared
   return options;
 }
 
@@ -126,7 +127,7 @@ struct ReplicaLink::Impl {
     }
   }
 
-  /// Notices what changed, says so, and asks for the leader's state where it is wanted.
+  /// Finds what changed, logs it, and asks for the leader's state when it is wanted.
   void look() {
     ReplicaPhase phase{};
     bool leads = false;
@@ -134,7 +135,7 @@ struct ReplicaLink::Impl {
     std::string text;
     {
       const std::lock_guard lock(mutex);
-      // Its own writer is one of them.
+      // Its own writer is one of the matched ones.
       replica.others(std::max(0, heard.matched_writers() - 1), host.clock().monotonic_ns());
       phase = replica.phase();
       leads = replica.leads();
@@ -149,7 +150,7 @@ struct ReplicaLink::Impl {
     }
     if (leads != led) {
       led = leads;
-      tell();  // before a state is given: nobody takes one from whom he does not know to lead
+      tell();  // before a state is given, because the others take one only from a known leader
       if (leads) hooks.leads_now();
       host.publish_status_soon();
     }
@@ -161,7 +162,7 @@ struct ReplicaLink::Impl {
                      text);
   }
 
-  /// Whoever reads the topic of states is sent one.
+  /// Asks for the leader's state: the leader sends it to every reader of the topic of states.
   void ask() {
     hooks.keep_arrivals(true);
     try {
@@ -222,10 +223,10 @@ struct ReplicaLink::Impl {
       part.missed = replica.missed();
     }
     if (!hooks.save(state)) return;
-    encode(state, image);
+    encode(state, archive);
     CheckpointLabel stamped = label;
     stamped.stamp_ns = state.stamp_ns;
-    encode(stamped, image, bytes);
+    encode(stamped, archive, bytes);
     part.header = host.header();
     part.header.stamp_ns = state.stamp_ns;
     part.header.sequence = parts_sent;
@@ -251,13 +252,13 @@ struct ReplicaLink::Impl {
     if (!whole) return;
     auto found = decode(whole->bytes);
     if (!found) return refuse(from, found.error().message, true);
-    found.value().label.service = label.service;  // another instance, the same kind
-    // Of what age it is does not matter: whether it leads to the leader's states is seen afterwards.
+    found.value().label.service = label.service;  // another instance of the same service
+    // The age of the state does not matter. The comparison with the leader's states follows afterwards.
     CheckpointLabel own = label;
     own.stamp_ns = found.value().label.stamp_ns;
     const std::string why = objection(found.value().label, own, 0.0);
     if (!why.empty()) return refuse(from, why);
-    const auto shared = decode_shared(found.value().image);
+    const auto shared = decode_shared(found.value().archive);
     if (!shared) return refuse(from, shared.error().message, true);
     {
       const std::lock_guard lock(mutex);
@@ -272,7 +273,7 @@ struct ReplicaLink::Impl {
     host.log().info("took the state of " + from + ", " + taken.text);
   }
 
-  /// `unsound`: it is forged or broken, not only of no use here.
+  /// `unsound`: the state is forged or broken, and not only useless here.
   void refuse(const std::string& from, const std::string& why, bool unsound = false) {
     const std::string text = "the state of " + from + " " + why;
     const std::lock_guard lock(mutex);
@@ -291,7 +292,7 @@ struct ReplicaLink::Impl {
   LeaderWatch leader{kLeaderPatience_ns};
   std::uint64_t states_refused = 0;
   std::string refused;
-  std::optional<TimeNs> namesake_ns;  ///< when another one of the same name was last heard
+  std::optional<TimeNs> namesake_ns;  ///< when another service of the same name was last heard
 
   // Of the thread.
   std::string said;
@@ -302,7 +303,7 @@ struct ReplicaLink::Impl {
   std::uint64_t transfers = 0;
   std::uint64_t parts_sent = 0;
   SharedState state;
-  std::vector<std::byte> image;
+  std::vector<std::byte> archive;
   std::vector<std::byte> bytes;
 
   StateAssembler assembler;  // of the reader of parts
@@ -311,7 +312,7 @@ struct ReplicaLink::Impl {
   bus::Writer<EngineStatePart> states;
   bus::Reader<ReplicaStatus> peers;
   bus::Reader<NavState> heard;
-  std::optional<bus::Reader<EngineStatePart>> taker;  // of the thread: there while it is wanted
+  std::optional<bus::Reader<EngineStatePart>> taker;  // of the thread: exists while a state is wanted
 
   std::mutex thread_mutex;
   std::condition_variable wake;

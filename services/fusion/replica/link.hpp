@@ -16,47 +16,49 @@
 
 namespace fathom::fusion {
 
-/// A fusion service among others on the vehicle network: hears which one leads, says how it is itself, gives
-/// its state to those that lack it, and takes that of the leader when it lacks something.
+/// The link of one fusion service to the others on the vehicle network. It finds out which one leads,
+/// publishes its own status, gives its state to services that lack it, and takes the leader's state when it
+/// lacks something itself.
 ///
-/// All functions may be called from any thread. None of the hooks is called from within one of them, and no
-/// lock is held while a hook runs.
+/// All functions may be called from any thread. They never call a hook themselves, and no lock is held while
+/// a hook runs.
 class ReplicaLink {
  public:
-  /// What came of a state.
+  /// The result of taking over a state.
   struct Restored {
-    std::string text;      ///< of that, in words
+    std::string text;      ///< the result in words
     std::string error;     ///< why it was not taken; empty when it was
-    bool unsound = false;  ///< because it is no state of such an engine
+    bool unsound = false;  ///< it is not a state of such an engine
   };
   struct Hooks {
-    /// False when there is nothing to give.
+    /// Fills a state to give away. False when there is none.
     std::function<bool(SharedState& state)> save;
-    /// Takes up a state and what arrived since.
+    /// Takes over a state, and what has arrived since it was saved.
     std::function<Restored(const SharedState& state)> restore;
-    /// Whether to keep what arrives, for restore.
+    /// Whether to log what arrives, for restore.
     std::function<void(bool on)> keep_arrivals;
+    /// Called when this service begins to lead.
     std::function<void()> leads_now;
   };
 
-  /// `label` as of a checkpoint, with the configuration's hash without what replicas differ in.
+  /// `label` as of a checkpoint. Its hash of the configuration leaves out what replicas differ in.
   ReplicaLink(host::ServiceHost& host, const config::FusionConfig& config, CheckpointLabel label,
               Hooks hooks);
   ~ReplicaLink();
   ReplicaLink(const ReplicaLink&) = delete;
   ReplicaLink& operator=(const ReplicaLink&) = delete;
 
-  /// Speaks and listens from here on, and calls the hooks.
+  /// Starts the thread that publishes, listens and calls the hooks.
   void begin();
 
-  /// The engine has a new state; whether to publish it.
+  /// Takes a new state of the engine. Returns whether to publish it.
   [[nodiscard]] bool own(const NavState& state);
-  /// So many samples never arrived.
+  /// Counts samples that never arrived.
   void missed(std::uint64_t count);
   [[nodiscard]] bool leads() const;
   [[nodiscard]] bool in_step() const;
 
-  /// For the life sign: phase in words, counters.
+  /// Adds the phase in words and the counters to the life sign.
   void fill(ServiceStatus& status) const;
 
  private:

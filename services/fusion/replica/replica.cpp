@@ -12,7 +12,7 @@ constexpr double kPosition_m = 1e-3;
 constexpr double kVelocity_m_s = 1e-3;
 constexpr double kAttitude = 5e-6;  // of a quaternion's component: half an angle
 
-// Five times a second each says how it is.
+// Each service publishes its status five times a second.
 constexpr DurationNs kToldFor_ns = kNsPerSecond;
 constexpr DurationNs kTellsWithin_ns = 500 * kNsPerMillisecond;
 constexpr DurationNs kNewcomer_ns = 10 * kNsPerSecond;
@@ -62,7 +62,7 @@ bool Replica::own(const NavState& state, TimeNs now_ns) {
     other_ns_ = 0;
   }
   if (yielded_ns_ && own_ns_ != 0 && now_ns - own_ns_ > options_.pause_ns) yielded_ns_ = now_ns;
-  if (!holds_its_tongue(now_ns)) yielded_ns_.reset();
+  if (!leaves_the_lead(now_ns)) yielded_ns_.reset();
   own_ns_ = now_ns;
   missed_lately_ = false;
   if (others_ > 0) alone_ns_ = 0;
@@ -92,12 +92,12 @@ bool Replica::own(const NavState& state, TimeNs now_ns) {
     began_alone_ = true;
     ++unprepared_;
   }
-  // Who takes the lead back does not say again what the other one has said.
+  // A service that takes the lead back does not publish again what the other one has published.
   const bool said = follows_ && mark.stamp_ns <= other_stamp_ns_;
   return phase_ == ReplicaPhase::in_step && !said && !(late && company) && !yielded_ns_;
 }
 
-bool Replica::holds_its_tongue(TimeNs now_ns) const {
+bool Replica::leaves_the_lead(TimeNs now_ns) const {
   return yielded_ns_ && now_ns - *yielded_ns_ < options_.hold_ns &&
          now_ns - other_ns_ < options_.hold_silence_ns;
 }
@@ -126,7 +126,7 @@ DurationNs Lateness::of(TimeNs stamp_ns, TimeNs now_ns) {
 void Replica::heard(const NavState& state, bool self, TimeNs now_ns) {
   const bool led = !std::exchange(follows_, !self);
   if (self) return;
-  // DDS would let the stronger one be heard again with its next state, and the other one at its next pause.
+  // DDS would deliver the stronger service again with its next state, and the weaker one at its next pause.
   if (led && phase_ == ReplicaPhase::in_step && !yielded_ns_ && is_weaker(state.header.sensor, now_ns))
     yielded_ns_ = now_ns;
   other_ns_ = now_ns;
@@ -185,11 +185,11 @@ void Replica::told(const ReplicaStatus& peer, TimeNs now_ns) {
   peers_[peer.header.sensor] = {peer, now_ns};
   if (phase_ != ReplicaPhase::in_step || peer.phase != ReplicaPhase::in_step) return;
   const auto give_way = [&](const std::string& why) {
-    other_ns_ = now_ns;  // it has a `silence_ns` to be heard
+    other_ns_ = now_ns;  // the other service has `silence_ns` to be delivered
     leader_ = peer.header.sensor;
     fall_behind(why);
   };
-  // What it says may be from before it noticed the same gap.
+  // The status may be older than the moment at which that service noticed the same gap.
   const bool settled = now_ns - missed_ns_ > kTellsWithin_ns;
   const std::string name = peer.header.sensor.str();
   if (settled && peer.missed < missed_) {
@@ -245,23 +245,6 @@ std::optional<std::uint64_t> Replica::missed_by(const Name& instance, TimeNs now
   const auto found = peers_.find(instance);
   if (found == peers_.end() || now_ns - found->second.told_ns > kToldFor_ns) return std::nullopt;
   return found->second.status.missed;
-}
-
-std::uint64_t SampleGaps::note(SourceKind source, const SampleHeader& header) {
-  const Stream stream{source, header.sensor};
-  const auto found = last_.find(stream);
-  if (found == last_.end()) {
-    if (last_.size() < kMost) last_.emplace(stream, header.sequence);
-    return 0;
-  }
-  const std::uint64_t last = std::exchange(found->second, header.sequence);
-  return header.sequence > last + 1 ? header.sequence - last - 1 : 0;
-}
-
-void SampleGaps::go_on_from(const Table& table) {
-  for (const auto& [stream, sequence] : table) {
-    if (last_.size() < kMost) last_.try_emplace(stream, sequence);
-  }
 }
 
 }  // namespace fathom::fusion

@@ -12,7 +12,7 @@ namespace fathom::fusion {
 namespace {
 
 constexpr std::uint32_t kVersion = 1;
-/// Streams that are watched, several times over.
+/// Most streams of a state that are read: several times as many as are watched.
 constexpr std::uint64_t kMostStreams = 1024;
 
 struct Head {
@@ -52,7 +52,7 @@ void encode(const SharedState& state, std::vector<std::byte>& out) {
     const Row row{stream.first, stream.second, sequence};
     writer.element("streams", index++, row);
   }
-  out.insert(out.end(), state.image.begin(), state.image.end());
+  out.insert(out.end(), state.archive.begin(), state.archive.end());
 }
 
 Result<SharedState> decode_shared(std::span<const std::byte> bytes) {
@@ -69,20 +69,20 @@ Result<SharedState> decode_shared(std::span<const std::byte> bytes) {
     out.last[{row.source, row.sensor}] = row.sequence;
   }
   if (!reader.good()) return Error{"is none: " + reader.complaint()};
-  out.image.assign(reader.rest().begin(), reader.rest().end());
+  out.archive.assign(reader.rest().begin(), reader.rest().end());
   return out;
 }
 
 std::string gap_between(const SharedState& state, const ArrivalLog& log) {
   SampleGaps::Table first;
-  for (const ArrivalLog::Arrival& arrival : log.arrivals()) {
-    const SampleHeader& header = header_of(arrival.sample);
-    first.try_emplace({source_of(arrival.sample), header.sensor}, header.sequence);
+  for (const Arrival& arrival : log.arrivals()) {
+    const SampleHeader& header = arrival.header();
+    first.try_emplace({arrival.source(), header.sensor}, header.sequence);
   }
   for (const auto& [stream, sequence] : state.last) {
     const auto found = first.find(stream);
     const bool unit = stream.first == SourceKind::imu && stream.second == state.imu_sensor;
-    // Of an instrument that speaks seldom nothing may have come yet; its next sample will show.
+    // A slow instrument may have sent nothing yet. Its next sample will show whether one is missing.
     if (found == first.end() && !unit) continue;
     if (found == first.end()) return "nothing of " + stream.second.str() + " has arrived here yet";
     if (found->second > sequence + 1) {

@@ -8,22 +8,23 @@
 
 namespace fathom::fusion {
 
-/// What a fusion service that does not lead would have said lately, less what the one that leads was heard to
-/// say. When it takes over, it says what is left: what the other one had no time for, and nothing twice.
+/// Verdicts that a service which does not lead would have published lately, without those that the leader
+/// published. A service that takes over publishes what is left, so that nothing is missing and nothing comes
+/// twice.
 ///
-/// Two verdicts are the same when they are final both, or of the same revision, of the same measurement: what
-/// arrived at the two services in another order may have been judged otherwise in between, and comes to the
-/// same in the end. Pure and not thread-safe; `now_ns` is monotonic.
+/// Two verdicts on the same measurement are the same when both are final or both have the same revision.
+/// Samples that arrived at two services in another order may get different verdicts in between, but the same
+/// one in the end. Pure and not thread-safe; `now_ns` is monotonic.
 class VerdictRelay {
  public:
-  /// `keep_ns`: what is older has been said, or concerns nobody any more. Longer than a takeover takes.
+  /// `keep_ns`: how long a verdict is kept; longer than a takeover takes.
   explicit VerdictRelay(DurationNs keep_ns) : keep_ns_(keep_ns) {}
 
-  /// It would have said this.
+  /// Takes a verdict that this service would have published.
   void own(const Verdict& verdict, TimeNs now_ns);
-  /// Another one said this.
+  /// Takes a verdict that another service published.
   void heard(const Verdict& verdict, TimeNs now_ns);
-  /// The oldest that nobody was heard to say; it is said now. False when there is none.
+  /// Takes out the oldest verdict that nobody has published. False when there is none.
   [[nodiscard]] bool next_unsaid(Verdict& verdict, TimeNs now_ns);
   void clear();
 
@@ -35,13 +36,13 @@ class VerdictRelay {
   };
   using Entries = std::deque<Entry>;
 
-  /// Takes the verdict out of those where it is among them; else it joins the others.
+  /// Removes the verdict from `among` when it is there, and adds it to `others` when it is not.
   void cancel(Entries& among, Entries& others, const Verdict& verdict, TimeNs now_ns);
   void forget_old(Entries& entries, TimeNs now_ns) const;
 
   DurationNs keep_ns_;
-  Entries own_;    ///< not heard
-  Entries heard_;  ///< from another one, before it was its own
+  Entries own_;    ///< not published by another service
+  Entries heard_;  ///< published by another service before this one gave it
 };
 
 }  // namespace fathom::fusion

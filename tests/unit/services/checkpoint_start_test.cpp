@@ -22,11 +22,11 @@ class CheckpointStart : public ::testing::Test {
   void SetUp() override {
     config.path = (folder.path() / "fusion.checkpoint").string();
     for (std::size_t i = 0; i < run.samples.size() * 9 / 10; ++i) test::feed(before, run.samples[i]);
-    ASSERT_TRUE(before.save(image));
+    ASSERT_TRUE(before.save(archive));
     own = {"auv", "fusion", "0123456789abcdef", "0.1.0-89abcdef",
            before.nav_state().header.stamp_ns + kNsPerSecond};
   }
-  /// With a right checksum, whatever the image is.
+  /// With a right checksum, whatever the archive is.
   void write(const std::vector<std::byte>& held, const std::string& build = "0.1.0-89abcdef") {
     CheckpointLabel label = own;
     label.stamp_ns -= kNsPerSecond;
@@ -45,13 +45,13 @@ class CheckpointStart : public ::testing::Test {
   config::CheckpointConfig config;
   const SurveyRun run{{.duration_s = 20.0}};
   FusionEngine before{SurveyRun::config()};
-  std::vector<std::byte> image;
+  std::vector<std::byte> archive;
   CheckpointLabel own;
 };
 
 TEST_F(CheckpointStart, GoesOn) {
   EXPECT_EQ(start().how, "started afresh: checkpoint " + config.path + " is not there");
-  write(image);
+  write(archive);
   FusionEngine engine(SurveyRun::config());
   const Resumption found = resume(engine, config, own);
   EXPECT_TRUE(found.resumed);
@@ -61,12 +61,12 @@ TEST_F(CheckpointStart, GoesOn) {
 }
 
 TEST_F(CheckpointStart, OfAnotherBuildItGoesOnAndSaysSo) {
-  write(image, "0.2.0-01234567");
+  write(archive, "0.2.0-01234567");
   EXPECT_EQ(start().how, "resumed from a checkpoint 1.00 s old, written by build 0.2.0-01234567");
 }
 
 TEST_F(CheckpointStart, WhatIsWrongIsSaidAndPutAside) {
-  std::vector<std::byte> bad = image;
+  std::vector<std::byte> bad = archive;
   bad.resize(bad.size() - 1);
   write(bad);
   const Resumption found = start();
@@ -86,7 +86,7 @@ TEST_F(CheckpointStart, AThingThatIsNoFileIsPutAsideToo) {
 }
 
 TEST_F(CheckpointStart, AStateThatEndsTheProcessIsMetTwiceAtMost) {
-  write(image);
+  write(archive);
   EXPECT_TRUE(start().resumed);  // and ended before it wrote a new one
   EXPECT_FALSE(there());
   EXPECT_TRUE(start().resumed);
@@ -95,11 +95,11 @@ TEST_F(CheckpointStart, AStateThatEndsTheProcessIsMetTwiceAtMost) {
 }
 
 TEST_F(CheckpointStart, WithANewCheckpointTheTrialIsOver) {
-  write(image);
+  write(archive);
   EXPECT_TRUE(start().resumed);
   EXPECT_TRUE(there(".tried"));
   forget_trial(config.path);
-  write(image);
+  write(archive);
   EXPECT_FALSE(there(".tried"));
   EXPECT_TRUE(start().resumed);
 }
@@ -109,7 +109,7 @@ TEST_F(CheckpointStart, MutatedImagesWithARightChecksumEndNothing) {
   int refused = 0;
   for (int trial = 0; trial < 108; ++trial) {
     SCOPED_TRACE(trial);
-    std::vector<std::byte> bad = image;
+    std::vector<std::byte> bad = archive;
     for (int i = 0; i < 1 + trial % 6; ++i) {
       const auto at = static_cast<std::size_t>(random.uniform(0.0, static_cast<double>(bad.size() - 1)));
       bad[at] = static_cast<std::byte>(random.uniform(0.0, 255.9));

@@ -22,7 +22,7 @@ CheckpointLabel label(TimeNs stamp_ns = 1'700'000'000 * kNsPerSecond) {
   return {"auv", "fusion", "0123456789abcdef", "0.1.0+abc-89abcdef", stamp_ns};
 }
 
-std::vector<std::byte> image(std::size_t size) {
+std::vector<std::byte> archive(std::size_t size) {
   std::vector<std::byte> out(size);
   for (std::size_t i = 0; i < size; ++i) out[i] = static_cast<std::byte>(i * 37 >> 3);
   return out;
@@ -31,7 +31,7 @@ std::vector<std::byte> image(std::size_t size) {
 TEST(Checkpoint, ComesBackAsItWas) {
   for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{100'000}}) {
     std::vector<std::byte> bytes;
-    encode(label(), image(size), bytes);
+    encode(label(), archive(size), bytes);
     const auto found = decode(bytes);
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_EQ(found.value().label.vehicle, "auv");
@@ -39,13 +39,13 @@ TEST(Checkpoint, ComesBackAsItWas) {
     EXPECT_EQ(found.value().label.configuration, label().configuration);
     EXPECT_EQ(found.value().label.build, label().build);
     EXPECT_EQ(found.value().label.stamp_ns, label().stamp_ns);
-    EXPECT_EQ(found.value().image, image(size));
+    EXPECT_EQ(found.value().archive, archive(size));
   }
 }
 
 TEST(Checkpoint, EveryFlippedBitAndEveryCutIsNoticed) {
   std::vector<std::byte> good;
-  encode(label(), image(64), good);
+  encode(label(), archive(64), good);
   for (std::size_t i = 0; i < good.size(); ++i) {
     std::vector<std::byte> bad = good;
     bad[i] ^= std::byte{0x10};
@@ -58,10 +58,10 @@ TEST(Checkpoint, EveryFlippedBitAndEveryCutIsNoticed) {
 
 TEST(Checkpoint, AnotherFormatIsNamed) {
   std::vector<std::byte> bytes;
-  encode(label(), image(8), bytes);
+  encode(label(), archive(8), bytes);
   bytes[8] = std::byte{9};
   EXPECT_EQ(decode(bytes).error().message, "is a checkpoint of format 9, format 2 was expected");
-  EXPECT_EQ(decode(image(500)).error().message, "is no checkpoint");
+  EXPECT_EQ(decode(archive(500)).error().message, "is no checkpoint");
 }
 
 TEST(Checkpoint, WhoseAndWhenDecide) {
@@ -82,7 +82,7 @@ TEST(Checkpoint, WhoseAndWhenDecide) {
   EXPECT_EQ(objection(other, own, 60.0), "is of configuration fedc, not of 0123456789abcdef");
   other = own;
   other.build = "0.2.0";
-  EXPECT_EQ(objection(other, own, 60.0), "") << "builds share states: the image says itself what it holds";
+  EXPECT_EQ(objection(other, own, 60.0), "") << "builds share states: the archive says itself what it holds";
 }
 
 class CheckpointFile : public ::testing::Test {
@@ -98,9 +98,9 @@ class CheckpointFile : public ::testing::Test {
 TEST_F(CheckpointFile, IsReplacedWholeAndLeavesNothingBeside) {
   const fs::path path = folder / "deep" / "fusion.checkpoint";
   EXPECT_EQ(read_file(path).error().message, "is not there");
-  EXPECT_EQ(replace_file(path, image(1000), false), "");
-  EXPECT_EQ(replace_file(path, image(20), true), "");
-  EXPECT_EQ(read_file(path).value(), image(20));
+  EXPECT_EQ(replace_file(path, archive(1000), false), "");
+  EXPECT_EQ(replace_file(path, archive(20), true), "");
+  EXPECT_EQ(read_file(path).value(), archive(20));
   EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), fs::directory_iterator()), 1);
   struct stat status {};
   ASSERT_EQ(::stat(path.c_str(), &status), 0);
@@ -110,17 +110,17 @@ TEST_F(CheckpointFile, IsReplacedWholeAndLeavesNothingBeside) {
 TEST_F(CheckpointFile, AFullDiskLeavesTheOldOne) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this machine";
   const fs::path path = folder / "fusion.checkpoint";
-  ASSERT_EQ(replace_file(path, image(100), false), "");
+  ASSERT_EQ(replace_file(path, archive(100), false), "");
   fs::create_symlink("/dev/full", folder / "fusion.checkpoint.new");
-  const std::string why = replace_file(path, image(200), false);
+  const std::string why = replace_file(path, archive(200), false);
   EXPECT_NE(why.find("cannot be written"), std::string::npos) << why;
   EXPECT_NE(why.find("No space left"), std::string::npos) << why;
-  EXPECT_EQ(read_file(path).value(), image(100));
+  EXPECT_EQ(read_file(path).value(), archive(100));
 }
 
 TEST_F(CheckpointFile, WhereNoFileCanBeItIsSaid) {
   std::ofstream(folder / "file") << "x";
-  const std::string why = replace_file(folder / "file" / "fusion.checkpoint", image(10), false);
+  const std::string why = replace_file(folder / "file" / "fusion.checkpoint", archive(10), false);
   EXPECT_NE(why.find("cannot be written"), std::string::npos) << why;
   EXPECT_EQ(read_file(folder).error().message, "is no regular file");
 }

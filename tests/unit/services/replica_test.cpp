@@ -362,35 +362,5 @@ TEST(Replica, DoesNotFollowALeaderThatLacksMore) {
   EXPECT_EQ(scene.replica.phase(), ReplicaPhase::in_step);
 }
 
-SampleHeader numbered(const char* sensor, std::uint64_t sequence) {
-  SampleHeader out;
-  out.sensor = sensor;
-  out.sequence = sequence;
-  return out;
-}
-
-TEST(SampleGaps, CountsWhatIsMissingPerStream) {
-  SampleGaps gaps;
-  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 500)), 0U)
-      << "the first one says nothing of those before";
-  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 501)), 0U);
-  EXPECT_EQ(gaps.note(SourceKind::gps, numbered("gps", 7)), 0U);
-  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 505)), 3U);
-  EXPECT_EQ(gaps.note(SourceKind::gps, numbered("gps", 8)), 0U);
-  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 1)), 0U) << "its bridge began anew";
-  EXPECT_EQ(gaps.note(SourceKind::imu, numbered("imu", 2)), 0U);
-}
-
-TEST(SampleGaps, GoOnFromWhatAnotherOneHasHeard) {
-  SampleGaps theirs;
-  (void)theirs.note(SourceKind::imu, numbered("imu", 500));
-  (void)theirs.note(SourceKind::gps, numbered("gps", 7));
-  SampleGaps own;
-  (void)own.note(SourceKind::imu, numbered("imu", 510));
-  own.go_on_from(theirs.last());
-  EXPECT_EQ(own.note(SourceKind::imu, numbered("imu", 511)), 0U) << "of that it has its own";
-  EXPECT_EQ(own.note(SourceKind::gps, numbered("gps", 10)), 2U);
-}
-
 }  // namespace
 }  // namespace fathom::fusion

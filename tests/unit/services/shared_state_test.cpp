@@ -15,16 +15,15 @@ SharedState shared() {
   out.imu_sensor = "imu";
   out.last[{SourceKind::imu, "imu"}] = 100;
   out.last[{SourceKind::gps, "gps"}] = 7;
-  out.image.assign(1000, std::byte{5});
+  out.archive.assign(1000, std::byte{5});
   return out;
 }
 
-template <class T>
-T sample(const Name& sensor, std::uint64_t sequence) {
-  T out;
-  out.header.sensor = sensor;
-  out.header.sequence = sequence;
-  return out;
+Arrival imu(std::uint64_t sequence) {
+  ImuSample sample;
+  sample.header.sensor = "imu";
+  sample.header.sequence = sequence;
+  return {sample, {}, "imu_bridge", 0};
 }
 
 TEST(SharedState, ReadsAsItWasWritten) {
@@ -35,7 +34,7 @@ TEST(SharedState, ReadsAsItWasWritten) {
   EXPECT_EQ(found.value().stamp_ns, 17);
   EXPECT_EQ(found.value().imu_sensor, "imu");
   EXPECT_EQ(found.value().last, shared().last);
-  EXPECT_EQ(found.value().image, shared().image);
+  EXPECT_EQ(found.value().archive, shared().archive);
 }
 
 TEST(SharedState, BytesThatAreNoneAreRefused) {
@@ -60,29 +59,12 @@ TEST(SharedState, GoesOnWhereTheArrivalsBegin) {
   ArrivalLog log;
   log.keep(true);
   EXPECT_NE(gap_between(shared(), log).find("nothing of imu"), std::string::npos);
-  log.note(sample<ImuSample>("imu", 101));
+  log.add(imu(101));
   EXPECT_EQ(gap_between(shared(), log), "");
   log.keep(false);
   log.keep(true);
-  log.note(sample<ImuSample>("imu", 103));
+  log.add(imu(103));
   EXPECT_EQ(gap_between(shared(), log), "2 samples of imu between it and the first that arrived here");
-}
-
-TEST(ArrivalLog, KeepsOrdersThatHoldWheneverTheyAreGiven) {
-  ArrivalLog log;
-  const auto order = [](CommandKind kind) {
-    Command out;
-    out.kind = kind;
-    return out;
-  };
-  log.note(order(CommandKind::disable_source));
-  EXPECT_TRUE(log.orders().empty());
-  log.keep(true);
-  log.note(order(CommandKind::realign));
-  for (int i = 0; i < 100; ++i) log.note(order(CommandKind::disable_source));
-  log.note(order(CommandKind::enable_source));
-  ASSERT_EQ(log.orders().size(), 64U);
-  EXPECT_EQ(log.orders().back().kind, CommandKind::enable_source);
 }
 
 }  // namespace

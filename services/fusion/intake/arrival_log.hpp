@@ -3,22 +3,17 @@
 #include <cstddef>
 #include <deque>
 
-#include "samples/kinds.hpp"
+#include "fusion/intake/arrival.hpp"
 #include "samples/command.hpp"
 
 namespace fathom::fusion {
 
-/// The samples of the last seconds in the order of their arrival: what an engine that takes up the state of
-/// another one has to be told again, and the orders: those that are in the state already it knows by their
-/// stamps. Bounded: the oldest makes room.
+/// Log of the arrivals and orders of the last seconds, in the order of their arrival. An engine that takes
+/// over the state of another one is given them again. (Orders that the state holds already are known to the
+/// engine by their stamps.) The log is bounded: the oldest entry makes room for a new one.
 class ArrivalLog {
  public:
-  struct Arrival {
-    AnySample sample;
-    Name writer;
-  };
-
-  /// Forgets everything; note() keeps samples only while it is on.
+  /// Forgets everything. add() keeps something only while `on`.
   void keep(bool on) {
     if (on == on_) return;
     on_ = on;
@@ -26,14 +21,12 @@ class ArrivalLog {
     arrivals_.shrink_to_fit();
     orders_.clear();
   }
-  /// `writer`: who published it.
-  template <class T>
-  void note(const T& sample, const Name& writer = {}) {
+  void add(const Arrival& arrival) {
     if (!on_) return;
     if (arrivals_.size() == kMost) arrivals_.pop_front();
-    arrivals_.push_back({sample, writer});
+    arrivals_.push_back(arrival);
   }
-  void note(const Command& order) {
+  void add(const Command& order) {
     if (!on_) return;
     if (orders_.size() == kMostOrders) orders_.pop_front();
     orders_.push_back(order);

@@ -1,4 +1,4 @@
-#include "fusion/verdict_desk.hpp"
+#include "fusion/verdict_publisher.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,15 +8,16 @@
 namespace fathom::fusion {
 namespace {
 
-/// Longer than it takes to notice that the one that led is gone. In vehicle time, as the clock runs.
+/// How long verdicts are kept for a takeover: longer than it takes to notice that the leader is gone. In
+/// vehicle time, as the clock runs.
 DurationNs relayed_ns(const Clock& clock) {
   return 5 * kNsPerSecond * static_cast<DurationNs>(std::ceil(std::max(1.0, clock.rate())));
 }
 
 }  // namespace
 
-VerdictDesk::VerdictDesk(host::ServiceHost& host, std::mutex& mutex, estimation::FusionEngine& engine,
-                         std::function<bool()> speaks)
+VerdictPublisher::VerdictPublisher(host::ServiceHost& host, std::mutex& mutex,
+                                   estimation::FusionEngine& engine, std::function<bool()> speaks)
     : host_(host),
       mutex_(mutex),
       engine_(engine),
@@ -31,7 +32,7 @@ VerdictDesk::VerdictDesk(host::ServiceHost& host, std::mutex& mutex, estimation:
   });
 }
 
-void VerdictDesk::publish() {
+void VerdictPublisher::publish() {
   {
     const std::lock_guard lock(mutex_);
     if (std::exchange(publishing_, true)) return;
@@ -48,15 +49,14 @@ void VerdictDesk::publish() {
   }
 }
 
-std::size_t VerdictDesk::take(std::span<Verdict> batch, bool aloud) {
+std::size_t VerdictPublisher::take(std::span<Verdict> batch, bool aloud) {
   const TimeNs now_ns = host_.clock().monotonic_ns();
   std::size_t taken = 0;
   while (aloud && taken < batch.size() && relay_.next_unsaid(batch[taken], now_ns)) ++taken;
   while (taken < batch.size() && engine_.next_verdict(batch[taken])) {
     Verdict& verdict = batch[taken];
     count(verdict);
-    if (verdict.source == SourceKind::imu)
-      verdict.writer = Name(host_.participant().writer_name(imu_writer_));
+    if (verdict.source == SourceKind::imu) verdict.writer = imu_writer_;
     if (aloud) {
       ++taken;
     } else {
@@ -66,7 +66,7 @@ std::size_t VerdictDesk::take(std::span<Verdict> batch, bool aloud) {
   return taken;
 }
 
-void VerdictDesk::publish(const Verdict& verdict) {
+void VerdictPublisher::publish(const Verdict& verdict) {
   const bool heard = aloud();
   {
     const std::lock_guard lock(mutex_);
@@ -76,13 +76,13 @@ void VerdictDesk::publish(const Verdict& verdict) {
   if (heard) verdicts_.write(verdict);
 }
 
-void VerdictDesk::count(const Verdict& verdict) {
+void VerdictPublisher::count(const Verdict& verdict) {
   figures_.tally.add(verdict);
   if (verdict.is_final) ++figures_.final_ones;
   if (verdict.revision > 0 && is_news(verdict)) ++figures_.revised;
 }
 
-VerdictFigures VerdictDesk::figures() const {
+VerdictFigures VerdictPublisher::figures() const {
   VerdictFigures out = figures_;
   out.dropped = engine_.verdicts_dropped();
   return out;
