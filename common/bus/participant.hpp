@@ -42,18 +42,18 @@ struct ParticipantOptions {
   /// deploy/dds or share/fathom/dds above the executable.
   std::string profiles_dir;
   SecurityOptions security{};
-  /// It looks on and nobody waits for what it makes of the samples: it is sent them after all others, and
-  /// receiving them gives way to the services that do more, on a processor that has not enough for all at
-  /// once.
+  /// The participant only watches, e.g. for display, and nobody waits for its results. Writers send to it
+  /// after all others, and its receiving threads give way to other services when the processor is busy.
   bool low_priority = false;
-  /// "address:port" of discovery servers. Not empty: others are found through them alone, without multicast,
-  /// and `peers` is not used. Only participants with a topic in common get to know each other, and one that
-  /// falls silent is not told from one that leaves: its writers are no BusEventKind::writer_lost.
+  /// "address:port" of discovery servers. When there are any, other participants are found through them
+  /// alone, without multicast, and `peers` is not used. Only participants with a topic in common get to know
+  /// each other. A participant that falls silent looks like one that leaves, so that its writers raise no
+  /// BusEventKind::writer_lost.
   std::vector<std::string> discovery_servers{};
-  bool discover_everything = false;  ///< as a client of servers: everybody and all of their topics
-  /// "address:port" at which this participant is a discovery server to others; the address is one of
-  /// `interfaces`. Empty: it is none. A server is created after the lease of a participant has passed, so
-  /// that clients have given up one that was killed before it.
+  bool discover_everything = false;  ///< a client of servers gets to know everybody and all topics
+  /// "address:port" at which this participant is a discovery server; the address is one of `interfaces`.
+  /// Empty: it is no server. Creating a server takes as long as a participant's lease, so that clients have
+  /// given up a server that was killed before.
   std::string discovery_listen{};
 };
 
@@ -73,12 +73,12 @@ enum class BusEventKind : std::uint8_t {
 /// The kind in words, e.g. "deadline missed".
 [[nodiscard]] std::string_view to_string(BusEventKind kind);
 
-/// Something went wrong on the network. Every occurrence is counted; the first of each kind × topic × peer is
-/// reported, and the first after things were well again in between.
+/// A fault on the network. Every occurrence is counted. For each kind, topic and peer the first occurrence is
+/// reported, and the first one after a time without faults.
 struct BusEvent {
   BusEventKind kind = BusEventKind::incompatible_qos;
   std::string topic;
-  std::string detail;  ///< one English line: who, what, and the limit or policy concerned
+  std::string detail;  ///< one English line: who, what, and the limit or policy
 };
 
 /// Counts since start, for ServiceStatus.
@@ -95,24 +95,24 @@ struct BusCounters {
   std::uint64_t malformed_datagram = 0;
 };
 
-/// Another participant, as discovery knows it.
+/// Another participant, as discovery describes it.
 struct Peer {
   std::string name;  ///< ParticipantOptions::name for services of this project
   std::string host;  ///< empty when the participant does not say
   std::uint32_t pid = 0;
-  bool offers_identity = false;  ///< it expects others to prove theirs
-  bool low_priority = false;     ///< as its ParticipantOptions have it
+  bool offers_identity = false;  ///< it expects other participants to prove their identities
+  bool low_priority = false;     ///< as in its ParticipantOptions
 };
 
-/// Somebody on a protected network who has not proved an identity of this vehicle. Name and address are
-/// hearsay.
+/// A participant on a protected network that has not proved an identity of this vehicle. Its name and address
+/// are its own claims.
 struct Stranger {
   std::string name;
   std::string guid;     ///< of the participant, hexadecimal
   std::string address;  ///< empty when it does not say
   std::string why;      ///< what it did not do, e.g. "offers no identity"
 };
-/// One line for people, cleaned of what strangers may put into their names.
+/// One line for people, safe to print whatever the stranger calls itself.
 [[nodiscard]] std::string to_string(const Stranger& stranger);
 
 /// Presence of a service on the vehicle network. Must outlive its readers and writers.
@@ -124,30 +124,30 @@ class Participant {
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
 
-  /// On a protected network to be called now and then: it is also when those are judged who announce
-  /// themselves and never prove an identity.
+  /// On a protected network the caller has to call this now and then, because it also decides who has
+  /// announced itself and never proved an identity.
   [[nodiscard]] BusCounters counters() const;
-  /// `handler` is called for each reported event, one at a time, from threads of the bus: be quick, and do
-  /// not create or destroy readers and writers in it. What was reported before it was set is delivered at
-  /// once. When on_event() returns, the previous handler is no longer running. Default: nobody.
+  /// `handler` is called for each reported event, one at a time, from threads of the bus. It must be quick,
+  /// and must not create or destroy readers and writers. Events reported before it was set are delivered at
+  /// once. When on_event() returns, the previous handler is no longer running. Without a handler events are
+  /// kept.
   void on_event(std::function<void(const BusEvent&)> handler);
 
-  /// The participant that a writer belongs to, also for a while after it left; nothing if never seen.
+  /// The participant that a writer belongs to. It stays known for a while after it left.
   [[nodiscard]] std::optional<Peer> peer(const WriterGuid& writer) const;
-  /// Its name; the GUID in hexadecimal where discovery gave none.
+  /// The name of that participant, or the GUID in hexadecimal where discovery gave no name.
   [[nodiscard]] std::string writer_name(const WriterGuid& writer) const;
   /// Everybody present on the domain, without this participant.
   [[nodiscard]] std::vector<Peer> peers() const;
-  /// Everybody present whom this participant does not speak to; peers() has only the others. Empty on a
+  /// Everybody present whom this participant does not speak to. peers() does not list them. Empty on a
   /// network that is not protected.
   [[nodiscard]] std::vector<Stranger> strangers() const;
-  /// Until when the credentials hold, UTC; nothing on a network that is not protected.
+  /// The end of the credentials' validity, UTC; nothing on a network that is not protected.
   [[nodiscard]] std::optional<TimeNs> credentials_until_ns() const;
-  /// A participant that has been silent this long, because its process stalled, has been given up by the
-  /// others, and on a protected network for good: it has to be made anew. Nothing on a network that is not
-  /// protected.
+  /// The longest silence after which others still know this participant. A process that stalled for longer
+  /// has to make its participant again on a protected network. Nothing on a network that is not protected.
   [[nodiscard]] std::optional<DurationNs> longest_silence_ns() const;
-  /// "identity fusion expires in 12 days (2026-03-01)" when that is near or past at `now`; else empty.
+  /// "identity fusion expires in 12 days (2026-03-01)" when the expiry is near or past at `now`, else empty.
   [[nodiscard]] std::string credentials_warning(TimeNs now) const;
 
   struct Impl;

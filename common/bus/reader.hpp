@@ -12,11 +12,11 @@
 namespace fathom::bus {
 
 struct ReaderOptions {
-  /// Expect at least one sample this often per instance; a miss is counted and reported. None: as the profile
-  /// says.
+  /// Longest time between two samples of an instance. A miss is counted and reported. None: as in the
+  /// profile.
   std::optional<DurationNs> deadline_ns;
-  /// Variant of the QoS profile: "" the topic's own; "deep" for recorders, which must not miss a sample: the
-  /// profile "<topic>.deep" where there is one, else the topic's own, which is deep already.
+  /// Variant of the QoS profile. "" is the topic's own profile. "deep" is for readers that must not miss a
+  /// sample: the profile "<topic>.deep" where there is one, else the topic's own, which is deep already.
   std::string profile_suffix;
 };
 
@@ -33,9 +33,9 @@ class Reader {
  public:
   using Handler = std::function<void(const T& sample, const SampleInfo& info)>;
 
-  /// `handler` runs on a thread of the bus, one sample at a time per reader, until the destructor returns: be
-  /// quick (other topics of this participant wait), or hand over to a thread of your own; do not throw, and
-  /// do not destroy the reader in it. Throws BusError.
+  /// `handler` runs on a thread of the bus, one sample at a time per reader, until the destructor returns. It
+  /// must be quick, because other topics of this participant wait, or hand over to another thread. It must
+  /// not throw, and must not destroy the reader. Throws BusError.
   Reader(Participant& participant, Handler handler, const ReaderOptions& options = {});
   ~Reader();
   Reader(const Reader&) = delete;

@@ -12,17 +12,18 @@ namespace fathom::bus {
 struct WriterOptions {
   /// Promise to write at least this often (per instance). None: as the profile says.
   std::optional<DurationNs> deadline_ns;
-  /// Exclusive topics: the strongest living writer is heard.
+  /// Strength on exclusive topics, on which readers get the samples of the strongest living writer.
   std::int32_t ownership_strength = 0;
-  /// It falls silent by intent, while another writer speaks for it: its own missed deadlines are no event.
+  /// The writer may be silent on purpose while another one writes in its place. Its missed deadlines are then
+  /// no event.
   bool may_rest = false;
-  /// After so many samples a Fast DDS writer is followed by another; of reliable, volatile topics, others
-  /// keep theirs. Readers of this bus are handed every sample once and in order, also those that a cut of the
-  /// network held up meanwhile: the old writer stays until all it wrote has arrived, 5 s at most. Of
-  /// exclusive topics the change waits for an instant at which nothing is under way, and may make a sample 15
-  /// ms late, or half a deadline. To a reader that comes anew Fast DDS 2.9.1 counts all samples that the
-  /// writer ever wrote, up to the newest, before it hands over one: a second for four million, which at 400
-  /// Hz are three hours. 0: never.
+  /// Number of samples after which a new Fast DDS writer takes the place of the old one, on reliable and
+  /// volatile topics; 0: never. Readers of this bus get every sample once and in order, also samples that a
+  /// cut of the network held up: the old writer stays until everything it wrote has arrived, 5 s at most. On
+  /// exclusive topics the change waits until no sample is under way, and may make a sample 15 ms late, or
+  /// half a deadline. The reason: for a new reader Fast DDS 2.9.1 counts all samples that the writer ever
+  /// wrote before it hands over the first one. That takes a second for four million samples, which is three
+  /// hours at 400 Hz.
   std::uint64_t successor_after = 250'000;
 };
 
@@ -40,7 +41,7 @@ class Writer {
   /// False when the sample could not be handed to the network within the profile's blocking time (counted).
   bool write(const T& sample);
   [[nodiscard]] int matched_readers() const;
-  /// As SampleInfo names it to readers; a successor has another.
+  /// The identity in SampleInfo. A successor has another one.
   [[nodiscard]] WriterGuid guid() const;
 
  private:

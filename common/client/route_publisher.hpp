@@ -14,11 +14,11 @@
 
 namespace fathom {
 
-/// Keeps the vehicle network told of one program's route: on change, but ten times a second at most, and once
-/// a second, on a thread of its own that starts with the first route. All functions from any thread.
+/// Publishes one program's route: after each change, but ten times a second at most, and once a second
+/// without a change. Its thread starts with the first route. All functions may be called from any thread.
 class RoutePublisher {
  public:
-  /// `vehicle` gives the vehicle's name, empty while it is not known; routes wait until it is.
+  /// `vehicle` gives the vehicle's name, empty while it is unknown. Routes wait until it is known.
   RoutePublisher(bus::Participant& participant, const Clock& clock, std::string name,
                  std::function<Name()> vehicle)
       : participant_(participant), clock_(clock), name_(std::move(name)), vehicle_(std::move(vehicle)) {}
@@ -27,7 +27,7 @@ class RoutePublisher {
   RoutePublisher& operator=(const RoutePublisher&) = delete;
 
   /// Never blocks on the network. Throws std::invalid_argument for a route with a fault, and
-  /// std::runtime_error when the network would not take the one before.
+  /// std::runtime_error when the network did not take the route before it.
   void publish(Route route);
 
  private:
@@ -40,9 +40,9 @@ class RoutePublisher {
   std::mutex mutex_;  ///< of all that follows
   std::condition_variable changed_;
   std::optional<Route> route_;
-  bool fresh_ = false;  ///< another one than published
+  bool fresh_ = false;  ///< differs from the published one
   bool stopping_ = false;
-  std::string trouble_;  ///< why publishing failed; told to the next caller
+  std::string trouble_;  ///< why publishing failed; thrown at the next call
   std::thread thread_;
 };
 

@@ -4,8 +4,8 @@
 
 namespace fathom::health {
 
-/// "Now" as the health classes are told it: durations are measured on the monotonic count only; UTC, of the
-/// vehicle's clock that nobody sets (AnchoredClock), is for what people and other services read.
+/// An instant on two clocks. Durations are measured with the monotonic one only. UTC comes from the vehicle's
+/// clock, which nobody sets (AnchoredClock), and is for people and other services.
 struct Instant {
   TimeNs monotonic_ns = 0;
   TimeNs utc_ns = 0;

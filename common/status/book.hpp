@@ -9,14 +9,14 @@
 
 namespace fathom::status {
 
-/// Keeps the newest of everything that one vehicle says about itself. Pure: the time of arrival is an
-/// argument, and what is kept is bounded whatever names come from the network. Not thread-safe.
+/// A book of the newest sample of each kind that one vehicle publishes. Pure: the time of arrival is an
+/// argument. The book is bounded, whatever names come from the network. Not thread-safe.
 class StatusBook {
  public:
-  /// `vehicle` empty: the first one heard.
+  /// `vehicle`: its name; empty: the vehicle of the first sample.
   explicit StatusBook(std::string vehicle) : vehicle_(std::move(vehicle)) {}
 
-  // Each returns false for a sample of another vehicle, which is left out.
+  // Each returns false for a sample of another vehicle, which it ignores.
   bool add(const NavState& state, TimeNs monotonic_ns);
   bool add(const AlignmentStatus& status, TimeNs monotonic_ns);
   bool add(const MonitorStatus& status, TimeNs monotonic_ns);
@@ -25,11 +25,11 @@ class StatusBook {
   bool add(const Alarm& alarm, TimeNs monotonic_ns);
   bool add(const Verdict& verdict, TimeNs monotonic_ns);
 
-  /// The newest navigation state, however old; null: none was heard.
+  /// The newest navigation state, however old. Null when there was none.
   [[nodiscard]] const NavState* navigation() const { return nav_ ? &nav_->sample : nullptr; }
-  /// How long navigation state and monitor have both been heard: 0 until they are.
+  /// Time since both a navigation state and a monitor status have arrived; 0 until then.
   [[nodiscard]] DurationNs heard_for_ns(TimeNs monotonic_ns) const;
-  /// Everything but utc_ns, domain and window_s.
+  /// The view at one moment, without utc_ns, domain and window_s.
   [[nodiscard]] StatusView view(TimeNs monotonic_ns) const;
 
  private:

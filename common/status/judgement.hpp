@@ -14,7 +14,7 @@ struct Judgement {
   Condition condition = Condition::no_navigation;
   std::vector<std::string> reasons;  ///< sentences; none when healthy
 };
-/// The exit code of `fathom status` and why.
+/// The judgement of a vehicle: the exit code of `fathom status`, and the reasons.
 [[nodiscard]] Judgement judge(const StatusView& view);
 [[nodiscard]] std::string_view to_string(Condition condition);
 

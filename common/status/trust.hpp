@@ -12,7 +12,8 @@ namespace fathom::status {
 enum class TrustLevel : std::uint8_t { good = 0, caution = 1, bad = 2 };
 [[nodiscard]] std::string_view to_string(TrustLevel level);
 
-/// What an operator reads first: whether, why not, for how long, and what to do.
+/// The first line for an operator: whether navigation can be relied upon, why not, for how long, and what to
+/// do.
 struct Trust {
   TrustLevel level = TrustLevel::bad;
   std::string
@@ -20,7 +21,7 @@ struct Trust {
   std::string advice;  ///< a sentence, or empty when there is nothing to be done
 };
 
-/// `fresh_s`: a navigation state older than this is none.
+/// `fresh_s`: a navigation state older than this does not count.
 [[nodiscard]] Trust judge_trust(const StatusView& view, double fresh_s);
 
 }  // namespace fathom::status

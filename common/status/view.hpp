@@ -22,18 +22,18 @@ struct Heard {
   double age_s = 0.0;
 };
 
-/// What fusion made of one sensor since this view began.
+/// The verdicts on one sensor since this view began.
 struct VerdictCounts {
   std::uint64_t used = 0;
   std::uint64_t not_used = 0;
   VerdictKind last_refusal = VerdictKind::used;  ///< used: there was none
 };
 
-/// Everything the vehicle said, at one moment.
+/// The newest samples of one vehicle, at one moment.
 struct StatusView {
   TimeNs utc_ns = 0;
   int domain = 0;
-  double window_s = 0.0;  ///< for how long this view has been listening
+  double window_s = 0.0;  ///< how long this view has been listening
   std::string vehicle;
   std::optional<Heard<NavState>> nav;
   double nav_rate_hz = kUnknown;
@@ -45,7 +45,7 @@ struct StatusView {
   std::map<Name, VerdictCounts> verdicts;
 };
 
-/// Active first, then the more severe, then the older.
+/// The order of alarms: active first, then the more severe, then the older.
 [[nodiscard]] std::vector<Alarm> sorted_alarms(const StatusView& view);
 
 }  // namespace fathom::status

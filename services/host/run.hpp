@@ -9,7 +9,7 @@
 
 namespace fathom::host {
 
-/// run() without the type of the configuration.
+/// The part of run() that does not depend on the type of the configuration.
 struct Prepared {
   config::CommonConfig common;
   std::string config_hash;
@@ -23,13 +23,14 @@ struct Prepared {
 /// The main of a service: `EXE --config FILE [--set key.sub=value ...] [--check] [--version]`.
 ///
 /// Loads the configuration before anything starts and calls `body(host, config)`, which builds the service
-/// and returns host.run(). What goes wrong becomes one line on standard error, `fathom-NAME: ...`, and the
-/// exit code: 2 usage or configuration, 4 anything else. Config holds a member `common`, a member `instance`
-/// where there may be several services of the kind, `discovery_listen` where it is a discovery server, and is
-/// instantiated for config::load_service_config().
+/// and returns host.run(). An error becomes one line on standard error, `fathom-NAME: ...`, and the exit
+/// code: 2 for usage or configuration, 4 for anything else. Config holds a member `common`, a member
+/// `instance` where there may be several services of the kind, `discovery_listen` where it is a discovery
+/// server, and is instantiated for config::load_service_config().
 ///
-/// `verify(config, file, check)` looks at what the configuration only names, certificates for one, before
-/// anything starts, and throws config::ConfigError. `check`: by --check, which may be stricter than a start.
+/// `verify(config, file, check)` checks the files that the configuration names, such as certificates, before
+/// anything starts, and throws config::ConfigError. `check`: --check was given, which may be stricter than a
+/// start.
 template <class Config, class Body, class Verify>
 [[nodiscard]] int run(int argc, char** argv, const ServiceInfo& info, Body&& body, Verify&& verify) {
   Config config{};
@@ -48,7 +49,7 @@ template <class Config, class Body, class Verify>
       [&](ServiceHost& host) { return body(host, std::as_const(config)); });
 }
 
-/// Of a service whose configuration names nothing that has to be looked at.
+/// The same for a service whose configuration names no files.
 template <class Config, class Body>
 [[nodiscard]] int run(int argc, char** argv, const ServiceInfo& info, Body&& body) {
   return run<Config>(argc, argv, info, std::forward<Body>(body),

@@ -16,14 +16,15 @@
 
 namespace fathom::host {
 
-/// What a service's main says about itself.
+/// The name and kind of a service, given by its main.
 struct ServiceInfo {
   std::string name;           ///< e.g. "fusion"; the executable is fathom-fusion
   std::string description;    ///< one sentence for --help
-  bool low_priority = false;  ///< as bus::ParticipantOptions has it
+  bool low_priority = false;  ///< see bus::ParticipantOptions
 };
 
-/// What every service shares: log, clock, presence on the bus, life sign once a second, orderly end.
+/// The host of a service, with what every service shares: log, clock, presence on the bus, life sign once a
+/// second, orderly end.
 ///
 /// A main builds its work inside the body given to host::run() (services/host/run.hpp) and then calls run():
 ///
@@ -43,9 +44,9 @@ class ServiceHost {
     std::string discovery_listen{};  ///< "address:port" where it is a discovery server to others; else empty
   };
 
-  /// Asks for the configured scheduling and memory, then joins the bus. No thread may have been started by
-  /// then: those started later inherit the scheduling, Fast DDS's among them. Throws bus::BusError. SIGINT
-  /// and SIGTERM must be blocked in every thread by then (host::run() does it first of all).
+  /// Asks for the configured scheduling and memory, then joins the bus. The caller must not have started a
+  /// thread before, because later threads, also those of Fast DDS, inherit the scheduling. SIGINT and SIGTERM
+  /// must be blocked in every thread before (host::run() does it first). Throws bus::BusError.
   explicit ServiceHost(Start start);
   ~ServiceHost();
   ServiceHost(const ServiceHost&) = delete;
@@ -70,16 +71,16 @@ class ServiceHost {
   /// thread of run(). Without it the service is healthy while it runs. Counters of the bus are appended.
   void on_status(std::function<void(ServiceStatus& status)> fill);
 
-  /// Calls `tick` on the thread of run() every `period_ns` of vehicle time, missed ticks not made up for. One
-  /// tick function per service.
+  /// Calls `tick` on the thread of run() every `period_ns` of vehicle time. Missed ticks are not made up for.
+  /// A service has one tick function.
   void on_tick(DurationNs period_ns, std::function<void()> tick);
 
-  /// Publishes the life sign at once as well as each second: after a change that others should not wait for.
+  /// Publishes the life sign at once, besides each second, after a change that others should not wait for.
   /// Any thread.
   void publish_status_soon();
 
-  /// Publishes life signs and ticks until SIGINT, SIGTERM or stop(). Returns the exit code. An exception from
-  /// `fill` or `tick` leaves it after the last life sign.
+  /// Publishes life signs and ticks until SIGINT, SIGTERM or stop(). Returns the exit code. Throws an
+  /// exception of `fill` or `tick` on, after the last life sign.
   ExitCode run();
 
   /// Ends run() soon. Any thread; the first call decides the exit code.

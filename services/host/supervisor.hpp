@@ -2,14 +2,14 @@
 
 #include <string_view>
 
-/// What a service tells systemd when it runs under it (Type=notify), and nobody elsewhere.
+/// Messages to systemd, for a service that runs under it (Type=notify). Elsewhere they do nothing.
 namespace fathom::host::supervisor {
 
-/// It has joined the bus and listens.
+/// The service has joined the bus and listens.
 void ready();
 
-/// It lives; `text` is shown by `systemctl status`. Called with each life sign, after the service has filled
-/// it in: that takes the service's own locks, so that one whose work hangs is not fed, and is started again.
+/// The service lives. `systemctl status` shows `text`. It is called with each life sign, after the service
+/// has filled it in, which takes the service's own locks. So systemd restarts a service whose work hangs.
 void alive(std::string_view text);
 
 void stopping();

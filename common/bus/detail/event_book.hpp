@@ -17,14 +17,14 @@ namespace fathom::bus::detail {
 /// Counts every occurrence and reports the first of each kind × topic × subject. Thread-safe.
 class EventBook {
  public:
-  /// A deadline missed again within `quiet_ns` of its recovery is the same trouble: counted, not reported
-  /// again. `now_ns` is a monotonic clock.
+  /// A deadline that is missed again within `quiet_ns` of its recovery is the same fault: it is counted, and
+  /// not reported again. `now_ns` is a monotonic clock.
   explicit EventBook(DurationNs quiet_ns = 60 * kNsPerSecond, std::function<TimeNs()> now_ns = {});
 
   /// `subject` tells occurrences on the same topic apart: a peer, an instance.
   void report(BusEventKind kind, const std::string& topic, const std::string& subject,
               const std::string& detail, std::uint64_t occurrences = 1);
-  /// The trouble is over: when it stays away, its next occurrence is reported again.
+  /// Notes that the fault is over. When it stays away, its next occurrence is reported again.
   void recovered(BusEventKind kind, const std::string& topic, const std::string& subject);
 
   [[nodiscard]] BusCounters counters() const;
@@ -35,7 +35,7 @@ class EventBook {
 
   mutable std::mutex mutex_;  // of what follows up to the next mutex
   BusCounters counters_;
-  /// Of each trouble reported: when it was over, or nothing while it lasts.
+  /// When each reported fault was over; nothing while it lasts.
   std::map<std::tuple<BusEventKind, std::string, std::string>, std::optional<TimeNs>> reported_;
   DurationNs quiet_ns_;
   std::function<TimeNs()> now_ns_;

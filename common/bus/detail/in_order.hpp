@@ -14,8 +14,8 @@
 
 namespace fathom::bus::detail {
 
-/// A sample as it arrived: by whom, and its number among those of that writer. The first ones of a writer
-/// that goes on in the place of another say so: they come after the last one of that writer.
+/// A sample as it arrived: its writer, and its number among that writer's samples. When a writer takes the
+/// place of another one, its first samples name that predecessor, and come after the predecessor's last one.
 struct Arrival {
   struct Place {
     WriterGuid writer{};
@@ -25,10 +25,11 @@ struct Arrival {
   std::optional<Place> after{};
 };
 
-/// Hands over what several writers wrote one after the other in the order in which they did. Each of them is
-/// heard in order and completely, but one whose samples had to be sent again is overtaken by its successor.
-/// What the successor wrote waits for it here: as long as this reader knows the predecessor, which is kept
-/// until all it wrote has arrived, and no longer than `kMost_ns`. Not thread-safe.
+/// Hands over the samples of writers that followed one another in the order of writing. The samples of each
+/// writer arrive in order and completely. But when samples of a writer had to be sent again, those of its
+/// successor overtake them. The successor's samples then wait here as long as this reader knows the
+/// predecessor, which stays until everything it wrote has arrived, and at most for `kMost_ns`. Not
+/// thread-safe.
 template <class Sample>
 class InOrder {
  public:
@@ -38,7 +39,7 @@ class InOrder {
   void matched(const WriterGuid& writer) { writers_.try_emplace(writer); }
   void unmatched(const WriterGuid& writer) { writers_.erase(writer); }
 
-  /// True: to be handed over at once. Else it is to be kept.
+  /// Whether the sample is to be handed over at once. Otherwise it is to be kept.
   [[nodiscard]] bool may_pass(const Arrival& arrival) {
     if (waits(arrival)) return false;
     const auto writer = writers_.find(arrival.place.writer);
@@ -50,12 +51,11 @@ class InOrder {
   }
   [[nodiscard]] bool keeps() const { return !kept_.empty(); }
 
-  /// All that has arrived was looked at. Between the samples of different instances there is no order before
-  /// that.
+  /// Notes that all arrived samples were looked at. Samples of different instances have no order before that.
   void settle() {
     for (auto& [guid, writer] : writers_) writer.settled = writer.taken;
   }
-  /// One whose turn has come; again until there is none.
+  /// A sample whose turn has come. Call it until there is none.
   [[nodiscard]] std::optional<Sample> next(TimeNs now_ns) {
     std::set<WriterGuid> waiting;
     for (auto one = kept_.begin(); one != kept_.end(); ++one) {
@@ -74,7 +74,7 @@ class InOrder {
     }
     return std::nullopt;
   }
-  /// All of them left: nobody is waited for any longer.
+  /// Notes that all writers left, so that no sample waits any longer.
   void all_unmatched() { writers_.clear(); }
 
  private:
@@ -89,7 +89,7 @@ class InOrder {
   };
 
   [[nodiscard]] bool is_early(const Arrival& arrival) const {
-    // Nobody speaks for the writers of another participant.
+    // A writer never takes the place of one of another participant.
     if (!arrival.after || prefix_of(arrival.after->writer) != prefix_of(arrival.place.writer)) return false;
     const auto before = writers_.find(arrival.after->writer);
     return before != writers_.end() && before->second.settled < arrival.after->number;

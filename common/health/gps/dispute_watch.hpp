@@ -8,8 +8,9 @@
 
 namespace fathom::health {
 
-/// Receivers that fusion has refused for so long that either they or navigation are far wrong:
-/// "gps_disputed:<receiver>", critical. Nobody on board can tell which; the alarm asks a person.
+/// A watch for receivers that fusion has refused for so long that either they or navigation are far wrong:
+/// "gps_disputed:<receiver>", critical. Nothing on board can tell which of them is wrong, so the alarm asks a
+/// person.
 class DisputeWatch {
  public:
   void add(const Verdict& verdict, const Instant& now);

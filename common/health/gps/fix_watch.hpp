@@ -15,38 +15,38 @@
 namespace fathom::health {
 
 struct FixWatchConfig {
-  double frozen_path_m = 5.0;    ///< the same fix again while the vehicle travelled this far is frozen
-  double disagreement_m = 20.0;  ///< fixes that moved this much otherwise than a velocity says, within ...
-  double window_s = 10.0;        ///< ... this time, disagree with it
+  double frozen_path_m = 5.0;    ///< a fix that repeats while the vehicle travels this far is frozen
+  double disagreement_m = 20.0;  ///< fixes whose displacement differs this much from a velocity, within ...
+  double window_s = 10.0;        ///< ... this time, disagree with that velocity
 };
 
-/// Fixes that look healthy and are not.
+/// A watch for fixes that look healthy and are not.
 ///
-/// Frozen: the reading repeats bit by bit while stamps go on, and something says that the vehicle moves: the
-/// receiver's own velocity, the navigation state, or the DVL, whichever travelled farthest; or fusion judged
-/// three in a row frozen.
-/// Disagreement: the displacement between fixes against the integral of the receiver's own velocity, and
-/// against that of the navigation state; three fixes in a row decide. The window begins anew after a pause,
-/// for whether the first fixes after an outage are right is fusion's to judge.
+/// Frozen: the reading repeats bit by bit while the stamps go on, and the vehicle moves by the receiver's own
+/// velocity, the navigation state or the DVL, whichever travelled farthest. Three verdicts "frozen" of fusion
+/// in a row count as well.
+/// Disagreement: the displacement between fixes differs from the integral of the receiver's own velocity, or
+/// of the navigation state's. Three fixes in a row decide. After a pause the window starts again, because
+/// fusion judges whether the first fixes after an outage are right.
 class FixWatch {
  public:
   explicit FixWatch(const FixWatchConfig& config) : config_(config) {}
 
-  /// True when the fix may be counted on, as far as can be seen here.
+  /// Returns whether the fix may be used, by these checks alone.
   bool add(const GpsSample& sample, const Instant& now);
   void add(const NavState& state, const Instant& now);
   void add(const DvlSample& sample, const Instant& now);
   void add(const Verdict& verdict);
 
   [[nodiscard]] bool frozen(const Name& receiver) const;
-  /// Monotonic instant of the first of the fixes that have been the same since.
+  /// Monotonic instant of the first of the equal fixes.
   [[nodiscard]] TimeNs same_since_ns(const Name& receiver) const;
   /// "gps_frozen:<receiver>", "gps_disagrees:<receiver>".
   void report(AlarmBook& book, const Instant& now) const;
 
  private:
   using Pair = std::array<double, 2>;  ///< north, east [m]
-  /// Path and displacement since the start, as one source of velocity has it.
+  /// Path and displacement since the start, by one source of velocity.
   struct Travel {
     double path_m = 0.0;
     Pair moved_m{};
@@ -85,8 +85,8 @@ class FixWatch {
   static void advance(Travel& travel, TimeNs stamp_ns, const Pair& velocity_m_s, double speed_m_s);
   void judge_frozen(Receiver& receiver, const GpsSample& sample, const Instant& now) const;
   void judge_displacement(Receiver& receiver, const GpsSample& sample, const Instant& now) const;
-  /// True when the displacement between two fixes differs from what a velocity says; the receiver notes by
-  /// how much.
+  /// Whether the displacement between two fixes differs from that of a velocity. The difference is stored in
+  /// the receiver.
   bool compare(Receiver& receiver, const Fix& from, const Fix& to) const;
   [[nodiscard]] std::optional<Pair> nav_moved_at(TimeNs stamp_ns) const;
 
@@ -94,7 +94,7 @@ class FixWatch {
   std::map<Name, Receiver> receivers_;
   Travel nav_;
   double nav_velocity_sigma_m_s_ = kUnknown;
-  std::deque<Travel> nav_history_;  ///< thinned, for fixes that arrive after newer states
+  std::deque<Travel> nav_history_;  ///< some states only, for fixes that arrive after newer states
   double dvl_path_m_ = 0.0;
   TimeNs dvl_stamp_ns_ = 0;
 };

@@ -16,13 +16,13 @@ namespace fathom::health {
 
 struct GpsOutageConfig {
   OutageLimits outage;
-  double warning_s = 30.0;           ///< an outage this long is a warning, a shorter one a notice
-  double critical_s = 3600.0;        ///< and this long it is critical
-  ForecastWatchConfig forecast;      ///< by which it becomes either sooner
-  bool expected = true;              ///< false: a vehicle without GPS; nothing is said about the first fix
-  double first_fix_limit_s = 120.0;  ///< without any usable fix this long after the start, say so
-  bool per_receiver_alarms = true;   ///< with two or more receivers, an alarm for each besides the common one
-  std::vector<Name> receivers;       ///< those that count for the vehicle; empty: every one
+  double warning_s = 30.0;       ///< an outage this long is a warning, a shorter one is a notice
+  double critical_s = 3600.0;    ///< an outage this long is critical
+  ForecastWatchConfig forecast;  ///< the forecast that makes it a warning or critical sooner
+  bool expected = true;  ///< false: a vehicle without GPS, which gets no alarm for a missing first fix
+  double first_fix_limit_s = 120.0;  ///< no usable fix this long after the start is an alarm
+  bool per_receiver_alarms = true;   ///< with two or more receivers each has an alarm of its own as well
+  std::vector<Name> receivers;       ///< receivers that count for the vehicle; empty: every one
 };
 
 /// The outages of one receiver, or of the vehicle under an empty name; instants are UTC.
@@ -31,55 +31,55 @@ struct GpsOutageBook {
   OutageRecord record;
 };
 
-/// A fix that position may rest on: three-dimensional or better, at a finite place on earth, accurate as
-/// samples/gps_quality.hpp asks for.
+/// Whether a fix may be used for position: three-dimensional or better, at a finite place on earth, and as
+/// accurate as samples/gps_quality.hpp demands.
 [[nodiscard]] bool is_usable(const GpsSample& sample);
 
 /// GPS outages per receiver and for the vehicle as a whole (no receiver gives a usable fix).
 ///
-/// Works from the receivers alone, so it works when fusion is dead. Where fusion's verdicts are heard, a fix
-/// that fusion refused, or whose receiver it does not listen to, was none: it neither keeps an outage from
-/// beginning nor ends one. For the vehicle only the configured receivers count. A fix with the same stamp as
-/// the one before it is no new fix.
+/// The receivers alone are enough, so it works when fusion is dead. When fusion's verdicts arrive, a fix that
+/// fusion refused, or whose receiver fusion does not use, does not count: it neither prevents an outage nor
+/// ends one. For the vehicle only the configured receivers count. A fix with the same stamp as the fix before
+/// it is not a new fix.
 ///
-/// A monitor that is started again goes on from its books of before (resume()); until fixes, fusion or a
-/// silence of `limit_s` have told what holds now, known() is false.
+/// A monitor that is started again goes on from its earlier books (resume()). known() is false until fixes,
+/// fusion or a silence of `limit_s` have shown what holds now.
 ///
-/// An outage is graded by its length and by the forecast, whichever is worse; while it lasts the grade only
-/// rises, and it ends by OutageClock's run of fixes: neither end flaps.
+/// The severity of an outage follows from its length and from the forecast, whichever is worse. It only rises
+/// while the outage lasts. The outage ends with OutageClock's run of fixes. So neither end flaps.
 class GpsOutage {
  public:
   GpsOutage(const GpsOutageConfig& config, const Instant& start)
       : config_(config), start_(start), overall_(config.outage), forecast_(config.forecast) {}
 
-  /// `believed` false: the fix is known to be wrong whatever it claims.
+  /// `believed` false: the fix is known to be wrong, whatever quality it claims.
   void add(const GpsSample& sample, const Instant& now, bool believed = true);
   /// Verdicts of other sources are ignored.
   void add(const Verdict& verdict);
   void add(const Forecast& forecast, const Instant& now) { forecast_.add(forecast, now); }
-  /// How long fusion has been without a fix: counts where nothing was heard here yet.
+  /// Takes over how long fusion has been without a fix, where no fix arrived here yet.
   void add(const NavState& state, const Instant& now);
-  /// To be called before anything is heard.
+  /// Goes on from earlier books. Call it before anything is added.
   void resume(const std::vector<GpsOutageBook>& books, const Instant& now);
-  /// What resume() of a later process goes on from: the vehicle and each receiver that ever had a fix.
+  /// The books for resume() in a later process: the vehicle and each receiver that ever had a fix.
   [[nodiscard]] std::vector<GpsOutageBook> books(const Instant& now) const;
-  /// Whether there is anything to be said about GPS now.
+  /// Whether the present state of GPS is known.
   [[nodiscard]] bool known(const Instant& now) const;
-  /// A usable fix not longer ago than the limit, or none expected.
+  /// Whether the last usable fix is no older than the limit, or none is expected.
   [[nodiscard]] bool good() const { return !config_.expected || (overall_.known() && !overall_.active()); }
-  /// This receiver's fixes turn out to have been worth nothing since then, and none is until the next add():
-  /// for a fix found frozen after the fact.
+  /// Withdraws this receiver's fixes since then, and until the next add(). A fix may be found frozen only
+  /// afterwards.
   void doubt(const Name& name, TimeNs since_monotonic_ns);
   void evaluate(const Instant& now);
-  /// States the outage alarms: "gps_outage", "gps_outage:<receiver>", "gps_no_fix".
+  /// Holds or releases the outage alarms: "gps_outage", "gps_outage:<receiver>", "gps_no_fix".
   void report(AlarmBook& book, const Instant& now) const;
 
   [[nodiscard]] const OutageClock& overall() const { return overall_; }
-  /// Nothing when the receiver was never heard.
+  /// Null when the receiver never sent anything.
   [[nodiscard]] const OutageClock* receiver(const Name& name) const;
-  /// Every receiver heard, by name.
+  /// Every receiver that sent something, by name.
   [[nodiscard]] std::vector<ReceiverOutage> receivers(const Instant& now) const;
-  /// The vehicle's, under an empty name.
+  /// The vehicle's outage, under an empty name.
   [[nodiscard]] ReceiverOutage vehicle(const Instant& now) const {
     return describe({}, overall_, overall_severity_, now);
   }

@@ -8,12 +8,12 @@
 
 namespace fathom::health {
 
-/// What receivers themselves say of interference: "gps_jammed:<receiver>", a warning, and
-/// "gps_spoofed:<receiver>", a warning where it is indicated and critical where it is affirmed. A receiver
-/// that says nothing raises nothing.
+/// A watch over what receivers report of interference: "gps_jammed:<receiver>", a warning, and
+/// "gps_spoofed:<receiver>", a warning when spoofing is indicated and critical when it is affirmed. A
+/// receiver that reports nothing raises no alarm.
 class InterferenceWatch {
  public:
-  /// True when the fix may be counted on: its receiver does not affirm that it is spoofed.
+  /// Returns whether the fix may be used: its receiver does not affirm spoofing.
   bool add(const GpsSample& sample, const Instant& now);
   void report(AlarmBook& book, const Instant& now) const;
 

@@ -13,21 +13,21 @@ struct OutageLimits {
   double clear_hold_s = 1.0;  ///< ... spread over at least this long
 };
 
-/// The books of one source of fixes, as they outlive the process that kept them.
+/// The books of one source of fixes, in the form that outlives the process.
 struct OutageRecord {
   bool active = false;
-  TimeNs last_usable_ns = 0;  ///< on the clock of whoever holds the record
+  TimeNs last_usable_ns = 0;  ///< on the clock of the record's owner
   std::uint32_t count = 0;
   DurationNs longest_ns = 0;
   DurationNs total_ns = 0;  ///< of the outages that have ended
 };
 
-/// Keeps the books of one source of fixes. All times are monotonic.
+/// A clock of outages: keeps the books of one source of fixes. All times are monotonic.
 ///
-/// An outage is counted from the last usable fix before it to the first fix of the run that ended it. A run
-/// is broken by an unusable fix or by a pause longer than `limit_s`; single usable fixes inside an outage
-/// therefore neither end nor split it. While a run is under way the outage's length stands still; when the
-/// run breaks it counts on as if the run had not been.
+/// An outage lasts from the last usable fix before it to the first fix of the run that ended it. An unusable
+/// fix, or a pause longer than `limit_s`, breaks a run. So single usable fixes inside an outage neither end
+/// nor split it. The length of the outage stands still during a run. When the run breaks, the length counts
+/// on as if there had been no run.
 class OutageClock {
  public:
   explicit OutageClock(const OutageLimits& limits = {}) : limits_(limits) {}
@@ -35,22 +35,21 @@ class OutageClock {
   void usable(TimeNs monotonic_ns);
   /// A fix that must not be trusted, or a message without a fix.
   void unusable();
-  /// What was usable since then was not: fixes are counted from there. Within an outage it only breaks the
-  /// run.
+  /// Withdraws the usable fixes since then. Within an outage this only breaks the run.
   void doubt(TimeNs since_monotonic_ns);
-  /// To be called often: outages begin and end here and in usable().
+  /// Begins and ends outages, as usable() does. Call it often.
   void evaluate(TimeNs monotonic_ns);
 
-  /// Goes on from books of before. What happened since their last line is not known: without an outage in
-  /// them the first fix, told() or a silence of `limit_s` says whether one has begun.
+  /// Goes on from earlier books. What happened since is not known. Without an outage in the books, the first
+  /// fix, told() or a silence of `limit_s` shows whether one has begun.
   void resume(const OutageRecord& record, TimeNs monotonic_ns);
-  /// Somebody else heard the last usable fix then. Counts where nothing was heard here.
+  /// Takes over when somebody else had the last usable fix, where none arrived here.
   void told(TimeNs last_usable_monotonic_ns);
   [[nodiscard]] OutageRecord record() const {
     return {active_, last_usable_ns_, count_, longest_ns_, total_ns_};
   }
-  /// Whether it can say anything about now: false before the first fix, and after resume() until something is
-  /// heard.
+  /// Whether the present state is known: false before the first fix, and after resume() until something
+  /// arrives.
   [[nodiscard]] bool known() const { return ever_usable_ && !resumed_; }
 
   [[nodiscard]] bool ever_usable() const { return ever_usable_; }
@@ -71,7 +70,7 @@ class OutageClock {
   OutageLimits limits_;
   bool ever_usable_ = false;
   bool active_ = false;
-  bool resumed_ = false;  ///< and nothing heard since
+  bool resumed_ = false;  ///< nothing arrived since resume()
   TimeNs resumed_ns_ = 0;
   TimeNs last_usable_ns_ = 0;  ///< before the outage, while there is one
   TimeNs evaluated_ns_ = 0;

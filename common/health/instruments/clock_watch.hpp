@@ -8,8 +8,8 @@
 
 namespace fathom::health {
 
-/// Hosts whose clock was set while services were running, by the offset that these publish. Their stamps are
-/// not moved by it, so it is a notice: "clock_step" (momentary).
+/// A watch for hosts whose clock was set while services were running, by the offset that the services
+/// publish. The stamps do not move with it, so the alarm is a notice: "clock_step" (momentary).
 class ClockWatch {
  public:
   void add(const ServiceStatus& status, const Instant& now);
@@ -27,7 +27,7 @@ class ClockWatch {
     bool reported = false;
   };
   std::map<Name, Service> services_;
-  std::map<std::string, Step> steps_;  ///< the last one of each host
+  std::map<std::string, Step> steps_;  ///< the last step of each host
 };
 
 }  // namespace fathom::health

@@ -10,12 +10,13 @@
 namespace fathom::health {
 
 struct RefusalWatchConfig {
-  double limit_s = 10.0;  ///< a sensor refused by fusion throughout this time is an alarm
-  int minimum = 5;        ///< and at least so many of its measurements were
+  double limit_s = 10.0;  ///< fusion has to refuse a sensor throughout this time ...
+  int minimum = 5;        ///< ... and at least so many of its measurements, to raise the alarm
 };
 
-/// Sensors that talk but are not believed: every measurement judged, none used. A measurement that carries
-/// nothing to use (no fix, no bottom lock: out_of_range) is not a disagreement and does not count.
+/// A watch for sensors that talk but are not believed: fusion judged every measurement and used none. A
+/// measurement that carries nothing to use (no fix, no bottom lock: out_of_range) is not a disagreement and
+/// does not count.
 class RefusalWatch {
  public:
   explicit RefusalWatch(const RefusalWatchConfig& config) : config_(config) {}

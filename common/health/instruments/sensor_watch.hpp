@@ -11,30 +11,30 @@
 
 namespace fathom::health {
 
-/// A sensor that has to be there.
+/// An expected sensor.
 struct ExpectedSensor {
   Name name;
   SourceKind kind = SourceKind::imu;
   double rate_hz = 1.0;
-  double missing_s = 0.0;  ///< 0: by the rate, see StreamLimits::from_rate
+  double missing_s = 0.0;  ///< 0: follows from the rate, see StreamLimits::from_rate
   Severity severity = Severity::warning;
 };
 
-/// Every sensor stream of the vehicle. Sensors that nobody expected are listed too, without alarms.
+/// A watch over every sensor stream of the vehicle. Unexpected sensors are listed too, without alarms.
 class SensorWatch {
  public:
   static constexpr std::size_t kMaxSensors = 32;
 
-  /// `startup_s`: how long after the start a sensor may stay unheard of.
+  /// `startup_s`: how long after the start a sensor may stay silent.
   SensorWatch(const std::vector<ExpectedSensor>& expected, double startup_s, const Instant& start);
 
   void heard(SourceKind kind, const Name& name, const Instant& now);
   void evaluate(const Instant& now);
   /// Whether each expected sensor has been heard at least once.
   [[nodiscard]] bool all_heard() const;
-  /// "sensor_missing:<name>" by each sensor's severity, "sensor_slow:<name>" as a notice.
+  /// Alarms "sensor_missing:<name>" with the severity of the sensor, "sensor_slow:<name>" as a notice.
   void report(AlarmBook& book, const Instant& now) const;
-  /// The expected ones in the order of the configuration, then the others.
+  /// The expected sensors in the order of the configuration, then the others.
   [[nodiscard]] std::vector<WatchedItem> items(const Instant& now) const;
 
  private:

@@ -13,22 +13,23 @@
 namespace fathom::health {
 
 struct StampWatchConfig {
-  int duplicates = 5;         ///< so many stamps repeated ...
-  double window_s = 10.0;     ///< ... within this time are an alarm, until none is for as long
-  double clock_jump_s = 1.0;  ///< a lasting change of stamp against arrival by more than this
+  int duplicates = 5;         ///< so many repeated stamps ...
+  double window_s = 10.0;     ///< ... within this time are an alarm, until none repeats for as long
+  double clock_jump_s = 1.0;  ///< a lasting change of stamp minus arrival by more than this is a jump
 };
 
-/// The times that sensors give their samples, against the monitor's own clock.
+/// A watch over the stamps of sensors, by the monitor's own clock.
 ///
-/// Age (arrival here minus stamp) wanders and jitters; its range so far is kept. A clock jumped when every
-/// sample of two seconds, three at least, lies beyond that range by more than the limit, and within half the
-/// limit of each other: late bursts after a stall scatter, and one damaged stamp stands alone.
+/// The age of samples (arrival minus stamp) wanders and jitters, and its range so far is kept. A clock jumped
+/// when every sample of two seconds, and three at least, lies beyond that range by more than the limit, and
+/// all of them lie within half the limit of each other. Late bursts after a stall scatter, and a damaged
+/// stamp stands alone, so that neither is a jump.
 class StampWatch {
  public:
   explicit StampWatch(const StampWatchConfig& config) : config_(config) {}
 
   void heard(SourceKind kind, const SampleHeader& header, const Instant& now);
-  /// A bridge counts what it saw of its device's clock before it mended the stamps.
+  /// Takes the counters of a bridge, which sees its device's clock before it mends the stamps.
   void add(const ServiceStatus& status, const Instant& now);
   /// "duplicate_stamps:<sensor>", "clock_jump:<sensor>" (momentary), "clock_ahead:<sensor>",
   /// "device_clock:<bridge>".

@@ -11,10 +11,10 @@ namespace fathom::health {
 
 /// What is expected of a stream of messages.
 struct StreamLimits {
-  double expected_rate_hz = kUnknown;  ///< unknown: only presence is judged
-  double stale_s = 0.5;                ///< silent this long: stale
-  double missing_s = 2.0;              ///< silent this long: missing
-  int recover_samples = 3;             ///< messages in a row, none `stale_s` late, to be present again
+  double expected_rate_hz = kUnknown;  ///< unknown: only the presence is watched
+  double stale_s = 0.5;                ///< a stream that is silent this long is stale
+  double missing_s = 2.0;              ///< a stream that is silent this long is missing
+  int recover_samples = 3;  ///< messages in a row, less than `stale_s` apart, that make it present again
 
   /// Limits that suit a rate: stale after 3 periods (at least 0.5 s), missing after 10 periods (at least 2
   /// s), present again after a second's worth of samples (1 to 3).
@@ -32,13 +32,14 @@ class StreamWatch {
   [[nodiscard]] const StreamLimits& limits() const { return limits_; }
   [[nodiscard]] Presence presence() const { return presence_; }
   [[nodiscard]] bool ever_heard() const { return presence_ != Presence::never_seen; }
-  /// Since the last message, or since the start when there was none.
+  /// Time since the last message, or since the start when there was none.
   [[nodiscard]] double silent_s(TimeNs monotonic_ns) const;
-  /// NaN when never heard.
+  /// Time since the last message; NaN when there was none.
   [[nodiscard]] double age_s(TimeNs monotonic_ns) const;
-  /// Over the last seconds (longer for slow streams); NaN until there is enough to say.
+  /// Rate over the last seconds (longer for slow streams); NaN until enough messages arrived.
   [[nodiscard]] double rate_hz(TimeNs monotonic_ns) const;
-  /// Present, but for a whole window at less than half the expected rate; until above 70 % of it.
+  /// Whether a present stream had less than half the expected rate for a whole window. It stays slow until
+  /// the rate is above 70 % again.
   [[nodiscard]] bool slow() const { return slow_; }
 
  private:

@@ -8,20 +8,20 @@
 namespace fathom::health {
 
 struct AlignmentWatchConfig {
-  double limit_s = 180.0;      ///< not aligned this long after navigation was first heard of: an alarm
-  double regain_hold_s = 2.0;  ///< a lost alignment must be back this long before the alarm clears
+  double limit_s = 180.0;      ///< no alignment this long after the first navigation state is an alarm
+  double regain_hold_s = 2.0;  ///< how long a lost alignment must be back before the alarm clears
 };
 
-/// Whether attitude and position may be used, and if not, what is waited for.
+/// A watch over the alignment: whether attitude and position may be used, and if not, what is missing.
 class AlignmentWatch {
  public:
   explicit AlignmentWatch(const AlignmentWatchConfig& config) : config_(config) {}
 
   void add(const AlignmentStatus& status, const Instant& now);
-  /// While navigation states come their phase is the one that counts: two topics do not arrive in one order,
-  /// and a status that is a moment older must not look like an alignment lost.
+  /// The phase of the navigation state counts while such states come. The two topics do not arrive in one
+  /// order, and a slightly older status must not look like a lost alignment.
   void add(const NavState& state, const Instant& now);
-  /// "not_aligned" (too long, or timed out), "alignment_lost" (was aligned before).
+  /// Alarms "not_aligned" (for too long, or timed out), "alignment_lost" (after it was aligned).
   void report(AlarmBook& book, const Instant& now) const;
 
   [[nodiscard]] AlignmentPhase phase() const { return phase_; }

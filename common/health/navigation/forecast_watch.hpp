@@ -7,23 +7,24 @@
 namespace fathom::health {
 
 struct ForecastWatchConfig {
-  Name limit = "horizontal_100m";  ///< of the forecast's limits, the one an outage is graded by; empty: none
-  double warning_s = 60.0;         ///< an outage is a warning when this limit will be passed sooner
-  double critical_s = 15.0;        ///< and critical when sooner than this
-  double hold_s = 2.0;             ///< every forecast of this time has to say so
+  Name limit = "horizontal_100m";  ///< the limit of the forecast that grades an outage; empty: none
+  double warning_s = 60.0;         ///< an outage is a warning when the limit will be passed in less than this
+  double critical_s = 15.0;        ///< an outage is critical when the limit will be passed in less than this
+  double hold_s = 2.0;             ///< every forecast of this time has to agree
 };
 
-/// What the forecast means for a GPS outage. One forecast moves nothing: the grade of the last `hold_s`
-/// counts, and its mildest. Without fusion there is no forecast, and duration alone decides.
+/// The grade that the forecast gives a GPS outage. It is the mildest grade of all forecasts of the last
+/// `hold_s`, so that a single forecast changes nothing. Without fusion there is no forecast, and the duration
+/// alone decides.
 class ForecastWatch {
  public:
   explicit ForecastWatch(const ForecastWatchConfig& config) : config_(config) {}
 
   void add(const Forecast& forecast, const Instant& now);
 
-  /// Notice when no fresh forecast says worse.
+  /// The grade: a notice, unless fresh forecasts say worse.
   [[nodiscard]] Severity severity(const Instant& now) const;
-  /// As last forecast; NaN when unknown or no longer fresh.
+  /// The time in the last forecast; NaN when it is unknown or no longer fresh.
   [[nodiscard]] double time_to_limit_s(const Instant& now) const;
   [[nodiscard]] const Name& limit() const { return config_.limit; }
 

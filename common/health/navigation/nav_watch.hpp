@@ -10,12 +10,12 @@ namespace fathom::health {
 struct NavWatchConfig {
   bool expected = true;
   double rate_hz = 100.0;              ///< of the navigation state
-  double missing_s = 1.0;              ///< silent this long: an alarm
-  double horizontal_95_limit_m = 100;  ///< a larger 95 % radius is an alarm until 10 % below again
+  double missing_s = 1.0;              ///< a state that is missing this long is an alarm
+  double horizontal_95_limit_m = 100;  ///< a larger 95 % radius is an alarm, until it is 10 % below the limit
 };
 
-/// The navigation state as guidance would see it: there, in time, finite, certain enough.
-/// A state whose stamp does not differ from the one before is no sign of life.
+/// A watch over the navigation state as guidance sees it: present, in time, finite and certain enough. A
+/// state with the same stamp as the state before it is no sign of life.
 class NavWatch {
  public:
   NavWatch(const NavWatchConfig& config, double startup_s, const Instant& start);
@@ -26,10 +26,10 @@ class NavWatch {
   /// "nav_state_missing", "nav_state_slow", "nav_state_invalid", "nav_uncertain".
   void report(AlarmBook& book, const Instant& now) const;
 
-  /// The last state's, or none while the state is missing.
+  /// The mode of the last state, or none while the state is missing.
   [[nodiscard]] NavMode mode() const;
   [[nodiscard]] double age_s(const Instant& now) const { return stream_.age_s(now.monotonic_ns); }
-  /// NaN while the state is missing or has no position.
+  /// The 95 % radius; NaN while the state is missing or has no position.
   [[nodiscard]] double horizontal_95_m() const;
   [[nodiscard]] bool fresh() const { return stream_.presence() == Presence::present; }
 

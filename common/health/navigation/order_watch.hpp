@@ -11,18 +11,18 @@
 
 namespace fathom::health {
 
-/// How far an ordered position lies from a navigation state.
+/// Distance between an ordered position and a navigation state.
 struct Departure {
   double apart_m = 0.0;    ///< horizontally
   double allowed_m = 0.0;  ///< allowed_departure_m()
   [[nodiscard]] bool far() const { return apart_m > allowed_m; }
 };
-/// None where the state has no position, or the order is not one of a position.
+/// The departure of an order. None when the state has no position, or when it is not an order of a position.
 [[nodiscard]] std::optional<Departure> departure(const Command& order, const NavState& state);
 
-/// Positions that somebody orders far from where navigation is: "position_order_held", a warning, when fusion
-/// waits for the confirmation, and "position_order_far", critical, when it comes. Both are events and stay
-/// until they are acknowledged.
+/// A watch for orders of a position far from where navigation is: "position_order_held", a warning, when
+/// fusion waits for the confirmation, and "position_order_far", critical, when the confirmation comes. Both
+/// are events and stay until they are acknowledged.
 class OrderWatch {
  public:
   void add(const NavState& state);
@@ -31,7 +31,7 @@ class OrderWatch {
  private:
   static constexpr DurationNs kApart_ns = 50 * kNsPerMillisecond;
   static constexpr std::size_t kKept = 100;
-  std::deque<NavState> states_;  ///< of the last seconds: the newest one has taken the order in already
+  std::deque<NavState> states_;  ///< of the last seconds, because the newest state holds the order already
 };
 
 }  // namespace fathom::health

@@ -10,18 +10,19 @@
 
 namespace fathom::health {
 
-/// A service that has to be there.
+/// An expected service.
 struct ExpectedService {
   Name name;
   Severity severity = Severity::warning;
 };
 
 struct ServiceWatchConfig {
-  double missing_s = 3.0;        ///< life signs come once a second
-  double degraded_hold_s = 5.0;  ///< a service must call itself unwell this long before it is an alarm
+  double missing_s =
+      3.0;  ///< a service without a life sign for this long is missing; they come once a second
+  double degraded_hold_s = 5.0;  ///< how long a service must call itself unwell before that is an alarm
 };
 
-/// Every service by its life signs. Services that nobody expected are listed too, without alarms.
+/// A watch over every service by its life signs. Unexpected services are listed too, without alarms.
 class ServiceWatch {
  public:
   static constexpr std::size_t kMaxServices = 32;

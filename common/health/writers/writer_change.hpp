@@ -12,15 +12,15 @@
 
 namespace fathom::health {
 
-/// Who speaks on the two topics that decide where the vehicle believes to be: its inertial units and its
-/// navigation state. Another process there is an alarm that names both: "imu_writer_changed:<sensor>" and
-/// "nav_writer_changed", each an event that stays until it is acknowledged. "nav_writer_unexpected" is held
-/// while the navigation state comes from a service that is not among the expected ones.
+/// A watch over who writes the two topics that decide where the vehicle believes it is: the inertial samples
+/// and the navigation state. When another process writes there, an alarm names both processes:
+/// "imu_writer_changed:<sensor>" or "nav_writer_changed", each an event that stays until it is acknowledged.
+/// "nav_writer_unexpected" is active while an unexpected service writes the navigation state.
 class WriterChange {
  public:
-  static constexpr double kFreshS = 5.0;  ///< for so long a navigation state counts as the present one
+  static constexpr double kFreshS = 5.0;  ///< how long a navigation state counts as the present one
 
-  /// `services`: those expected; where there is none, any may write.
+  /// `services`: the expected services. When the list is empty, any service may write.
   explicit WriterChange(std::vector<Name> services) : services_(std::move(services)) {}
 
   void heard_imu(const Name& sensor, const WriterGuid& writer, const Instant& now);
@@ -31,10 +31,10 @@ class WriterChange {
   static constexpr std::size_t kMostUnits = 16;  ///< names come from the network: bounded
   struct Stream {
     WriterGuid writer{};
-    std::string words;        ///< of the writer, as known while it was there
+    std::string words;        ///< describe the writer, as it was known while it was present
     TimeNs described_ns = 0;  ///< monotonic
     TimeNs last_ns = 0;       ///< monotonic
-    std::string before;       ///< words of the one before, until the change is reported
+    std::string before;       ///< words of the writer before it, until the change is reported
     bool changed = false;
   };
   static void note(Stream& stream, const WriterGuid& writer, const Instant& now);
@@ -44,7 +44,7 @@ class WriterChange {
   std::vector<Name> services_;
   std::map<Name, Stream> units_;
   Stream navigation_;
-  Name instance_;  ///< that the navigation state comes from
+  Name instance_;  ///< the service that the navigation state comes from
 };
 
 }  // namespace fathom::health

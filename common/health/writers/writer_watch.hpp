@@ -15,17 +15,18 @@
 
 namespace fathom::health {
 
-/// "gps_bridge (process 12 on host auv1)": what discovery knows of a writer.
+/// Describes a writer as discovery knows it, e.g. "gps_bridge (process 12 on host auv1)". A GUID of zeros is
+/// an unknown writer.
 using DescribeWriter = std::function<std::string(const WriterGuid&)>;
 
-/// Second writers of a sensor: two that publish the same sensor in turn, or a sensor that nobody expects
-/// beside the expected ones of its kind. A restarted bridge is a new writer, but the old one does not come
-/// back: only one that is heard again after another was is a second one, twice within kWindowS.
+/// A watch for second writers of a sensor: two writers that publish the same sensor in turn, or an unexpected
+/// sensor beside the expected ones of its kind. A restarted bridge is a new writer, but its old writer does
+/// not come back. So a second writer is one that comes back after another one wrote, twice within kWindowS.
 class WriterWatch {
  public:
-  static constexpr double kWindowS = 30.0;  ///< and the alarm clears after as long without
+  static constexpr double kWindowS = 30.0;  ///< the alarm clears after this time without a second writer
 
-  /// `expected`: the sensors that have to be there. A kind without any is not judged by name.
+  /// `expected`: the expected sensors. A kind without expected sensors is not checked by name.
   explicit WriterWatch(std::vector<std::pair<SourceKind, Name>> expected) : expected_(std::move(expected)) {}
 
   void heard(SourceKind kind, const Name& sensor, const WriterGuid& writer, const Instant& now);
@@ -37,13 +38,13 @@ class WriterWatch {
   struct Writer {
     WriterGuid id{};
     TimeNs last_ns = 0;
-    std::uint64_t order = 0;  ///< of its last sample among this sensor's
+    std::uint64_t order = 0;  ///< number of its last sample among those of this sensor
   };
   struct Sensor {
     bool expected = true;
     std::vector<Writer> writers;
     std::uint64_t samples = 0;
-    int returns = 0;  ///< of a writer after another one, within the window
+    int returns = 0;  ///< times that a writer came back after another one, within the window
     TimeNs first_ns = 0;
     TimeNs returned_ns = 0;
     std::array<WriterGuid, 2> rivals{};

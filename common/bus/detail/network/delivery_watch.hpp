@@ -14,43 +14,46 @@
 
 namespace fathom::bus::detail {
 
-/// Of a reader or writer, unique within its participant; 0: any.
+/// Identity of a reader or writer within its participant; 0: any.
 using EntityId = std::uint32_t;
-/// From its four bytes, as they travel.
+/// The identity from its four bytes on the wire.
 [[nodiscard]] EntityId to_entity_id(std::span<const std::uint8_t> bytes);
 
-/// What a message says of a writer's samples: here is one, or such are to be had (a heartbeat), or are not (a
-/// gap).
+/// A claim of a message about a writer's samples: it carries one, it says which are available (a heartbeat),
+/// or which are not (a gap).
 struct Claim {
   WriterGuid writer{};
-  EntityId reader = 0;       ///< for whom it is
-  std::uint64_t number = 0;  ///< highest sequence number it speaks of
+  EntityId reader = 0;       ///< the reader that it is sent to
+  std::uint64_t number = 0;  ///< the highest sequence number that it names
   bool carries_sample = false;
 };
 
-/// Compares what arrives for each reader with what the writer said before, and with what Fast DDS hands over.
+/// A watch over deliveries: it compares what arrives for each reader with what the writer said before, and
+/// with what Fast DDS hands over.
 ///
-/// Fast DDS 2.9.1 counts, one by one, up to the sample that a heartbeat or gap says is next, some millions in
-/// a second, and receives nothing meanwhile: a forged one can have it count for years. A smaller leap makes
-/// it take the writer's real samples for received already, for as long as both live: it is deaf to that
+/// Fast DDS 2.9.1 counts one by one up to the next sample that a heartbeat or gap names, some millions a
+/// second, and receives nothing meanwhile. A forged message can make it count for years. After a smaller leap
+/// it takes the writer's real samples as received already, as long as both live: the reader is deaf to that
 /// writer. Thread-safe.
 class DeliveryWatch {
  public:
-  /// A writer's numbers go up by one. Who has missed so many has been given up long before.
+  /// Largest credible leap of a writer's numbers, which go up by one. A reader that missed as many was given
+  /// up long before.
   static constexpr std::uint64_t kLeap = 100'000;
-  /// Of the writers of discovery no more is said than this.
+  /// Largest credible number of a writer of discovery.
   static constexpr std::uint64_t kDiscovery = 1'000'000;
-  /// So many samples arrived in so long, and none was handed over. Repairing what was lost takes less.
+  /// A reader is deaf when so many samples arrived in so long and none was handed over. The repair of lost
+  /// samples takes less.
   static constexpr int kSamples = 5;
   static constexpr DurationNs kPatience = 3 * kNsPerSecond;
 
   /// `now_ns` is a monotonic clock.
   explicit DeliveryWatch(std::function<TimeNs()> now_ns = {});
 
-  /// `deaf` is called when this reader hears nothing of a writer, with the lock held: be quick.
-  /// `one_at_a_time`: of all its writers only one is handed over, that which owns the instance.
+  /// `deaf` is called when this reader is deaf to a writer. The lock is held, so it must be quick.
+  /// `one_at_a_time`: Fast DDS hands over only the samples of the writer that owns the instance.
   void join(const void* reader, bool one_at_a_time, std::function<void()> deaf);
-  /// Who it is to others.
+  /// The identity by which other participants address the reader.
   void is_entity(const void* reader, EntityId id);
   void leave(const void* reader);
   void matched(const void* reader, const WriterGuid& writer);
@@ -58,24 +61,24 @@ class DeliveryWatch {
 
   /// A claim came in. False when it cannot be true.
   [[nodiscard]] bool arrived(const Claim& claim);
-  /// This reader handed over a sample of this writer.
+  /// Fast DDS handed over a sample of this writer to this reader.
   void heard(const void* reader, const WriterGuid& writer);
-  /// It had no room for a sample of some writer.
+  /// The reader had no room for a sample of some writer.
   void refused(const void* reader);
 
-  /// A datagram came in, of whatever kind, from the participant that it says it is of.
+  /// A datagram of any kind came in from the participant that it names.
   void arrived_from(std::span<const std::uint8_t> datagram);
-  /// Something came in from this participant within the last `age_ns`. What came before it was first asked
-  /// about does not count.
+  /// Whether something came in from this participant within the last `age_ns`. What came before the first
+  /// such question does not count.
   [[nodiscard]] bool is_heard(const GuidPrefix& participant, DurationNs age_ns);
-  /// It left.
+  /// The participant left.
   void gone(const GuidPrefix& participant);
 
  private:
   struct Writer {
     WriterGuid guid;
-    std::uint64_t highest = 0;  ///< spoken of until now; 0: nothing yet
-    int waiting = 0;            ///< arrived since the last that was handed over
+    std::uint64_t highest = 0;  ///< number named until now; 0: none yet
+    int waiting = 0;            ///< samples that arrived since the last one was handed over
     TimeNs since_ns = 0;
   };
   struct Reader {
@@ -93,7 +96,7 @@ class DeliveryWatch {
 
   std::atomic<bool> somebody_asked_ = false;
   std::mutex mutex_of_participants_;
-  std::map<GuidPrefix, TimeNs> last_;  ///< of those asked about, when something of them came in; 0: never
+  std::map<GuidPrefix, TimeNs> last_;  ///< when something came in from each participant asked about; 0: never
 };
 
 }  // namespace fathom::bus::detail

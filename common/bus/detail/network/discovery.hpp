@@ -10,7 +10,7 @@
 
 namespace fathom::bus::detail {
 
-/// Where a discovery server listens.
+/// Address of a discovery server.
 struct ServerAddress {
   std::string address;  ///< IPv4
   std::uint16_t port = 0;
@@ -26,9 +26,9 @@ struct ServerAddress {
 /// options.discovery_listen says so. The interfaces of `options` must be this host's. Throws BusError.
 void discover_through_servers(dds::DomainParticipantQos& qos, const ParticipantOptions& options);
 
-/// For a server, before it starts: waits until every client has given up a predecessor that was killed just
-/// now. It has the same GUID but not the same memory, and clients that take the one for the other would wait
-/// for ever for what the new one does not know.
+/// Waits, before a server starts, until every client has given up a predecessor that was killed just now. The
+/// new server has the same GUID but not the same memory. A client that took it for the old one would wait for
+/// ever for data that it does not have.
 void outlast_predecessor(const dds::DomainParticipantQos& qos, const std::string& listen);
 
 }  // namespace fathom::bus::detail

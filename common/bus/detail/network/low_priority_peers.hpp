@@ -8,7 +8,8 @@
 
 namespace fathom::bus::detail {
 
-/// Where the participants that look on (ParticipantOptions::low_priority) receive samples. Thread-safe.
+/// The addresses at which low-priority participants (ParticipantOptions::low_priority) receive samples.
+/// Thread-safe.
 class LowPriorityPeers {
  public:
   using Locator = rtps::Locator_t;
@@ -17,7 +18,7 @@ class LowPriorityPeers {
   void seen(const GuidPrefix& prefix, const std::vector<Locator>& at);
   void gone(const GuidPrefix& prefix);
 
-  /// Moves the destinations that are a low-priority peer's behind the others; of either kind the order stays.
+  /// Moves the destinations of low-priority peers behind the others. The order among each stays.
   void to_the_back(std::vector<Locator>& destinations) const;
 
  private:

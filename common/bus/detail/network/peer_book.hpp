@@ -28,11 +28,11 @@ struct RemoteEndpoint {
   QosSummary qos;
 };
 
-/// Who is on the network and what they read and write, from discovery. Thread-safe.
+/// The participants on the network with their readers and writers, from discovery. Thread-safe.
 class PeerBook {
  public:
   void participant_seen(const GuidPrefix& prefix, const Peer& peer);
-  /// Keeps the name for `peer()`, so that what a dead service sent can still be attributed.
+  /// Keeps the name for peer(), so that the samples of a dead service still have a name.
   void participant_gone(const GuidPrefix& prefix);
   void writer_seen(const WriterGuid& guid, const RemoteEndpoint& endpoint);
   void reader_seen(const WriterGuid& guid, const RemoteEndpoint& endpoint);
@@ -42,16 +42,16 @@ class PeerBook {
   [[nodiscard]] std::optional<Peer> peer(const WriterGuid& guid) const;
   [[nodiscard]] std::string name(const WriterGuid& guid) const;
   [[nodiscard]] std::vector<Peer> present() const;
-  /// Names of those whose writers (readers, for a local writer) of this topic conflict with a local endpoint
-  /// in `policy`.
+  /// Names of the participants whose writers of this topic (readers, for a local writer) conflict with a
+  /// local endpoint in `policy`.
   [[nodiscard]] std::set<std::string> writers_in_conflict(const std::string& topic, Policy policy,
                                                           const QosSummary& requested) const;
   [[nodiscard]] std::set<std::string> readers_in_conflict(const std::string& topic, Policy policy,
                                                           const QosSummary& offered) const;
-  /// Who uses this topic with another type than `type`, each as "type 'x' of name".
+  /// Participants that use this topic with another type than `type`, each as "type 'x' of name".
   [[nodiscard]] std::vector<std::string> type_conflicts(const std::string& topic,
                                                         const std::string& type) const;
-  /// Everything that others read and write, and what keeps any two of them apart.
+  /// The readers and writers of others, and the conflicts between any two of them.
   [[nodiscard]] std::vector<NetworkEndpoint> endpoints() const;
   [[nodiscard]] std::vector<NetworkConflict> conflicts() const;
 

@@ -10,14 +10,14 @@
 
 namespace fathom::bus::detail {
 
-/// Between Fast DDS and the sockets.
+/// A transport between Fast DDS and the sockets.
 ///
-/// A datagram for several goes to those who look on after it has gone to all others. By itself Fast DDS sends
-/// in the order in which it found the readers; each datagram wakes a process, which then stands in line for a
-/// processor behind those that were woken before.
+/// It sends a datagram for several readers to low-priority peers last. By itself Fast DDS sends in the order
+/// in which it found the readers. Each datagram wakes a process, which then waits for a processor behind
+/// those that were woken before.
 ///
-/// A datagram that would end this process (harmless()), or claims what cannot be (DeliveryWatch), is left
-/// out, and `refused` told its sender's address, on the thread that received it.
+/// It drops a received datagram that would end this process (harmless()) or that makes an impossible claim
+/// (DeliveryWatch), and calls `refused` with the sender's address, on the thread that received it.
 struct TransportDescriptor final : eprosima::fastdds::rtps::ChainingTransportDescriptor {
   using Refused = std::function<void(const std::string& address)>;
 

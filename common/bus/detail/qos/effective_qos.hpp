@@ -24,7 +24,7 @@ struct EffectiveQos {
   std::uint32_t ownership_strength = 0;
 };
 
-/// Of the participant's writer (reader) of this topic. Throws BusError when there is none.
+/// The policies of the participant's writer (reader) of this topic. Throws BusError when there is none.
 [[nodiscard]] EffectiveQos effective_writer_qos(Participant& participant, const std::string& topic);
 [[nodiscard]] EffectiveQos effective_reader_qos(Participant& participant, const std::string& topic);
 

@@ -22,7 +22,7 @@ namespace fathom::bus::detail {
 /// skipped. Throws BusError naming the file.
 void load_profiles(const std::string& folder);
 
-/// The topic's profile with what the configuration says on top. Throws BusError.
+/// The topic's profile, changed by the configuration. Throws BusError.
 [[nodiscard]] dds::DataWriterQos writer_qos(const dds::Publisher& publisher, const std::string& topic,
                                             const WriterOptions& options);
 [[nodiscard]] dds::DataReaderQos reader_qos(const dds::Subscriber& subscriber, const std::string& topic,
@@ -35,7 +35,7 @@ void load_profiles(const std::string& folder);
   return duration.seconds * kNsPerSecond + static_cast<DurationNs>(duration.nanosec);
 }
 
-/// Of a DataWriterQos, DataReaderQos or their counterparts in discovery.
+/// The summary of a DataWriterQos, a DataReaderQos or their counterparts in discovery.
 template <class Reliability, class Durability, class Deadline, class Ownership, class Liveliness>
 QosSummary summarise(const Reliability& reliability, const Durability& durability, const Deadline& deadline,
                      const Ownership& ownership, const Liveliness& liveliness) {

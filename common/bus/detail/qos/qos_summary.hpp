@@ -23,13 +23,13 @@ struct QosSummary {
   DurationNs deadline_ns = kForever;
 };
 
-/// True when this policy keeps the two apart (DDS 1.4, 2.2.3: requested against offered).
+/// Whether this policy keeps the two apart (DDS 1.4, 2.2.3: requested against offered).
 [[nodiscard]] bool conflict(Policy policy, const QosSummary& offered, const QosSummary& requested);
 
-/// One side's value, e.g. "100 ms".
+/// The value of one side in words, e.g. "100 ms".
 [[nodiscard]] std::string value_text(Policy policy, const QosSummary& qos);
 [[nodiscard]] std::string to_string(Policy policy);
-/// e.g. "30 ms", "1.5 s", "none" for kForever.
+/// A duration in words, e.g. "30 ms", "1.5 s", "none" for kForever.
 [[nodiscard]] std::string duration_text(DurationNs duration);
 
 }  // namespace fathom::bus::detail

@@ -9,14 +9,14 @@
 
 namespace fathom::bus::detail {
 
-/// False for an RTPS datagram that ends a process which lets Fast DDS 2.9.1 read it (MessageReceiver). The
-/// first two were found with datagrams made from good ones, the last is left out to be safe:
-/// - Fast DDS ends what it sends with a submessage of its own (0x80, where and when it was sent) and asserts,
-///   in one from another Fast DDS, that nothing is behind it;
-/// - DATA and DATA_FRAG whose inline QoS goes on behind the submessage's end, or begins there: the size of
-///   what is left becomes negative, and some 4 GB are copied;
+/// Whether a process survives when Fast DDS 2.9.1 (MessageReceiver) reads this RTPS datagram. Mutated
+/// datagrams showed the first two faults; the third one is a precaution:
+/// - A submessage of Fast DDS (0x80, where and when the datagram was sent) that is not the last one. Fast
+///   DDS asserts that nothing follows it.
+/// - DATA or DATA_FRAG whose inline QoS begins at the submessage's end or goes on behind it. The size of
+///   the rest becomes negative, and some 4 GB are copied.
 /// - DATA_FRAG of a part that the sample does not have.
-/// Submessages are walked as Fast DDS walks them; what else may be wrong it refuses by itself.
+/// The check walks through the submessages as Fast DDS does. Fast DDS itself refuses all other faults.
 [[nodiscard]] bool harmless(std::span<const std::uint8_t> datagram);
 
 /// Calls `look` for each claim (DATA, DATA_FRAG, HEARTBEAT, GAP) in a harmless datagram about the samples of

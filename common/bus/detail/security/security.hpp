@@ -10,9 +10,9 @@
 
 namespace fathom::bus::detail {
 
-/// How long a participant's word that it is there holds. Longer than without protection: one that is given up
-/// by one side only cannot prove its identity to it again, because the other holds that done already and
-/// answers no handshake (Fast DDS 2.9.1). It must outlast any stall of a busy machine.
+/// The lease of a participant on a protected network. It must outlast any stall of a busy machine, so it is
+/// longer than without protection. When only one side gives up the other, the two cannot prove their
+/// identities again: the other side counts that as done and answers no handshake (Fast DDS 2.9.1).
 inline constexpr std::int32_t kProtectedLease_s = 30;
 
 /// The checked credentials of a participant. Throws CredentialsError.

@@ -14,27 +14,28 @@
 
 namespace fathom::bus::detail {
 
-/// Who on a protected network has not proved an identity. What such a participant says of itself is hearsay:
-/// names are cut and cleaned, and only so many are remembered, for anybody can invent more. Thread-safe.
+/// The participants on a protected network that have not proved an identity. Their names are their own
+/// claims: names are cut and cleaned, and only a limited number is remembered, because anybody can invent
+/// more. Thread-safe.
 class StrangerBook {
  public:
   static constexpr std::size_t kMost = 64;  ///< remembered at a time; the rest is only counted
-  /// A participant that has announced itself this long without proving its identity is refused in our eyes:
-  /// the one that sends the first message of a handshake is not told when the other likes none of it.
+  /// Time after which a participant that announced itself and proved no identity counts as refused. Fast DDS
+  /// does not tell the side that began a handshake when the other side refuses it.
   static constexpr DurationNs kPatience = 20 * kNsPerSecond;
 
   /// `now_ns` is a monotonic clock.
   explicit StrangerBook(std::function<TimeNs()> now_ns = {});
 
-  /// `prefix` announced itself. Returns what it called itself when that is the first news of one that has
-  /// proved its identity already.
+  /// `prefix` announced itself. Returns its name when it has proved its identity already and this is its
+  /// first announcement.
   [[nodiscard]] std::optional<Peer> announced(const GuidPrefix& prefix, const Peer& peer,
                                               const std::string& address, bool offers_identity);
-  /// Those whom nobody has waited for long enough until now and who are refused from now on.
+  /// Participants whose time for a proof has run out since the last call, and who count as refused now.
   std::vector<Stranger> overdue();
-  /// It proved its identity. Returns what it called itself before, when that is known.
+  /// It proved its identity. Returns its announced name when that is known.
   std::optional<Peer> admitted(const GuidPrefix& prefix);
-  /// It failed to, or was found to have no valid permissions. Returns the stranger to be reported.
+  /// Its proof failed, or it has no valid permissions. Returns the stranger to be reported.
   Stranger refused(const GuidPrefix& prefix, const std::string& why);
   /// Returns the stranger that left, if it was one.
   std::optional<Stranger> gone(const GuidPrefix& prefix);
@@ -51,19 +52,19 @@ class StrangerBook {
 
   mutable std::mutex mutex_;
   std::map<GuidPrefix, Entry> entries_;  ///< not admitted
-  std::map<GuidPrefix, bool> admitted_;  ///< and whether what it called itself is known
+  std::map<GuidPrefix, bool> admitted_;  ///< and whether their names are known
   std::function<TimeNs()> now_ns_;
 };
 
 /// Printable ASCII of `text`, at most 40 characters.
 [[nodiscard]] std::string cleaned(const std::string& text);
 
-/// What Fast DDS says of others in its log and nowhere else.
+/// A refusal that Fast DDS reports in its log and nowhere else.
 struct Denial {
   GuidPrefix who{};
-  bool whole = false;  ///< it may take no part at all: its permissions are not valid
+  bool whole = false;  ///< it may not take part at all, because its permissions are not valid
   bool writes = false;
-  std::string topic;  ///< that it may not write or read; empty when `whole`
+  std::string topic;  ///< topic that it may not write or read; empty when `whole`
 };
 /// Nothing when the message is about something else.
 [[nodiscard]] std::optional<Denial> parse_denial(const std::string& message);

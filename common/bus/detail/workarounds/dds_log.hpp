@@ -5,14 +5,15 @@
 
 namespace fathom::bus::detail {
 
-/// Keeps Fast DDS from writing to standard output; its latest error is kept for our own messages. Idempotent.
+/// Keeps Fast DDS from writing to standard output, and keeps its latest error for our own messages.
+/// Idempotent.
 void capture_dds_log();
 
-/// The latest error of Fast DDS in parentheses with a leading space, e.g. to end a message with; empty when
+/// The latest error of Fast DDS in parentheses with a leading space, for the end of a message. Empty when
 /// there was none.
 [[nodiscard]] std::string last_dds_error();
 
-/// Hears every error of Fast DDS in this process while it lives, from a thread of Fast DDS.
+/// A listener for every error of Fast DDS in this process. The handler runs on a thread of Fast DDS.
 class DdsErrors {
  public:
   explicit DdsErrors(std::function<void(const std::string& message)> handler);

@@ -9,7 +9,8 @@
 
 namespace fathom::bus::detail {
 
-/// A thread for what may not be done on those of Fast DDS; begun when it is first needed. Thread-safe.
+/// A queue of work with a thread of its own, for what must not be done on the threads of Fast DDS. The thread
+/// starts when it is first needed. Thread-safe.
 class WorkQueue {
  public:
   WorkQueue() = default;
@@ -17,11 +18,11 @@ class WorkQueue {
   WorkQueue(const WorkQueue&) = delete;
   WorkQueue& operator=(const WorkQueue&) = delete;
 
-  /// Runs `work`, which must not throw, when `delay` has passed; unless one of `whose` of the same kind waits
-  /// to be run already. Be quick: others wait.
+  /// Runs `work` when `delay` has passed. Nothing happens when work of the same `whose` and `kind` waits
+  /// already. `work` must not throw, and must be quick because other work waits.
   void run(const void* whose, std::function<void()> work, int kind = 0,
            std::chrono::milliseconds delay = std::chrono::milliseconds(0));
-  /// Nothing of `whose` runs any more, and what waits never will. Not to be called by a task.
+  /// Drops the waiting work of `whose` and waits until none of it runs. Not to be called by work itself.
   void forget(const void* whose);
 
  private:
@@ -35,7 +36,7 @@ class WorkQueue {
   };
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::list<One> waiting_;  // in the order of their turns
+  std::list<One> waiting_;  // in the order in which they become due
   const void* running_ = nullptr;
   bool ending_ = false;
   std::thread thread_;
