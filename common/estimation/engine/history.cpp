@@ -9,7 +9,7 @@ namespace {
 
 /// Room for young snapshots, and the steps between the youngest.
 constexpr std::size_t kYoung = 48;
-constexpr std::uint64_t kFineSteps = 2;
+constexpr std::uint64_t kFineSteps = 3;
 /// An eighth of the age between snapshots, a quarter where one between two is given up.
 constexpr DurationNs kSaveShare = 8;
 constexpr DurationNs kThinShare = 4;
@@ -177,17 +177,21 @@ void History::settle(VerdictSink& sink) {
 void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
   const TimeNs newest_ns =
       target == steps_done_ ? navigator_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
+  bool saved = false;
   while (steps_done_ < target) {
     run(navigator_, steps_[steps_done_ % steps_.size()], sink);
     ++steps_done_;
-    if (save_due(newest_ns)) save(sink);
+    if (save_due(newest_ns)) {
+      save(sink);
+      saved = true;
+    }
     // A snapshot from which some step since is no longer held is of no use.
     while (snapshot_count_ > 1 && steps_done_ - marks_[0].after_step >= steps_.size()) {
       drop_snapshot(0);
       drop_before(oldest_ns(), sink);
     }
   }
-  thin_snapshots(newest_ns);
+  if (saved) thin_snapshots(newest_ns);
 }
 
 DurationNs History::future_tolerance_ns(const Measurement& measurement) const {

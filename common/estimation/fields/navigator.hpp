@@ -60,7 +60,8 @@ void fields(Archive& archive, Self& self) {
   archive("enabled", self.enabled);
   archive("stamp_ns", self.stamp_ns, fathom::archive::kInstant);
   archive("used_ns", self.used_ns, fathom::archive::kInstant);
-  archive("reading", self.reading, fathom::archive::any_number());  // compared only
+  archive("reading", self.reading,
+          fathom::archive::any_number());  // compared only
   archive("first_prediction", self.first_prediction, fathom::archive::finite());
   archive("repeats", self.repeats);
   archive("rejections", self.rejections);
@@ -126,19 +127,20 @@ void Starter::fields(Archive& archive, Self& self) {
 
 template <class Archive, class Self>
 void Descent::fields(Archive& archive, Self& self, const Setup& setup) {
-  archive("released", self.released_);
-  archive("dropping", self.aligning_);
-  archive("regained", self.regained_);
+  archive("released", self.fall_.released);
+  archive("dropping", self.fall_.aligning);
+  archive("regained", self.fall_.regained);
   if constexpr (Archive::kReads) {
-    archive.expect(self.released_ || !(self.aligning_ || self.regained_), "released", "a release before");
-    if (self.released_) self.drop_ = DropAlignment(setup.drop_config());
+    archive.expect(self.fall_.released || !(self.fall_.aligning || self.fall_.regained), "released",
+                   "a release before");
+    if (self.fall_.released) self.drop_ = DropAlignment(setup.drop_config());
   }
   archive("drop", self.drop_);
-  archive("fall_dv_N", self.fall_dv_N_, fathom::archive::finite());
-  archive("fall_dp_N", self.fall_dp_N_, fathom::archive::finite());
-  fathom::archive::covariance(archive, "fall_covariance", self.fall_covariance_);
-  archive("fall_s", self.fall_s_, fathom::archive::at_least_zero());
-  archive("carried_s", self.carried_s_, fathom::archive::at_least_zero());
+  archive("fall_dv_N", self.fall_.dv_N, fathom::archive::finite());
+  archive("fall_dp_N", self.fall_.dp_N, fathom::archive::finite());
+  fathom::archive::covariance(archive, "fall_covariance", self.fall_.covariance);
+  archive("fall_s", self.fall_.s, fathom::archive::at_least_zero());
+  archive("carried_s", self.fall_.carried_s, fathom::archive::at_least_zero());
 }
 
 template <class Archive, class Self>
@@ -152,14 +154,17 @@ void fields(Archive& archive, Self& self) {
   archive("held_position", self.held_position);
 }
 
-/// Precondition of reading: `self` is a navigator of the setup that wrote it, as constructed. The parts stand
-/// in a row without braces between them, which is how they were written before there were parts; what came
-/// with a later version stands at the end.
+/// Precondition of reading: `self` is a navigator of the setup that wrote it,
+/// as constructed. The parts stand in a row without braces between them, which
+/// is how they were written before there were parts; what came with a later
+/// version stands at the end.
 template <class Archive, class Self>
 void Navigator::fields(Archive& archive, Self& self) {
   archive.left_out(self.setup_);
   Estimate::fields(archive, self.estimate_);
   archive("sensors", self.instruments_.sensors);
+  archive.left_out(self.instruments_.count);
+  archive.left_out(self.instruments_.layer_count);
   archive("gps_used_ns", self.usage_.gps_used_ns, fathom::archive::kInstant);
   archive("usbl_used_ns", self.usage_.usbl_used_ns, fathom::archive::kInstant);
   archive("dvl_used_ns", self.usage_.dvl_used_ns, fathom::archive::kInstant);

@@ -1,5 +1,7 @@
 #include "estimation/filter/nav_transition.hpp"
 
+#include "base/wide.hpp"
+
 namespace fathom::estimation {
 namespace {
 
@@ -145,7 +147,7 @@ void NavTransition::apply(double* rows, int columns) const {
   move(rows, sum.data(), columns);
 }
 
-void NavTransition::move(double* nav, const double* imu, int columns) const {
+FATHOM_WIDE void NavTransition::move(double* nav, const double* imu, int columns) const {
   const Rates f{dt_s_, r_r_, v_r_, v_v_, phi_r_, phi_v_, force_, turn_};
   const double c00 = c_(0, 0), c01 = c_(0, 1), c02 = c_(0, 2);
   const double c10 = c_(1, 0), c11 = c_(1, 1), c12 = c_(1, 2);

@@ -18,6 +18,14 @@ bool same(const std::array<double, 3>& a, const std::array<double, 3>& b) {
 
 }  // namespace
 
+Instruments::Instruments(const Setup& setup)
+    : count(std::min<std::size_t>(setup.config.sensors.size(), kMaxSensors)) {
+  for (std::size_t i = 0; i < count; ++i) {
+    sensors[i].enabled = setup.config.sensors[i].enabled;
+    if (setup.water_layer[i] >= 0) ++layer_count;
+  }
+}
+
 bool Instrument::is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction,
                            double limit) {
   if (!same(now, reading)) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "estimation/navigator/measurement.hpp"
@@ -24,7 +25,8 @@ struct Instrument {
   };
   /// Of each row where rows are judged alone, else all of them in the first.
   std::array<Rejections, Observation::kMaxRows> rejections{};
-  // Refused fixes of a position that may yet prove right: the way by the velocity less that of the fixes.
+  // Refused fixes of a position that may yet prove right: the way by the
+  // velocity less that of the fixes.
   struct Candidate {
     TimeNs refused_since_ns = 0;  ///< the first refusal since the last use
     TimeNs since_ns = 0;          ///< of those that agree with each other and the motion; 0: none
@@ -36,7 +38,8 @@ struct Instrument {
   };
   Candidate candidate;
 
-  /// The reading has stood still while `prediction` moved by more than `limit`. Notes a new reading.
+  /// The reading has stood still while `prediction` moved by more than `limit`.
+  /// Notes a new reading.
   [[nodiscard]] bool is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction,
                                double limit);
   /// Visits each instant that is remembered.
@@ -51,16 +54,22 @@ struct Instrument {
   }
 };
 
-/// All instruments of the configuration. A ping of a DVL measures the bottom and the water layer, both of one
-/// stamp: two instruments in one.
+/// All instruments of the configuration. A ping of a DVL measures the bottom
+/// and the water layer, both of one stamp: two instruments in one. A copy costs
+/// what is in use; the rest is as constructed in every copy.
 struct Instruments {
-  explicit Instruments(const Setup& setup) {
-    for (std::size_t i = 0; i < setup.config.sensors.size(); ++i)
-      sensors[i].enabled = setup.config.sensors[i].enabled;
+  explicit Instruments(const Setup& setup);
+  Instruments(const Instruments& other) : count(other.count), layer_count(other.layer_count) { copy(other); }
+  Instruments& operator=(const Instruments& other) {
+    if (this != &other) copy(other);
+    return *this;
   }
+  ~Instruments() = default;
 
   std::array<Instrument, kMaxSensors> sensors{};
   std::array<Instrument, kMaxWaterLayers> water_layers{};
+  std::size_t count = 0;  ///< of sensors in use: the same in all navigators of a setup
+  std::size_t layer_count = 0;
 
   [[nodiscard]] bool enabled(const Measurement& measurement) const {
     return sensors[static_cast<std::size_t>(measurement.sensor)].enabled;
@@ -75,6 +84,12 @@ struct Instruments {
   static void for_each(Self& self, Visit&& visit) {
     for (auto& one : self.sensors) visit(one);
     for (auto& one : self.water_layers) visit(one);
+  }
+
+ private:
+  void copy(const Instruments& other) {
+    std::copy_n(other.sensors.begin(), count, sensors.begin());
+    std::copy_n(other.water_layers.begin(), layer_count, water_layers.begin());
   }
 };
 

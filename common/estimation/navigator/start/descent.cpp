@@ -11,7 +11,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// A heading known worse than this is none: the filter could not be linearised about it.
+// A heading known worse than this is none: the filter could not be linearised
+// about it.
 constexpr double kHeadingLeft_rad = 0.79;
 // What an instrument may say at all.
 constexpr double kDeepest_m = 12000.0;
@@ -24,11 +25,11 @@ void Descent::start(const Setup& setup, const InitialState& initial, const Estim
   DropConfig config = setup.drop_config();
   config.tilt_sigma_rad = std::max(initial.attitude_sigma_rad[0], initial.attitude_sigma_rad[1]);
   config.heading_sigma_rad = initial.attitude_sigma_rad[2];
-  fall_covariance_.setZero();
+  fall_.covariance.setZero();
   for (std::size_t i = 0; i < 3; ++i) {
     const auto at = static_cast<Eigen::Index>(i);
-    fall_covariance_(at, at) = std::pow(initial.position_sigma_N_m[i], 2);
-    fall_covariance_(at + 3, at + 3) = std::pow(initial.velocity_sigma_N_m_s[i], 2);
+    fall_.covariance(at, at) = std::pow(initial.position_sigma_N_m[i], 2);
+    fall_.covariance(at + 3, at + 3) = std::pow(initial.velocity_sigma_N_m_s[i], 2);
   }
   begin(config, estimate, alignment);
 }
@@ -38,12 +39,12 @@ void Descent::restart(const Setup& setup, double tilt_sigma_rad, double unobserv
   DropConfig config = setup.drop_config();
   config.tilt_sigma_rad = tilt_sigma_rad;
   config.heading_sigma_rad = rpy_sigma_rad(setup, estimate).z();
-  if (!aligning_) {
+  if (!fall_.aligning) {
     for (int i = 0; i < 6; ++i)
-      for (int k = 0; k < 6; ++k) fall_covariance_(i, k) = estimate.filter(i, k);
-    carried_s_ = fall_s_;
+      for (int k = 0; k < 6; ++k) fall_.covariance(i, k) = estimate.filter(i, k);
+    fall_.carried_s = fall_.s;
   }
-  fall_s_ += unobserved_s;
+  fall_.s += unobserved_s;
   carry_covariance(setup);
   begin(config, estimate, alignment);
 }
@@ -51,18 +52,18 @@ void Descent::restart(const Setup& setup, double tilt_sigma_rad, double unobserv
 void Descent::begin(const DropConfig& config, const Estimate& estimate, AlignmentWatch& alignment) {
   drop_ = DropAlignment(config);
   drop_.start(estimate.state.nav.q_NB);
-  aligning_ = released_ = true;
-  regained_ = false;
-  fall_dv_N_.setZero();
-  fall_dp_N_.setZero();
-  fall_s_ = carried_s_ = 0.0;
+  fall_.aligning = fall_.released = true;
+  fall_.regained = false;
+  fall_.dv_N.setZero();
+  fall_.dp_N.setZero();
+  fall_.s = fall_.carried_s = 0.0;
   alignment.hold_since_ns = 0;
   alignment.enter(drop_.phase(), estimate.now_ns);
 }
 
 bool Descent::resume(const Setup& setup, double gap_s, Estimate& estimate, AlignmentWatch& alignment) {
   // (ALN-19)
-  if (!released_ || !estimate.navigating) return false;
+  if (!fall_.released || !estimate.navigating) return false;
   const GapSigma sigma(setup.config.imu, gap_s);
   const Vector3d rpy = rpy_sigma_rad(setup, estimate);
   if (std::hypot(rpy.z(), sigma.angle_rad) > kHeadingLeft_rad) return false;
@@ -70,7 +71,7 @@ bool Descent::resume(const Setup& setup, double gap_s, Estimate& estimate, Align
   drop_.lose();
   estimate.widen(sigma);
   widen(setup, sigma);
-  regained_ = true;
+  fall_.regained = true;
   alignment.enter(drop_.phase(), estimate.now_ns);
   return true;
 }
@@ -78,42 +79,43 @@ bool Descent::resume(const Setup& setup, double gap_s, Estimate& estimate, Align
 void Descent::widen(const Setup& setup, const GapSigma& sigma) {
   drop_.widen(sigma.angle_rad, sigma.velocity_m_s, sigma.position_m);
   carry_covariance(setup);
-  fall_covariance_.diagonal().head<3>().array() += sigma.position_m * sigma.position_m;
-  fall_covariance_.diagonal().tail<3>().array() += sigma.velocity_m_s * sigma.velocity_m_s;
+  fall_.covariance.diagonal().head<3>().array() += sigma.position_m * sigma.position_m;
+  fall_.covariance.diagonal().tail<3>().array() += sigma.velocity_m_s * sigma.velocity_m_s;
 }
 
 void Descent::carry_covariance(const Setup& setup) {
-  // A constant velocity error moves the position; an accelerometer bias moves both.
-  const double t = fall_s_ - carried_s_;
-  carried_s_ = fall_s_;
+  // A constant velocity error moves the position; an accelerometer bias moves
+  // both.
+  const double t = fall_.s - fall_.carried_s;
+  fall_.carried_s = fall_.s;
   Eigen::Matrix<double, 6, 6> phi = Eigen::Matrix<double, 6, 6>::Identity();
   phi.topRightCorner<3, 3>() = t * Matrix3d::Identity();
-  fall_covariance_ = (phi * fall_covariance_ * phi.transpose()).eval();
+  fall_.covariance = (phi * fall_.covariance * phi.transpose()).eval();
   const double bias = setup.config.air_drop.accel_sigma_m_s2;
   Eigen::Matrix<double, 6, 3> g;
   g << 0.5 * t * t * bias * Matrix3d::Identity(), t * bias * Matrix3d::Identity();
-  fall_covariance_ += g * g.transpose();
+  fall_.covariance += g * g.transpose();
 }
 
 void Descent::place(const Setup& setup, int axes, double sigma_m) {
   carry_covariance(setup);
   for (int i = 0; i < axes; ++i) {
-    fall_covariance_.row(i).setZero();
-    fall_covariance_.col(i).setZero();
-    fall_covariance_(i, i) = sigma_m * sigma_m;
-    fall_dp_N_(i) = 0.0;  // the new position does not hang on the attitude of the fall
+    fall_.covariance.row(i).setZero();
+    fall_.covariance.col(i).setZero();
+    fall_.covariance(i, i) = sigma_m * sigma_m;
+    fall_.dp_N(i) = 0.0;  // the new position does not hang on the attitude of the fall
   }
 }
 
 void Descent::turn(const Vector3d& rotation_N_rad, Estimate& estimate) {
   // (ALN-16)
   const Matrix3d rotation = geo::to_matrix(geo::exp(rotation_N_rad)) - Matrix3d::Identity();
-  const Vector3d dv = rotation * fall_dv_N_;
-  const Vector3d dp = rotation * fall_dp_N_;
+  const Vector3d dv = rotation * fall_.dv_N;
+  const Vector3d dp = rotation * fall_.dp_N;
   estimate.state.nav.v_N_m_s += dv;
   estimate.state.nav.position = geo::moved_by(estimate.state.nav.position, dp);
-  fall_dv_N_ += dv;
-  fall_dp_N_ += dp;
+  fall_.dv_N += dv;
+  fall_.dp_N += dp;
   estimate.state.nav.q_NB = drop_.q_NB();
 }
 
@@ -128,9 +130,9 @@ void Descent::advance(const Setup& setup, const ImuStep& step, Estimate& estimat
   // The attitude is that of the end of the step.
   const Matrix3d c = geo::to_matrix(nav.q_NB * geo::exp(-0.5 * dt_s * estimate.rate_B_rad_s));
   const Vector3d force_N = c * estimate.force_B_m_s2;
-  fall_dp_N_ += dt_s * fall_dv_N_ + 0.5 * dt_s * dt_s * force_N;
-  fall_dv_N_ += dt_s * force_N;
-  fall_s_ += dt_s;
+  fall_.dp_N += dt_s * fall_.dv_N + 0.5 * dt_s * dt_s * force_N;
+  fall_.dv_N += dt_s * force_N;
+  fall_.s += dt_s;
 
   DropStep in;
   in.dt_s = dt_s;
@@ -171,21 +173,22 @@ std::optional<Judgement> Descent::feed(const Setup& setup, const Measurement& me
 
 void Descent::hand_over(const Setup& setup, Estimate& estimate, AlignmentWatch& alignment) {
   // (ALN-17)
-  aligning_ = false;
+  fall_.aligning = false;
   carry_covariance(setup);
   estimate.filter.reset(setup.initial_sigma);
   const Matrix3d attitude = drop_.attitude_covariance();
   Eigen::Matrix<double, 6, 3> arm;
-  arm << geo::skew(fall_dp_N_), geo::skew(fall_dv_N_);
+  arm << geo::skew(fall_.dp_N), geo::skew(fall_.dv_N);
   Eigen::Matrix<double, 6, 3> cross = arm * attitude;
-  Eigen::Matrix<double, 6, 6> motion = fall_covariance_ + cross * arm.transpose();
+  Eigen::Matrix<double, 6, 6> motion = fall_.covariance + cross * arm.transpose();
   const TiltFilter& fine = drop_.filter();
   const int accel = setup.index.of(Group::accel_bias);
   const auto fine_accel = fine.covariance().block<3, 3>(TiltFilter::kAccel, TiltFilter::kAccel);
   const auto fine_tilt = fine.covariance().block<3, 3>(TiltFilter::kPhi, TiltFilter::kAccel);
   Eigen::Matrix<double, 6, 3> motion_accel = arm * fine_tilt;
-  if (regained_) {
-    // (ALN-19) The velocity of before the gap is of no use; that through the water turns with the heading.
+  if (fall_.regained) {
+    // (ALN-19) The velocity of before the gap is of no use; that through the
+    // water turns with the heading.
     const auto& p = fine.covariance();
     const auto fine_v = p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kVelocity);
     const auto fine_v_phi = p.block<3, 3>(TiltFilter::kVelocity, TiltFilter::kPhi);

@@ -9,31 +9,46 @@
 
 namespace fathom::estimation {
 
-/// In-motion alignment after a drop. While it lasts, the attitude is that of DropAlignment, and position and
-/// velocity are what the specific force has made of the release since; then the filter takes over.
+/// In-motion alignment after a drop. While it lasts, the attitude is that of
+/// DropAlignment, and position and velocity are what the specific force has
+/// made of the release since; then the filter takes over.
 class Descent {
  public:
-  /// From an aircraft; what is lost after that is found again by whatever there is.
-  [[nodiscard]] bool released() const { return released_; }
+  Descent() = default;
+  Descent(const Descent& other) { *this = other; }
+  /// A copy costs little where nothing was ever released.
+  Descent& operator=(const Descent& other) {
+    if (this == &other) return *this;
+    if (fall_.released || other.fall_.released) drop_ = other.drop_;
+    fall_ = other.fall_;
+    return *this;
+  }
+  ~Descent() = default;
+
+  /// From an aircraft; what is lost after that is found again by whatever there
+  /// is.
+  [[nodiscard]] bool released() const { return fall_.released; }
   /// Roll and pitch are still those of the in-motion alignment.
-  [[nodiscard]] bool aligning() const { return aligning_; }
+  [[nodiscard]] bool aligning() const { return fall_.aligning; }
   [[nodiscard]] const DropAlignment& alignment() const { return drop_; }
-  /// Sigmas of roll, pitch and yaw: of the alignment while it lasts, else of the filter.
+  /// Sigmas of roll, pitch and yaw: of the alignment while it lasts, else of
+  /// the filter.
   [[nodiscard]] Eigen::Vector3d rpy_sigma_rad(const Setup& setup, const Estimate& estimate) const {
-    return aligning_ ? drop_.rpy_sigma_rad() : estimation::rpy_sigma_rad(setup, estimate);
+    return fall_.aligning ? drop_.rpy_sigma_rad() : estimation::rpy_sigma_rad(setup, estimate);
   }
 
   /// The release, of which the estimate is `initial`.
   void start(const Setup& setup, const InitialState& initial, const Estimate& estimate,
              AlignmentWatch& alignment);
-  /// Tilt is found again under way; heading, velocity and position are carried on, over `unobserved_s`
-  /// without inertial samples as they were.
+  /// Tilt is found again under way; heading, velocity and position are carried
+  /// on, over `unobserved_s` without inertial samples as they were.
   void restart(const Setup& setup, double tilt_sigma_rad, double unobserved_s, const Estimate& estimate,
                AlignmentWatch& alignment);
-  /// (ALN-19) After a gap in which the attitude was lost; false where the heading is lost with it.
+  /// (ALN-19) After a gap in which the attitude was lost; false where the
+  /// heading is lost with it.
   [[nodiscard]] bool resume(const Setup& setup, double gap_s, Estimate& estimate, AlignmentWatch& alignment);
   /// The attitude is lost for good.
-  void give_up() { aligning_ = false; }
+  void give_up() { fall_.aligning = false; }
 
   void widen(const Setup& setup, const GapSigma& sigma);
   void advance(const Setup& setup, const ImuStep& step, Estimate& estimate, AlignmentWatch& alignment);
@@ -55,17 +70,23 @@ class Descent {
   /// (ALN-17)
   void hand_over(const Setup& setup, Estimate& estimate, AlignmentWatch& alignment);
 
-  bool released_ = false;
-  bool aligning_ = false;
-  bool regained_ = false;  ///< begun anew after a loss: the velocity is then that through the water
-  DropAlignment drop_;
-  // Since the release: integrals of C f, once and twice; covariance of position and velocity as if the
-  // attitude were known, at the instant given.
-  Eigen::Vector3d fall_dv_N_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d fall_dp_N_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix<double, 6, 6> fall_covariance_ = Eigen::Matrix<double, 6, 6>::Zero();
-  double fall_s_ = 0.0;
-  double carried_s_ = 0.0;
+  /// What is remembered beside the alignment itself.
+  struct Fall {
+    bool released = false;
+    bool aligning = false;
+    bool regained = false;  ///< begun anew after a loss: the velocity is then
+                            ///< that through the water
+    // Since the release: integrals of C f, once and twice; covariance of
+    // position and velocity as if the attitude were known, at the instant
+    // given.
+    Eigen::Vector3d dv_N = Eigen::Vector3d::Zero();
+    Eigen::Vector3d dp_N = Eigen::Vector3d::Zero();
+    Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+    double s = 0.0;
+    double carried_s = 0.0;
+  };
+  Fall fall_;
+  DropAlignment drop_;  ///< as constructed before a release
 };
 
 }  // namespace fathom::estimation
