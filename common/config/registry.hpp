@@ -3,7 +3,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "config/explain.hpp"
 #include "config/json/error.hpp"
 
 namespace fathom::config {
@@ -13,6 +15,7 @@ struct ConfigKind {
   std::string_view name;
   std::string (*schema)() = nullptr;            ///< JSON Schema text
   void (*check)(const LoadRequest&) = nullptr;  ///< throws ConfigError
+  std::vector<FieldRow> (*rows)() = nullptr;    ///< every key
 };
 
 /// Every kind, for the schema writer and for the test that loads all shipped files.

@@ -9,7 +9,6 @@ namespace {
 
 using estimation::hydro::CoefficientEntry;
 using estimation::hydro::HydroCoefficients;
-using Fault = std::pair<std::string, std::string>;
 
 const CoefficientEntry* find_entry(const std::string& name) {
   const auto table = estimation::hydro::coefficient_table();
@@ -24,22 +23,20 @@ HydroCoefficients values_of(const HydroFile& file) {
   return out;
 }
 
-Fault fault_of(const HydroFile& file) {
+std::optional<Complaint> complaint_about(const HydroFile& file) {
   for (const auto& [name, entry] : file.coefficients) {
     const CoefficientEntry* known = find_entry(name);
     if (known == nullptr) {
       std::vector<std::string> names;
       for (const auto& one : estimation::hydro::coefficient_table()) names.emplace_back(one.name);
-      return {"coefficients." + name, "one of " + list_words(names)};
+      return Complaint{"coefficients." + name, "", "one of " + list_words(names)};
     }
     if (entry.unit != known->unit)
-      return {"coefficients." + name + ".unit", "\"" + std::string(known->unit) + "\""};
+      return Complaint{"coefficients." + name + ".unit", "", "\"" + std::string(known->unit) + "\""};
   }
-  // "name: value: expected ..."
-  const std::string complaint = values_of(file).validate();
-  if (complaint.empty()) return {};
-  const auto expected = complaint.rfind("expected ");
-  return {"coefficients." + complaint.substr(0, complaint.find(": ")), complaint.substr(expected + 9)};
+  auto found = values_of(file).complaint();
+  if (found) found->key = "coefficients." + found->key;
+  return found;
 }
 
 }  // namespace
@@ -58,7 +55,7 @@ void describe(Schema<HydroFile>& s) {
           "dimensional, body axes forward-right-down, by the names of Gertler and Hagen; \"dot\" marks an "
           "acceleration, dr and ds the fins; what is not listed is zero")
       .required();
-  s.check(fault_of);
+  s.check_values(complaint_about);
 }
 
 HydroCoefficients load_hydro_coefficients(const std::string& file) {

@@ -1,5 +1,8 @@
 #include "config/json/schema.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 namespace fathom::config {
 namespace {
 
@@ -8,6 +11,48 @@ void* at(void* whole, std::size_t offset) {
 }
 const void* at(const void* whole, std::size_t offset) {
   return static_cast<const char*>(whole) + offset;
+}
+
+bool contains(const std::vector<std::string>& list, const std::string& word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
+
+/// What stands at a dotted path; null where nothing does.
+nlohmann::json below(const nlohmann::json& json, const std::string& path) {
+  const nlohmann::json* node = &json;
+  std::istringstream parts(path);
+  for (std::string part; std::getline(parts, part, '.');) {
+    if (node->is_object() && node->contains(part)) {
+      node = &node->at(part);
+    } else if (node->is_array() && part.find_first_not_of("0123456789") == std::string::npos &&
+               std::stoul(part) < node->size()) {
+      node = &node->at(std::stoul(part));
+    } else {
+      return nullptr;
+    }
+  }
+  return *node;
+}
+
+/// A default for people: what a factor left behind the sixth digit says nothing.
+std::string short_text(const nlohmann::json& value) {
+  std::ostringstream out;
+  if (value.is_number_float()) {
+    out << value.get<double>();
+  } else if (value.is_array()) {
+    const char* before = "[";
+    if (value.empty()) out << before;
+    for (const auto& element : value) out << std::exchange(before, ", ") << short_text(element);
+    out << "]";
+  } else {
+    out << value.dump();
+  }
+  return out.str();
+}
+
+/// The sentence, behind the choices that it is for.
+std::string text_of(const FieldInfo& info) {
+  return (info.only_for.empty() ? "" : list_words(info.only_for) + ": ") + info.sentence;
 }
 
 }  // namespace
@@ -29,7 +74,7 @@ template const MemberOps& ops_of<std::vector<std::string>>();
 FieldInfo& SchemaCore::add(std::string key, std::string description, std::size_t offset,
                            std::shared_ptr<void> rules, const MemberOps& ops) {
   auto entry = std::make_unique<Entry>();
-  entry->info = {std::move(key), std::move(description), "", false};
+  entry->info = {std::move(key), std::move(description)};
   entry->offset = offset;
   entry->rules = std::move(rules);
   entry->ops = &ops;
@@ -49,21 +94,59 @@ void SchemaCore::absorb(const SchemaCore& inner, std::size_t offset) {
 
 void SchemaCore::load(const nlohmann::json& json, void* whole, const Place& place) const {
   if (!json.is_object()) place.fail(json, "an object");
+  const std::string choice = load_choice(json, whole, place);
   for (const auto& [key, value] : json.items()) {
     if (key == "$schema" && place.key.empty()) continue;
     const Entry* entry = find(key);
     if (entry == nullptr) place.child(key).fail(value, "no such key; known keys: " + known_keys());
+    if (!choice.empty() && !entry->info.known_to(choice)) {
+      const std::string& decider = deciding()->info.key;
+      place.child(key).fail(value, "no such key where " + decider + " is " + choice + "; it is known where " +
+                                       decider + " is one of " + list_words(entry->info.only_for));
+    }
     entry->ops->load(value, at(whole, entry->offset), entry->rules.get(), place.child(key));
   }
   for (const auto& entry : entries_) {
-    if (entry->info.required && !json.contains(entry->info.key)) {
-      place.child(entry->info.key).fail_missing(entry->info.description);
-    }
+    if (json.contains(entry->info.key)) continue;
+    if (entry->info.required || contains(entry->info.required_for, choice))
+      place.child(entry->info.key).fail_missing(entry->info.sentence);
   }
-  const auto [key, expectation] = violation(whole);
-  if (expectation.empty()) return;
-  const Place where = key.empty() ? place : place.child(key);
-  where.fail(json.contains(key) ? json.at(key) : nlohmann::json(nullptr), expectation);
+  check_rules(json, whole, place);
+}
+
+std::string SchemaCore::load_choice(const nlohmann::json& json, void* whole, const Place& place) const {
+  const Entry* decider = deciding();
+  if (decider == nullptr) return "";
+  const FieldInfo& info = decider->info;
+  if (json.contains(info.key)) {
+    decider->ops->load(json.at(info.key), at(whole, decider->offset), decider->rules.get(),
+                       place.child(info.key));
+  } else if (info.required) {
+    place.child(info.key).fail_missing(info.sentence);
+  }
+  const std::string choice = choice_of(whole);
+  if (defaults_ && !choice.empty()) defaults_(choice, whole);
+  return choice;
+}
+
+std::string SchemaCore::choice_of(const void* whole) const {
+  const Entry* decider = deciding();
+  if (decider == nullptr) return "";
+  const nlohmann::json word = decider->ops->dump(at(whole, decider->offset), decider->rules.get());
+  if (!word.is_string()) return "";
+  const auto text = word.get<std::string>();
+  return decider->info.choice_of == nullptr ? text : decider->info.choice_of(text);
+}
+
+void SchemaCore::check_rules(const nlohmann::json& json, const void* whole, const Place& place) const {
+  for (const Rule& rule : checks_) {
+    const auto found = rule(whole);
+    if (!found) continue;
+    const Place where = found->key.empty() ? place : place.child(found->key);
+    const nlohmann::json written = found->key.empty() ? json : below(json, found->key);
+    if (written.is_null() && !found->value.empty()) where.fail_text(found->value, found->expectation);
+    where.fail(written, found->expectation);
+  }
 }
 
 nlohmann::json SchemaCore::dump(const void* whole) const {
@@ -74,13 +157,13 @@ nlohmann::json SchemaCore::dump(const void* whole) const {
   return out;
 }
 
-nlohmann::json SchemaCore::json_schema(const void* defaults) const {
+nlohmann::json SchemaCore::json_schema(const void* defaults, void* spare) const {
   nlohmann::json properties = nlohmann::json::object();
   nlohmann::json required = nlohmann::json::array();
   for (const auto& entry : entries_) {
     nlohmann::json property = entry->ops->schema(entry->rules.get());
     property["description"] =
-        entry->info.description + (entry->info.unit.empty() ? "" : " [" + entry->info.unit + "]");
+        text_of(entry->info) + (entry->info.unit.empty() ? "" : " [" + entry->info.unit + "]");
     if (entry->info.required) {
       required.push_back(entry->info.key);
     } else {
@@ -90,7 +173,58 @@ nlohmann::json SchemaCore::json_schema(const void* defaults) const {
   }
   nlohmann::json out = {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
   if (!required.empty()) out["required"] = required;
+  const Entry* decider = deciding();
+  if (decider == nullptr) return out;
+  for (const std::string& choice : decider->info.choices) {
+    nlohmann::json then = schema_of_choice(choice, defaults, spare);
+    if (then.empty()) continue;
+    const nlohmann::json condition = {{"properties", {{decider->info.key, {{"const", choice}}}}},
+                                      {"required", nlohmann::json::array({decider->info.key})}};
+    out["allOf"].push_back({{"if", condition}, {"then", std::move(then)}});
+  }
   return out;
+}
+
+nlohmann::json SchemaCore::schema_of_choice(const std::string& choice, const void* defaults,
+                                            void* spare) const {
+  nlohmann::json out = nlohmann::json::object();
+  if (defaults_) defaults_(choice, spare);
+  for (const auto& entry : entries_) {
+    const std::string& key = entry->info.key;
+    if (!entry->info.known_to(choice)) {
+      out["properties"][key] = false;
+      continue;
+    }
+    if (contains(entry->info.required_for, choice)) {
+      out["required"].push_back(key);
+    } else if (defaults_ && !entry->info.required) {
+      const auto own = entry->ops->dump(at(spare, entry->offset), entry->rules.get());
+      if (own != entry->ops->dump(at(defaults, entry->offset), entry->rules.get()))
+        out["properties"][key]["default"] = own;
+    }
+  }
+  return out;
+}
+
+void SchemaCore::list(const void* defaults, const std::string& prefix, std::vector<FieldRow>& out) const {
+  for (const auto& entry : entries_) {
+    FieldRow row{prefix.empty() ? entry->info.key : prefix + "." + entry->info.key, entry->info, "", ""};
+    row.info.sentence = text_of(entry->info);
+    row.range = row.info.decides() ? list_words(row.info.choices) : entry->ops->range(entry->rules.get());
+    const std::size_t place = out.size();
+    entry->ops->rows(at(defaults, entry->offset), row.key, out);
+    const bool section = out.size() > place;
+    if (!section && !entry->info.required)
+      row.default_text = short_text(entry->ops->dump(at(defaults, entry->offset), entry->rules.get()));
+    out.insert(out.begin() + static_cast<std::ptrdiff_t>(place), std::move(row));
+  }
+}
+
+const SchemaCore::Entry* SchemaCore::deciding() const {
+  for (const auto& entry : entries_) {
+    if (entry->info.decides()) return entry.get();
+  }
+  return nullptr;
 }
 
 const SchemaCore::Entry* SchemaCore::find(const std::string& key) const {
@@ -104,14 +238,6 @@ std::string SchemaCore::known_keys() const {
   std::string out;
   for (const auto& entry : entries_) out += (out.empty() ? "" : ", ") + entry->info.key;
   return out;
-}
-
-SchemaCore::Violation SchemaCore::violation(const void* whole) const {
-  for (const auto& rule : checks_) {
-    auto found = rule(whole);
-    if (!found.second.empty()) return found;
-  }
-  return {};
 }
 
 }  // namespace fathom::config

@@ -27,64 +27,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/field.hpp"
+#include "config/explain.hpp"
 #include "config/json/error.hpp"
 #include "config/json/value.hpp"
 #include "config/registry.hpp"
 
 namespace fathom::config {
-
-/// Handle to refine a field after naming it.
-template <class M>
-class FieldRef {
- public:
-  FieldRef(FieldInfo& info, std::shared_ptr<Rules<Leaf<M>>> rules) : info_(&info), rules_(std::move(rules)) {}
-
-  /// Inclusive bounds of the number as written in the file.
-  FieldRef& range(double low, double high) {
-    rules_->low = low;
-    rules_->high = high;
-    return *this;
-  }
-  /// For documentation; the key should end in it as well.
-  FieldRef& unit(std::string text) {
-    info_->unit = std::move(text);
-    return *this;
-  }
-  /// The file must give it: there is no safe default (frames, units, paths).
-  FieldRef& required() {
-    info_->required = true;
-    return *this;
-  }
-  /// member = factor * number in the file; e.g. a key in degrees for a member in radians.
-  FieldRef& scaled(double factor) {
-    rules_->factor = factor;
-    return *this;
-  }
-  /// null in the file means "unknown" (NaN); numbers only.
-  FieldRef& nullable() {
-    rules_->nullable = true;
-    return *this;
-  }
-  /// A name (base/is_name.hpp).
-  FieldRef& name() {
-    rules_->text = TextForm::name;
-    return *this;
-  }
-  /// A name or nothing.
-  FieldRef& optional_name() {
-    rules_->text = TextForm::optional_name;
-    return *this;
-  }
-  /// The words of an enum, or the only strings allowed.
-  FieldRef& words(std::vector<std::pair<std::string, Leaf<M>>> list) {
-    rules_->words = std::move(list);
-    return *this;
-  }
-
- private:
-  FieldInfo* info_;
-  std::shared_ptr<Rules<Leaf<M>>> rules_;
-};
 
 /// How members of one type are converted, their type forgotten: every field of that type in every struct
 /// shares the code. `rules` points to the Rules of the member's leaf type.
@@ -92,7 +41,26 @@ struct MemberOps {
   void (*load)(const nlohmann::json& json, void* member, const void* rules, const Place& place);
   nlohmann::json (*dump)(const void* member, const void* rules);
   nlohmann::json (*schema)(const void* rules);
+  std::string (*range)(const void* rules);
+  /// The fields below this one, where it is a struct or holds structs; `member` has the defaults.
+  void (*rows)(const void* member, const std::string& key, std::vector<FieldRow>& out);
 };
+
+template <class T>
+class Schema;
+template <class T>
+[[nodiscard]] Schema<T> schema_of();
+
+/// What stands behind the key of a container for each of its elements.
+template <class M>
+[[nodiscard]] constexpr const char* element_suffix() {
+  if constexpr (requires(M m) { m.has_value(); })
+    return "";
+  else if constexpr (requires(M m) { m.begin()->second; })
+    return ".*";
+  else
+    return "[]";
+}
 
 template <class M>
 [[nodiscard]] const MemberOps& ops_of() {
@@ -103,7 +71,15 @@ template <class M>
       [](const void* member, const void* rules) {
         return dump_value(*static_cast<const M*>(member), *static_cast<const Rules<Leaf<M>>*>(rules));
       },
-      [](const void* rules) { return value_schema<M>(*static_cast<const Rules<Leaf<M>>*>(rules)); }};
+      [](const void* rules) { return value_schema<M>(*static_cast<const Rules<Leaf<M>>*>(rules)); },
+      [](const void* rules) { return range_of<Leaf<M>>(*static_cast<const Rules<Leaf<M>>*>(rules)); },
+      [](const void* member, const std::string& key, std::vector<FieldRow>& out) {
+        if constexpr (is_described<M>) {
+          schema_of<M>().list(*static_cast<const M*>(member), key, out);
+        } else if constexpr (is_described<Leaf<M>>) {
+          schema_of<Leaf<M>>().list(Leaf<M>{}, key + element_suffix<M>(), out);
+        }
+      }};
   return kOps;
 }
 
@@ -125,17 +101,23 @@ extern template const MemberOps& ops_of<std::vector<std::string>>();
 /// The fields and rules of a struct whose type is forgotten: members are known by their offset.
 class SchemaCore {
  public:
-  using Violation = std::pair<std::string, std::string>;  ///< key, expectation; both empty: none
+  /// A rule across fields. A complaint without a value is about what stands in the file under its key.
+  using Rule = std::function<std::optional<Complaint>(const void* whole)>;
+  /// Makes of the struct what its fields are where the deciding one says `choice`.
+  using Defaults = std::function<void(const std::string& choice, void* whole)>;
 
   FieldInfo& add(std::string key, std::string description, std::size_t offset, std::shared_ptr<void> rules,
                  const MemberOps& ops);
   /// Takes over the fields and rules of a struct that lies at `offset` in this one.
   void absorb(const SchemaCore& inner, std::size_t offset);
-  void check(std::function<Violation(const void*)> rule) { checks_.push_back(std::move(rule)); }
+  void check(Rule rule) { checks_.push_back(std::move(rule)); }
+  void defaults_by_choice(Defaults defaults) { defaults_ = std::move(defaults); }
 
   void load(const nlohmann::json& json, void* whole, const Place& place) const;
   [[nodiscard]] nlohmann::json dump(const void* whole) const;
-  [[nodiscard]] nlohmann::json json_schema(const void* defaults) const;
+  /// `spare` is another struct with the defaults, to be changed at will.
+  [[nodiscard]] nlohmann::json json_schema(const void* defaults, void* spare) const;
+  void list(const void* defaults, const std::string& prefix, std::vector<FieldRow>& out) const;
 
  private:
   struct Entry {
@@ -147,10 +129,17 @@ class SchemaCore {
 
   [[nodiscard]] const Entry* find(const std::string& key) const;
   [[nodiscard]] std::string known_keys() const;
-  [[nodiscard]] Violation violation(const void* whole) const;
+  [[nodiscard]] const Entry* deciding() const;
+  /// Choice of the deciding field, which is loaded before the others; empty where there is none.
+  [[nodiscard]] std::string load_choice(const nlohmann::json& json, void* whole, const Place& place) const;
+  [[nodiscard]] std::string choice_of(const void* whole) const;
+  [[nodiscard]] nlohmann::json schema_of_choice(const std::string& choice, const void* defaults,
+                                                void* spare) const;
+  void check_rules(const nlohmann::json& json, const void* whole, const Place& place) const;
 
   std::vector<std::unique_ptr<Entry>> entries_;  // FieldRef keeps references to their info
-  std::vector<std::function<Violation(const void*)>> checks_;
+  std::vector<Rule> checks_;
+  Defaults defaults_;
 };
 
 /// The description of a configuration struct.
@@ -175,14 +164,34 @@ class Schema {
 
   /// A rule across fields. Returns {key, expectation} of the violated rule, or two empty strings.
   void check(std::function<std::pair<std::string, std::string>(const T&)> rule) {
+    core_.check([rule = std::move(rule)](const void* whole) -> std::optional<Complaint> {
+      auto [key, expectation] = rule(*static_cast<const T*>(whole));
+      if (expectation.empty()) return std::nullopt;
+      return Complaint{std::move(key), "", std::move(expectation)};
+    });
+  }
+  /// Likewise where the rule knows the value that is wrong.
+  void check_values(std::function<std::optional<Complaint>(const T&)> rule) {
     core_.check([rule = std::move(rule)](const void* whole) { return rule(*static_cast<const T*>(whole)); });
+  }
+  /// The defaults where the deciding field says `choice`.
+  void defaults_by_choice(std::function<T(const std::string& choice)> defaults) {
+    core_.defaults_by_choice([defaults = std::move(defaults)](const std::string& choice, void* whole) {
+      *static_cast<T*>(whole) = defaults(choice);
+    });
   }
 
   /// Throws ConfigError on anything that is not exactly as described. Fields that are absent keep their
   /// value.
   void load(const nlohmann::json& json, T& out, const Place& place) const { core_.load(json, &out, place); }
   [[nodiscard]] nlohmann::json dump(const T& value) const { return core_.dump(&value); }
-  [[nodiscard]] nlohmann::json json_schema() const { return core_.json_schema(&probe_); }
+  [[nodiscard]] nlohmann::json json_schema() const {
+    T spare{};
+    return core_.json_schema(&probe_, &spare);
+  }
+  void list(const T& defaults, const std::string& prefix, std::vector<FieldRow>& out) const {
+    core_.list(&defaults, prefix, out);
+  }
 
  private:
   template <class>
@@ -200,7 +209,7 @@ class Schema {
 
 /// The description of T.
 template <class T>
-[[nodiscard]] Schema<T> schema_of() {
+Schema<T> schema_of() {
   Schema<T> schema;
   describe(schema);
   return schema;
@@ -245,11 +254,19 @@ template <class T>
   return out.dump(2) + "\n";
 }
 
+/// Every key of a whole file.
+template <class T>
+[[nodiscard]] std::vector<FieldRow> rows_of() {
+  std::vector<FieldRow> out;
+  schema_of<T>().list(T{}, "", out);
+  return out;
+}
+
 /// The entry of a file kind for registry.cpp; call it in that kind's *_config.cpp.
 template <class T>
 [[nodiscard]] ConfigKind make_kind(std::string_view name) {
   return {name, [] { return schema_text<T>("fathom"); },
-          [](const LoadRequest& request) { (void)load<T>(request); }};
+          [](const LoadRequest& request) { (void)load<T>(request); }, rows_of<T>};
 }
 
 }  // namespace fathom::config

@@ -22,15 +22,6 @@ std::string shorten(std::string text) {
   return text;
 }
 
-std::string number_text(double value, bool integer) {
-  std::array<char, 32> text{};
-  const auto result =
-      integer && std::abs(value) < 9e15
-          ? std::to_chars(text.data(), text.data() + text.size(), static_cast<std::int64_t>(value))
-          : std::to_chars(text.data(), text.data() + text.size(), value);
-  return {text.data(), result.ptr};
-}
-
 /// The whole of a configuration file. A device would be read without end and a pipe waits for a writer, so
 /// that only a regular file is opened.
 std::string read_text(const std::string& file) {
@@ -99,12 +90,15 @@ ConfigError::ConfigError(const std::string& file, const std::string& problem)
     : std::runtime_error(one_line(file + ": " + problem)) {}
 
 void Place::fail(const nlohmann::json& value, const std::string& expectation) const {
-  const std::string text = shorten(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-  throw ConfigError(file, key.empty() ? "(whole file)" : key, text, expectation);
+  fail_text(shorten(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)), expectation);
 }
 
-void Place::fail_missing(const std::string& description) const {
-  throw ConfigError(file, key, "missing", description);
+void Place::fail_text(const std::string& value, const std::string& expectation) const {
+  throw ConfigError(file, key.empty() ? "(whole file)" : key, value, expectation);
+}
+
+void Place::fail_missing(const std::string& sentence) const {
+  throw ConfigError(file, key, "missing", sentence);
 }
 
 nlohmann::json read_json(const LoadRequest& request) {
@@ -135,33 +129,18 @@ nlohmann::json read_json(const LoadRequest& request) {
   return std::move(json.value);
 }
 
-std::string list_words(const std::vector<std::string>& words) {
-  std::string out;
-  for (const auto& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
-std::string describe_range(double low, double high, bool integer) {
-  const bool has_low = std::isfinite(low);
-  const bool has_high = std::isfinite(high);
-  if (has_low && has_high) return " from " + number_text(low, integer) + " to " + number_text(high, integer);
-  if (has_low) return " of at least " + number_text(low, integer);
-  if (has_high) return " of at most " + number_text(high, integer);
-  return "";
-}
-
 double load_real(const nlohmann::json& json, double low, double high, bool nullable, const Place& place) {
   if (nullable && json.is_null()) return std::numeric_limits<double>::quiet_NaN();
   const double value = json.is_number() ? json.get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (!std::isfinite(value) || value < low || value > high) {
-    place.fail(json, "a number" + describe_range(low, high, false));
+    place.fail(json, "a number" + range_text(low, high, false));
   }
   return value;
 }
 
 void check_integer(const nlohmann::json& json, double low, double high, const Place& place) {
   if (!json.is_number_integer() || json.get<double>() < low || json.get<double>() > high) {
-    place.fail(json, "a whole number" + describe_range(low, high, true));
+    place.fail(json, "a whole number" + range_text(low, high, true));
   }
 }
 

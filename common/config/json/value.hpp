@@ -16,6 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/field.hpp"
 #include "base/name.hpp"
 #include "config/json/error.hpp"
 
@@ -30,48 +31,10 @@ struct Place {
     return {file, key.empty() ? name : key + "." + name};
   }
   [[noreturn]] void fail(const nlohmann::json& value, const std::string& expectation) const;
-  [[noreturn]] void fail_missing(const std::string& description) const;
+  /// Likewise where the value is text already.
+  [[noreturn]] void fail_text(const std::string& value, const std::string& expectation) const;
+  [[noreturn]] void fail_missing(const std::string& sentence) const;
 };
-
-struct FieldInfo {
-  std::string key;
-  std::string description;
-  std::string unit;
-  bool required = false;
-};
-
-/// What a text may be. A member of type Name is an optional name at least.
-enum class TextForm {
-  free,           ///< anything without control characters
-  optional_name,  ///< what is_name() accepts, or nothing
-  name            ///< what is_name() accepts
-};
-
-template <class L>
-struct Rules {
-  double low = -std::numeric_limits<double>::infinity();
-  double high = std::numeric_limits<double>::infinity();
-  double factor = 1.0;
-  bool nullable = false;
-  TextForm text = TextForm::free;
-  std::vector<std::pair<std::string, L>> words;
-};
-
-// What a container is made of in the end: the type that rules apply to.
-template <class M>
-struct LeafOf {
-  using type = M;
-};
-template <class U>
-struct LeafOf<std::vector<U>> : LeafOf<U> {};
-template <class U, std::size_t N>
-struct LeafOf<std::array<U, N>> : LeafOf<U> {};
-template <class U>
-struct LeafOf<std::optional<U>> : LeafOf<U> {};
-template <class U>
-struct LeafOf<std::map<std::string, U>> : LeafOf<U> {};
-template <class M>
-using Leaf = typename LeafOf<M>::type;
 
 template <class M>
 inline constexpr bool is_number = std::is_arithmetic_v<M> && !std::is_same_v<M, bool>;
@@ -81,8 +44,6 @@ template <class M>
 inline constexpr bool is_described = std::is_class_v<M> && !is_text<M> && std::is_same_v<M, Leaf<M>>;
 
 [[nodiscard]] nlohmann::json read_json(const LoadRequest& request);
-[[nodiscard]] std::string list_words(const std::vector<std::string>& words);
-[[nodiscard]] std::string describe_range(double low, double high, bool integer);
 
 // What does not depend on the type, compiled once.
 /// The number, checked; NaN for null where that is allowed.
@@ -113,6 +74,24 @@ template <class L>
 template <class M, class L>
 [[nodiscard]] TextForm text_form(const Rules<L>& rules) {
   return std::is_same_v<M, Name> && rules.text == TextForm::free ? TextForm::optional_name : rules.text;
+}
+
+/// What a single value may be, for people; empty where anything will do.
+template <class L>
+[[nodiscard]] std::string range_of(const Rules<L>& rules) {
+  if constexpr (std::is_same_v<L, bool>) return "true or false";
+  const std::vector<std::string> words = word_list(rules);
+  if (!words.empty()) return list_words(words);
+  if constexpr (is_number<L>) {
+    const std::string text = range_text(rules.low, rules.high, !std::is_floating_point_v<L>);
+    const std::string_view from = " from ";
+    return text.substr(std::min(text.size(), text.starts_with(from) ? from.size() : 1)) +
+           (rules.nullable ? ", null" : "");
+  } else if constexpr (is_text<L>) {
+    return text_form<L>(rules) == TextForm::free ? "text" : "name";
+  } else {
+    return "";
+  }
 }
 
 inline void load_value(const nlohmann::json& json, bool& out, const Rules<bool>&, const Place& place) {

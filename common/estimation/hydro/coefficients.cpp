@@ -13,12 +13,12 @@ using C = HydroCoefficients;
 using enum CoefficientKind;
 
 constexpr std::array kTable{
-    CoefficientEntry{"weight", "N", &C::weight, body},
-    CoefficientEntry{"buoyancy", "N", &C::buoyancy, body},
-    CoefficientEntry{"gravity", "m/s^2", &C::gravity, body},
-    CoefficientEntry{"I_xx", "kg m^2", &C::I_xx, body},
-    CoefficientEntry{"I_yy", "kg m^2", &C::I_yy, body},
-    CoefficientEntry{"I_zz", "kg m^2", &C::I_zz, body},
+    CoefficientEntry{"weight", "N", &C::weight, body, true},
+    CoefficientEntry{"buoyancy", "N", &C::buoyancy, body, true},
+    CoefficientEntry{"gravity", "m/s^2", &C::gravity, body, true},
+    CoefficientEntry{"I_xx", "kg m^2", &C::I_xx, body, true},
+    CoefficientEntry{"I_yy", "kg m^2", &C::I_yy, body, true},
+    CoefficientEntry{"I_zz", "kg m^2", &C::I_zz, body, true},
     CoefficientEntry{"x_G", "m", &C::x_G, body},
     CoefficientEntry{"y_G", "m", &C::y_G, body},
     CoefficientEntry{"z_G", "m", &C::z_G, body},
@@ -75,14 +75,8 @@ constexpr std::array kTable{
     CoefficientEntry{"N_wp", "kg m/rad", &C::N_wp, cross_flow},
     CoefficientEntry{"N_pq", "kg m^2/rad^2", &C::N_pq, cross_flow},
     CoefficientEntry{"N_uudr", "kg/rad", &C::N_uudr, fin},
-    CoefficientEntry{"propulsor_rpm", "rpm", &C::propulsor_rpm, body},
+    CoefficientEntry{"propulsor_rpm", "rpm", &C::propulsor_rpm, body, true},
 };
-
-std::string complaint(const char* name, double value, const char* expected) {
-  std::ostringstream out;
-  out << name << ": " << value << ": expected " << expected;
-  return out.str();
-}
 
 }  // namespace
 
@@ -103,27 +97,55 @@ Matrix6 mass_matrix(const HydroCoefficients& c) {
   return out;
 }
 
-std::string HydroCoefficients::validate() const {
+std::optional<Complaint> HydroCoefficients::complaint() const {
+  const auto complaint = [](const CoefficientEntry& one, double value, const char* expected) {
+    std::ostringstream text;
+    text << value;
+    return Complaint{one.name, text.str(), expected};
+  };
   for (const CoefficientEntry& one : kTable) {
     const double value = this->*one.member;
-    if (!std::isfinite(value)) return complaint(one.name, value, "a finite number");
+    if (!std::isfinite(value)) return complaint(one, value, "a finite number");
     if (one.kind == drag && !(value < 0.0))
-      return complaint(one.name, value, "a negative number: drag takes energy from the motion");
+      return complaint(one, value, "a negative number: drag takes energy from the motion");
   }
-  for (const auto& [name, member] :
-       {std::pair{"weight", &C::weight}, std::pair{"buoyancy", &C::buoyancy},
-        std::pair{"gravity", &C::gravity}, std::pair{"I_xx", &C::I_xx}, std::pair{"I_yy", &C::I_yy},
-        std::pair{"I_zz", &C::I_zz}, std::pair{"propulsor_rpm", &C::propulsor_rpm}}) {
-    if (!(this->*member > 0.0)) return complaint(name, this->*member, "a positive number");
+  for (const CoefficientEntry& one : kTable) {
+    if (one.positive && !(this->*one.member > 0.0))
+      return complaint(one, this->*one.member, "a positive number");
   }
   // Energy of any motion is positive: of the symmetric part, since sources differ in the cross terms.
   const Matrix6 m = mass_matrix(*this);
   const Eigen::LLT<Matrix6> factor(0.5 * (m + m.transpose()));
   if (factor.info() != Eigen::Success)
-    return "mass matrix: not positive definite: expected added masses (X_udot, Y_vdot, Z_wdot, K_pdot, "
-           "M_qdot, "
-           "N_rdot) at or below 0 and small cross terms";
-  return "";
+    return Complaint{"mass matrix", "not positive definite",
+                     "added masses (X_udot, Y_vdot, Z_wdot, K_pdot, M_qdot, N_rdot) at or below 0 and small "
+                     "cross terms"};
+  return {};
+}
+
+std::string HydroCoefficients::validate() const {
+  const auto found = complaint();
+  return found ? found->text() : "";
+}
+
+std::string to_string(CoefficientKind kind) {
+  switch (kind) {
+    case body:
+      return "rigid body, weighed and measured ashore";
+    case added_mass:
+      return "added mass";
+    case cross_flow:
+      return "drag of the hull across the flow, and products of velocities and rates";
+    case drag:
+      return "drag, negative";
+    case lift:
+      return "lift of hull and fins, proportional to u";
+    case fin:
+      return "force of a fin";
+    case propulsion:
+      return "force of the propulsor at propulsor_rpm";
+  }
+  return {};
 }
 
 }  // namespace fathom::estimation::hydro

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include <Eigen/Core>
+
+#include "base/field.hpp"
 
 namespace fathom::estimation::hydro {
 
@@ -41,8 +44,10 @@ struct HydroCoefficients {
   double propulsor_rpm = 0.0;
 
   [[nodiscard]] double mass() const { return weight / gravity; }
-  /// Empty when this is a vehicle, else one line "name: value: what was expected": all finite, weights and
-  /// inertias positive, damping that damps, a positive definite mass matrix.
+  /// Nothing when this is a vehicle: all finite, weights and inertias positive, damping that damps, a
+  /// positive definite mass matrix.
+  [[nodiscard]] std::optional<Complaint> complaint() const;
+  /// Its text; empty when this is a vehicle.
   [[nodiscard]] std::string validate() const;
 };
 
@@ -67,7 +72,11 @@ struct CoefficientEntry {
   const char* unit;
   double HydroCoefficients::*member;
   CoefficientKind kind;
+  bool positive = false;  ///< it must be
 };
+
+/// What a coefficient of the kind is, in a few words.
+[[nodiscard]] std::string to_string(CoefficientKind kind);
 
 /// Every coefficient once, in the order of the struct.
 [[nodiscard]] std::span<const CoefficientEntry> coefficient_table();

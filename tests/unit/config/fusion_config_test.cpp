@@ -1,5 +1,6 @@
 #include "config/fusion/fusion_config.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "config/registry.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::config {
 namespace {
@@ -34,6 +39,10 @@ class File {
 std::string with_engine(const std::string& engine) {
   return R"({"vehicle": "thor", "engine": {"imu": {}, "sensors": []})" +
          (engine.empty() ? "" : ", " + engine) + "}";
+}
+
+std::string sensor(const std::string& text) {
+  return R"({"engine": {"imu": {}, "sensors": [)" + text + "]}}";
 }
 
 std::string error_of(const std::string& text) {
@@ -94,6 +103,36 @@ TEST(FusionConfig, SensorsTakeTheDefaultsOfTheirKind) {
   EXPECT_TRUE(config.engine.groups.dvl_scale);
 }
 
+// What the schema says of a kind, and what the loader does with it.
+TEST(FusionConfig, EachKindKnowsTheKeysThatTheSchemaLeavesIt) {
+  const auto kind = std::find_if(config_kinds().begin(), config_kinds().end(),
+                                 [](const ConfigKind& each) { return each.name == "fusion"; });
+  const auto schema = nlohmann::json::parse(kind->schema());
+  const auto& items = schema["properties"]["engine"]["properties"]["sensors"]["items"];
+  std::size_t kinds = 0;
+  for_each_aiding_kind([&](auto row) {
+    ++kinds;
+    nlohmann::json forbidden;
+    for (const auto& rule : items["allOf"]) {
+      if (rule["if"]["properties"]["kind"]["const"] == row.kWord) forbidden = rule["then"]["properties"];
+    }
+    for (const auto& [key, property] : items["properties"].items()) {
+      if (!property.contains("default")) continue;
+      nlohmann::json one = {{"sensor", "a"}, {"kind", row.kWord}};
+      for (const char* needed : {"lever_B_m", "mounting_rpy_deg"}) {
+        if (!forbidden.contains(needed) || forbidden[needed] != false) one[needed] = {0, 0, 0};
+      }
+      one[key] = property["default"];
+      const std::string answer = error_of(sensor(one.dump()));
+      const bool refused = forbidden.contains(key) && forbidden[key] == false;
+      const std::string expected =
+          refused ? "no such key where kind is " + std::string(row.kWord) : "no error";
+      EXPECT_THAT(answer, testing::HasSubstr(expected)) << row.kWord << " " << key;
+    }
+  });
+  EXPECT_EQ(kinds, items["properties"]["kind"]["enum"].size());
+}
+
 TEST(FusionConfig, HashFollowsEveryEffectiveValue) {
   const File file(with_engine(""));
   const std::string plain = load_service_config<FusionConfig>({file.path(), {}}).hash;
@@ -112,10 +151,6 @@ class BadFusionConfig : public testing::TestWithParam<Bad> {};
 
 TEST_P(BadFusionConfig, IsNamedByFileKeyValueAndExpectation) {
   EXPECT_THAT(error_of(GetParam().text), testing::HasSubstr(GetParam().message));
-}
-
-std::string sensor(const std::string& text) {
-  return R"({"engine": {"imu": {}, "sensors": [)" + text + "]}}";
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -138,7 +173,23 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"no_mounting", sensor(R"({"sensor": "a", "kind": "dvl", "lever_B_m": [0, 0, 0]})"),
             "engine.sensors.0.mounting_rpy_deg: is missing"},
         Bad{"wrong_unit", sensor(R"({"sensor": "a", "kind": "heading", "sigma_m": [1, 1, 1]})"),
-            "engine.sensors.0.sigma_m: is [1,1,1], expected the key sigma_deg"},
+            "engine.sensors.0.sigma_m: is [1,1,1], expected no such key where kind is heading; it is known "
+            "where kind is one of gps, depth, usbl"},
+        Bad{"beams_of_a_gps",
+            sensor(R"({"sensor": "a", "kind": "gps", "lever_B_m": [0, 0, 0], "use_beams": true})"),
+            "engine.sensors.0.use_beams: is true, expected no such key where kind is gps; it is known where "
+            "kind "
+            "is one of dvl"},
+        Bad{"antennas_of_a_depth",
+            sensor(R"({"sensor": "a", "kind": "depth", "lever_B_m": [0, 0, 0], "two_antenna": true})"),
+            "engine.sensors.0.two_antenna: is true, expected no such key where kind is depth; it is known "
+            "where "
+            "kind is one of heading"},
+        Bad{"gate_of_fins", sensor(R"({"sensor": "a", "kind": "fins", "gate_probability": 0.9})"),
+            "engine.sensors.0.gate_probability: is 0.9, expected no such key where kind is fins; it is known "
+            "where kind is one of gps, dvl, depth, heading, usbl, airspeed, propulsion"},
+        Bad{"imu_as_aiding", sensor(R"({"sensor": "a", "kind": "imu"})"),
+            "engine.sensors.0.kind: is \"imu\", expected one of gps"},
         Bad{"two_numbers", sensor(R"({"sensor": "a", "kind": "gps", "lever_B_m": [0, 0]})"),
             "engine.sensors.0.lever_B_m: is [0,0], expected an array of 3"},
         Bad{"twice", sensor(R"({"sensor": "a", "kind": "airspeed"}, {"sensor": "a", "kind": "airspeed"})"),
@@ -146,7 +197,9 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"range", R"({"engine": {"imu": {"nominal_rate_hz": 0}, "sensors": []}})",
             "engine.imu.nominal_rate_hz: is 0, expected a number from 1 to 2000"},
         Bad{"across_fields", R"({"engine": {"imu": {"max_gap_s": 5, "lost_gap_s": 1}, "sensors": []}})",
-            "engine.imu.lost_gap_s: is"},
+            "engine.imu.lost_gap_s: is 1, expected at least imu.max_gap_s, which is 5"},
+        Bad{"given_nothing", R"({"engine": {"imu": {}, "sensors": [], "snapshot_interval_s": 9}})",
+            "engine.snapshot_interval_s: is 9, expected at most horizon_s, which is 5"},
         Bad{"groups", R"({"engine": {"imu": {}, "sensors": [], "groups": {"dvl_scale_xyz": true}}})",
             "engine.groups.dvl_scale_xyz"},
         Bad{"configuration", R"({"engine": {"imu": {}, "sensors": [], "configuration": "best"}})",

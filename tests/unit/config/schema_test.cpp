@@ -51,6 +51,31 @@ void describe(Schema<Outer>& s) {
   });
 }
 
+/// A shape: which of its sizes mean something follows from what it is.
+struct Solid {
+  Kind transport = Kind::tcp;
+  std::string shape = "ball";
+  double radius_m = 1.0;
+  double edge_m = 2.0;
+};
+void describe(Schema<Solid>& s) {
+  s.field("shape", &Solid::shape, "its form")
+      .decides({"ball", "box"}, [](const std::string& text) -> std::string {
+        return text == "ball" || text == "sphere" ? "ball" : text == "box" ? "box" : "";
+      });
+  s.field("radius_m", &Solid::radius_m, "of the ball").unit("m").only_for({"ball"}).required_for({"ball"});
+  s.field("edge_m", &Solid::edge_m, "its edge").unit("m").range(0, 10).only_for({"box"});
+  s.defaults_by_choice([](const std::string& shape) {
+    Solid out;
+    out.edge_m = shape == "box" ? 3.0 : 2.0;
+    return out;
+  });
+  s.check_values([](const Solid& solid) -> std::optional<Complaint> {
+    if (solid.edge_m < 9.0) return std::nullopt;
+    return Complaint{"edge_m", "too long", "less than 9"};
+  });
+}
+
 namespace {
 
 class SchemaTest : public ::testing::Test {
@@ -150,6 +175,52 @@ TEST_F(SchemaTest, JsonSchemaCarriesRangesWordsAndDefaults) {
   EXPECT_EQ(schema["properties"]["kind"]["enum"], nlohmann::json::array({"tcp", "udp"}));
   EXPECT_EQ(schema["properties"]["links"]["items"]["required"][0], "host");
   EXPECT_EQ(schema["properties"]["vehicle"]["default"], "auv");
+}
+
+std::string solid_error(const std::string& text) {
+  Solid out;
+  try {
+    schema_of<Solid>().load(nlohmann::json::parse(text), out, {"solid.json", ""});
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(SchemaTest, RefusesAKeyThatMeansNothingForTheChoiceMade) {
+  EXPECT_EQ(
+      solid_error(R"({"shape": "box", "radius_m": 1})"),
+      "solid.json: radius_m: is 1, expected no such key where shape is box; it is known where shape is one "
+      "of ball");
+  EXPECT_EQ(
+      solid_error(R"({"shape": "sphere", "edge_m": 1})"),
+      "solid.json: edge_m: is 1, expected no such key where shape is ball; it is known where shape is one "
+      "of box");
+  EXPECT_EQ(solid_error(R"({"edge_m": 1})"), solid_error(R"({"shape": "ball", "edge_m": 1})"));
+  EXPECT_EQ(solid_error(R"({"shape": "sphere"})"), "solid.json: radius_m: is missing, expected of the ball");
+  EXPECT_EQ(solid_error(R"({"shape": "sphere", "radius_m": 1})"), "no error");
+}
+
+TEST_F(SchemaTest, AChoiceHasDefaultsOfItsOwn) {
+  Solid out;
+  schema_of<Solid>().load(nlohmann::json::parse(R"({"shape": "box"})"), out, {"solid.json", ""});
+  EXPECT_EQ(out.edge_m, 3.0);
+  EXPECT_EQ(out.shape, "box");
+}
+
+TEST_F(SchemaTest, JsonSchemaForbidsWhatTheLoaderForbids) {
+  const auto schema = nlohmann::json::parse(schema_text<Solid>("solid"));
+  ASSERT_EQ(schema["allOf"].size(), 2U);
+  EXPECT_EQ(schema["allOf"][0]["if"]["properties"]["shape"]["const"], "ball");
+  EXPECT_EQ(schema["allOf"][0]["then"]["properties"]["edge_m"], false);
+  EXPECT_EQ(schema["allOf"][0]["then"]["required"][0], "radius_m");
+  EXPECT_EQ(schema["allOf"][1]["then"]["properties"]["radius_m"], false);
+  EXPECT_EQ(schema["allOf"][1]["then"]["properties"]["edge_m"]["default"], 3.0);
+}
+
+TEST_F(SchemaTest, AComplaintSaysWhatStandsInTheFile) {
+  EXPECT_EQ(solid_error(R"({"shape": "box", "edge_m": 9.5})"),
+            "solid.json: edge_m: is 9.5, expected less than 9");
 }
 
 }  // namespace

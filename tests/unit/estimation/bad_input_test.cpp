@@ -414,7 +414,7 @@ TEST(Configuration, IsRefusedWithKeyAndExpectation) {
   EngineConfig config = SurveyRun::config();
   EXPECT_EQ(config.validate(), "");
   config.sensors[1].sigma[0] = -1.0;
-  EXPECT_NE(config.validate().find("sensors.dvl0.sigma[0]: -1: expected"), std::string::npos);
+  EXPECT_NE(config.validate().find("sensors.1.sigma_m_s.0: -1: expected"), std::string::npos);
   EXPECT_THROW(FusionEngine{config}, std::invalid_argument);
   config = SurveyRun::config();
   config.sensors[1].sensor = config.sensors[0].sensor;

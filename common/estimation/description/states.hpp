@@ -1,19 +1,15 @@
-// Which states are estimated, and how uncertain they are at the start.
-#include <numbers>
+#pragma once
 
-#include "config/fusion/engine_schema.hpp"
+// Description of which states are estimated, and how uncertain they are at the start.
 
-namespace fathom::config {
+#include "base/field.hpp"
+#include "estimation/description/units.hpp"
+#include "estimation/engine_config.hpp"
 
-using namespace estimation;
+namespace fathom::estimation {
 
-namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
-}  // namespace
-
-void describe(Schema<StateGroups>& s) {
+template <template <class> class Walk>
+void describe(Walk<StateGroups>& s) {
   using C = StateGroups;
   s.field("accel_scale", &C::accel_scale, "accelerometer scale, 3 states");
   s.field("gyro_scale", &C::gyro_scale, "gyro scale, 3 states");
@@ -48,16 +44,22 @@ void describe(Schema<StateGroups>& s) {
           "place of the non-holonomic constraint beyond the configured one, 3 states");
 }
 
-void describe(Schema<StateModelConfig>& s) {
+template <template <class> class Walk>
+void describe(Walk<StateModelConfig>& s) {
   using C = StateModelConfig;
-  s.field("dvl_scale_sigma", &C::dvl_scale_sigma, "a ratio").range(1e-6, 1);
-  s.field("dvl_misalignment_sigma_deg", &C::dvl_misalignment_sigma_rad, "each axis")
+  s.field("dvl_scale_sigma", &C::dvl_scale_sigma, "DVL scale error, a ratio").range(1e-6, 1);
+  s.field("dvl_misalignment_sigma_deg", &C::dvl_misalignment_sigma_rad, "DVL misalignment about each axis")
       .unit("deg")
       .range(1e-4, 57)
       .scaled(kRadPerDeg);
-  s.field("dvl_bias_sigma_m_s", &C::dvl_bias_sigma_m_s, "each axis").unit("m/s").range(1e-6, 10);
-  s.field("current_sigma_m_s", &C::current_sigma_m_s, "each component").unit("m/s").range(1e-6, 100);
-  s.field("current_time_constant_s", &C::current_time_constant_s, "of the current; 0: it does not change")
+  s.field("dvl_bias_sigma_m_s", &C::dvl_bias_sigma_m_s, "DVL bias along each axis")
+      .unit("m/s")
+      .range(1e-6, 10);
+  s.field("current_sigma_m_s", &C::current_sigma_m_s, "each component of the velocity of the medium")
+      .unit("m/s")
+      .range(1e-6, 100);
+  s.field("current_time_constant_s", &C::current_time_constant_s,
+          "time constant of the velocity of the medium; 0: it does not change")
       .unit("s")
       .range(0, 1e9);
   s.field("depth_bias_sigma_m", &C::depth_bias_sigma_m, "depth bias").unit("m").range(1e-6, 100);
@@ -65,10 +67,10 @@ void describe(Schema<StateModelConfig>& s) {
           "ellipsoidal height of the water surface, where it is not estimated or as its start")
       .unit("m")
       .range(-500, 9000);
-  s.field("surface_altitude_sigma_m", &C::surface_altitude_sigma_m, "of that start")
+  s.field("surface_altitude_sigma_m", &C::surface_altitude_sigma_m, "uncertainty of that height")
       .unit("m")
       .range(1e-6, 1e4);
-  s.field("surface_altitude_walk_m_sqrt_s", &C::surface_altitude_walk_m_sqrt_s, "tide")
+  s.field("surface_altitude_walk_m_sqrt_s", &C::surface_altitude_walk_m_sqrt_s, "tide, as a random walk")
       .unit("m/sqrt(s)")
       .range(0, 1);
   s.field("heading_bias_sigma_deg", &C::heading_bias_sigma_rad, "compass bias")
@@ -76,56 +78,71 @@ void describe(Schema<StateModelConfig>& s) {
       .range(1e-4, 170)
       .scaled(kRadPerDeg);
   s.field("heading_bias_time_constant_s", &C::heading_bias_time_constant_s,
-          "deviation changes with course; 0 for a constant")
+          "time constant of the compass bias, since deviation changes with course; 0: it is constant")
       .unit("s")
       .range(0, 1e9);
-  s.field("heading_deviation_sigma_deg", &C::heading_deviation_sigma_rad, "each coefficient")
+  s.field("heading_deviation_sigma_deg", &C::heading_deviation_sigma_rad,
+          "each coefficient of the compass deviation")
       .unit("deg")
       .range(1e-4, 170)
       .scaled(kRadPerDeg);
-  s.field("usbl_bias_sigma_m", &C::usbl_bias_sigma_m, "each component").unit("m").range(1e-6, 1e4);
-  s.field("gps_bias_sigma_m", &C::gps_bias_sigma_m, "horizontal, each component; vertical is twice it")
+  s.field("usbl_bias_sigma_m", &C::usbl_bias_sigma_m, "each component of the USBL bias")
+      .unit("m")
+      .range(1e-6, 1e4);
+  s.field("gps_bias_sigma_m", &C::gps_bias_sigma_m,
+          "correlated GPS error, each horizontal component; the vertical one is twice it")
       .unit("m")
       .range(1e-6, 100);
-  s.field("gps_bias_time_constant_s", &C::gps_bias_time_constant_s, "of the correlated GPS error")
+  s.field("gps_bias_time_constant_s", &C::gps_bias_time_constant_s,
+          "time constant of the correlated GPS error")
       .unit("s")
       .range(1, 1e9);
-  s.field("usbl_misalignment_sigma_deg", &C::usbl_misalignment_sigma_rad, "each axis")
+  s.field("usbl_misalignment_sigma_deg", &C::usbl_misalignment_sigma_rad, "USBL misalignment about each axis")
       .unit("deg")
       .range(1e-4, 57)
       .scaled(kRadPerDeg);
-  s.field("gps_latency_sigma_s", &C::gps_latency_sigma_s, "beyond the configured latency")
+  s.field("gps_latency_sigma_s", &C::gps_latency_sigma_s, "GPS latency beyond the configured one")
       .unit("s")
       .range(1e-6, 10);
-  s.field("gps_lever_sigma_m", &C::gps_lever_sigma_m, "each component").unit("m").range(1e-6, 100);
-  s.field("log_scale_sigma", &C::log_scale_sigma, "a ratio").range(1e-6, 1);
+  s.field("gps_lever_sigma_m", &C::gps_lever_sigma_m, "each component of the place of the GPS antenna")
+      .unit("m")
+      .range(1e-6, 100);
+  s.field("log_scale_sigma", &C::log_scale_sigma, "scale error of the speed log, a ratio").range(1e-6, 1);
   s.field("airspeed_bias_sigma_m_s", &C::airspeed_bias_sigma_m_s, "airspeed bias")
       .unit("m/s")
       .range(1e-6, 100);
-  s.field("airspeed_scale_sigma", &C::airspeed_scale_sigma, "a ratio").range(1e-6, 1);
+  s.field("airspeed_scale_sigma", &C::airspeed_scale_sigma, "airspeed scale error, a ratio").range(1e-6, 1);
   s.field("flow_angle_sigma_deg", &C::flow_angle_sigma_rad, "sideslip and angle of attack")
       .unit("deg")
       .range(1e-4, 57)
       .scaled(kRadPerDeg);
-  s.field("flow_angle_time_constant_s", &C::flow_angle_time_constant_s, "of sideslip and angle of attack")
+  s.field("flow_angle_time_constant_s", &C::flow_angle_time_constant_s,
+          "time constant of sideslip and angle of attack")
       .unit("s")
       .range(1e-2, 1e9);
   s.field("baro_bias_sigma_m", &C::baro_bias_sigma_m, "barometric height less ellipsoidal height")
       .unit("m")
       .range(1e-6, 1e4);
-  s.field("baro_bias_walk_m_sqrt_s", &C::baro_bias_walk_m_sqrt_s, "weather and the instrument's drift")
+  s.field("baro_bias_walk_m_sqrt_s", &C::baro_bias_walk_m_sqrt_s,
+          "weather and the instrument's drift, as a random walk")
       .unit("m/sqrt(s)")
       .range(0, 100);
   s.field("mount_angle_sigma_deg", &C::mount_angle_sigma_rad, "pitch and yaw of the wheels' axes")
       .unit("deg")
       .range(1e-4, 57)
       .scaled(kRadPerDeg);
-  s.field("model_scale_sigma", &C::model_scale_sigma, "a ratio").range(1e-6, 1);
-  s.field("model_bias_sigma_m_s", &C::model_bias_sigma_m_s, "each component").unit("m/s").range(1e-6, 10);
-  s.field("model_bias_time_constant_s", &C::model_bias_time_constant_s, "of the slow error")
+  s.field("model_scale_sigma", &C::model_scale_sigma, "share by which the vehicle model errs, a ratio")
+      .range(1e-6, 1);
+  s.field("model_bias_sigma_m_s", &C::model_bias_sigma_m_s,
+          "each component of the vehicle model's slow error")
+      .unit("m/s")
+      .range(1e-6, 10);
+  s.field("model_bias_time_constant_s", &C::model_bias_time_constant_s, "time constant of that slow error")
       .unit("s")
       .range(1, 1e9);
-  s.field("mount_lever_sigma_m", &C::mount_lever_sigma_m, "each component").unit("m").range(1e-6, 100);
+  s.field("mount_lever_sigma_m", &C::mount_lever_sigma_m, "each component of the place of the constraint")
+      .unit("m")
+      .range(1e-6, 100);
 }
 
-}  // namespace fathom::config
+}  // namespace fathom::estimation
