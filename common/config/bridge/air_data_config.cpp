@@ -107,14 +107,15 @@ void describe(Schema<AirTransducers>& s) {
 void describe(Schema<AirDataSensorConfig>& s) {
   using C = AirDataSensorConfig;
   s.include(&C::sensor);
-  s.field("require_checksum", &C::require_checksum, "lines and sentences without a checksum are refused");
+  s.field("require_checksum", &C::require_checksum, "lines and sentences without a checksum are refused")
+      .only_for({"ascii_air_data", "nmea_air_data"});
   s.field("airspeed", &C::wanted,
           "true: sent, or computed from speed, static pressure and temperature, and refused where these are "
           "missing; indicated: will do, and fusion takes the density of the standard atmosphere")
       .words(
           {{"true", codec::AirspeedWanted::true_airspeed}, {"indicated", codec::AirspeedWanted::indicated}});
-  s.field("line", &C::line, "protocol ascii_air_data: the line's shape");
-  s.field("transducers", &C::transducers, "protocol nmea_air_data: names in XDR");
+  s.field("line", &C::line, "the line's shape").only_for({"ascii_air_data"});
+  s.field("transducers", &C::transducers, "names in XDR").only_for({"nmea_air_data"});
   s.field("max_airspeed_m_s", &C::max_airspeed_m_s, "samples beyond are refused").unit("m/s").range(1, 350);
   s.check([](const C& c) -> Violation {
     const codec::Protocol* protocol = codec::find_protocol(c.sensor.protocol);

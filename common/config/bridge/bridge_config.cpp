@@ -28,16 +28,22 @@ bool is_rotation(const std::array<double, 9>& m) {
   return determinant > 0.0;
 }
 
-std::string protocol_list() {
+std::vector<std::string> protocol_names() {
   std::vector<std::string> names;
   for (const auto& protocol : codec::protocols()) names.emplace_back(protocol.name);
-  return list_words(names);
+  return names;
+}
+
+// The protocol's own name for any spelling or alias; empty for no protocol.
+std::string protocol_named(const std::string& text) {
+  const codec::Protocol* protocol = codec::find_protocol(text);
+  return protocol == nullptr ? "" : std::string(protocol->name);
 }
 
 template <class Sensor>
 void require_checksum(Schema<Sensor>& s) {
-  s.field("require_checksum", &Sensor::require_checksum,
-          "NMEA 0183 sentences without a checksum are refused");
+  s.field("require_checksum", &Sensor::require_checksum, "NMEA 0183 sentences without a checksum are refused")
+      .only_for({"nmea0183", "psimssb"});
 }
 
 }  // namespace
@@ -47,7 +53,9 @@ void describe(Schema<SensorConfig>& s) {
       .name()
       .required();
   s.field("source", &SensorConfig::source, "where its bytes come from").required();
-  s.field("protocol", &SensorConfig::protocol, "what its bytes mean: " + protocol_list()).required();
+  s.field("protocol", &SensorConfig::protocol, "what its bytes mean: " + list_words(protocol_names()))
+      .decides(protocol_names(), protocol_named)
+      .required();
   s.field("time", &SensorConfig::time, "when its samples were valid").required();
   s.field("rate_hz", &SensorConfig::rate_hz, "samples per second to expect")
       .unit("Hz")
@@ -63,7 +71,8 @@ void describe(Schema<SensorConfig>& s) {
       .unit("s")
       .range(0, 86'400);
   s.check([](const SensorConfig& c) -> Violation {
-    if (codec::find_protocol(c.protocol) == nullptr) return {"protocol", "one of " + protocol_list()};
+    if (codec::find_protocol(c.protocol) == nullptr)
+      return {"protocol", "one of " + list_words(protocol_names())};
     return {};
   });
 }
@@ -108,7 +117,7 @@ void describe(Schema<ImuSensorConfig>& s) {
       .range(1, 100'000)
       .scaled(kDegree);
   s.field("max_specific_force_m_s2", &ImuSensorConfig::max_specific_force_m_s2, "samples beyond are refused")
-      .unit("m/s2")
+      .unit("m/s^2")
       .range(10, 1e6);
 }
 
@@ -118,7 +127,8 @@ void describe(Schema<DvlSensorConfig>& s) {
           "rotation of recorded instrument axes about down onto the vehicle")
       .unit("deg")
       .range(-360, 360)
-      .scaled(kDegree);
+      .scaled(kDegree)
+      .only_for({"pd0"});
   s.field("max_speed_m_s", &DvlSensorConfig::max_speed_m_s, "samples beyond are refused")
       .unit("m/s")
       .range(0.1, 1000);
@@ -152,7 +162,7 @@ void describe(Schema<DepthSensorConfig>& s) {
           "air pressure at the surface, taken off the measured one")
       .unit("Pa")
       .range(0, 120'000);
-  s.field("ascii", &DepthSensorConfig::ascii, "protocol ascii_depth: the line's shape");
+  s.field("ascii", &DepthSensorConfig::ascii, "the line's shape").only_for({"ascii_depth"});
   s.field("max_depth_m", &DepthSensorConfig::max_depth_m, "samples beyond are refused")
       .unit("m")
       .range(1, 12'000);

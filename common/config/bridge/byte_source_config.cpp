@@ -16,18 +16,28 @@ void describe(Schema<ByteSourceConfig>& s) {
               {"tcp_server", SourceType::tcp_server},
               {"udp", SourceType::udp},
               {"file", SourceType::file}})
+      .decides()
       .required();
-  s.field("path", &ByteSourceConfig::path, "serial: device, e.g. /dev/ttyUSB0; file: the recording");
-  s.field("baud", &ByteSourceConfig::baud, "serial: bits per second; 8 data bits, no parity, 1 stop bit")
-      .range(1200, 4'000'000);
+  s.field("path", &ByteSourceConfig::path, "the device, e.g. /dev/ttyUSB0, or the recording")
+      .only_for({"serial", "file"});
+  s.field("baud", &ByteSourceConfig::baud, "bits per second; 8 data bits, no parity, 1 stop bit")
+      .range(1200, 4'000'000)
+      .only_for({"serial"});
   s.field("address", &ByteSourceConfig::address,
-          "tcp_client: numeric address of the device; tcp_server, udp: numeric address of this host to bind");
-  s.field("port", &ByteSourceConfig::port, "tcp_client, tcp_server, udp: port").range(0, 65'535);
-  s.field("multicast", &ByteSourceConfig::multicast, "udp: group to join on the address; empty: none");
-  s.field("pace", &ByteSourceConfig::pace,
-          "file: played as its frames' times say, at bytes_per_s, or at once")
-      .words({{"original", Pace::original}, {"rate", Pace::rate}, {"fastest", Pace::fastest}});
-  s.field("bytes_per_s", &ByteSourceConfig::bytes_per_s, "file with pace rate: speed").range(1, 1e9);
+          "numeric address: of the device for tcp_client, else of this host to bind")
+      .only_for({"tcp_client", "tcp_server", "udp"});
+  s.field("port", &ByteSourceConfig::port, "TCP or UDP port")
+      .range(0, 65'535)
+      .only_for({"tcp_client", "tcp_server", "udp"});
+  s.field("multicast", &ByteSourceConfig::multicast, "group to join on the address; empty: none")
+      .only_for({"udp"});
+  s.field("pace", &ByteSourceConfig::pace, "played as its frames' times say, at bytes_per_s, or at once")
+      .words({{"original", Pace::original}, {"rate", Pace::rate}, {"fastest", Pace::fastest}})
+      .only_for({"file"});
+  s.field("bytes_per_s", &ByteSourceConfig::bytes_per_s, "speed where pace is rate")
+      .unit("bytes/s")
+      .range(1, 1e9)
+      .only_for({"file"});
   s.field("silence_s", &ByteSourceConfig::silence_s,
           "a connection without bytes for this long is reported silent; 0: when its samples are stale")
       .unit("s")
@@ -58,34 +68,40 @@ void describe(Schema<TimeConfig>& s) {
       .words({{"arrival", TimeMode::arrival},
               {"device_utc", TimeMode::device_utc},
               {"device_clock", TimeMode::device_clock}})
+      .decides()
       .required();
   s.field("latency_s", &TimeConfig::latency_s, "from validity to arrival where the frame does not tell")
       .unit("s")
       .range(0, 60);
   s.field("minimum_latency_s", &TimeConfig::minimum_latency_s,
-          "device_clock: from validity to arrival of the quickest frame")
+          "from validity to arrival of the quickest frame")
       .unit("s")
-      .range(0, 60);
-  s.field("drift_ppm", &TimeConfig::drift_ppm, "device_clock: most drift between device and host clock")
-      .unit("1e-6")
-      .range(0, 10'000);
-  s.field("jump_s", &TimeConfig::jump_s, "device_clock: a larger shift of its offset is a step of its clock")
+      .range(0, 60)
+      .only_for({"device_clock"});
+  s.field("drift_ppm", &TimeConfig::drift_ppm, "most drift between device and host clock")
+      .unit("ppm")
+      .range(0, 10'000)
+      .only_for({"device_clock"});
+  s.field("jump_s", &TimeConfig::jump_s, "a larger shift of its offset is a step of its clock")
       .unit("s")
-      .range(0.001, 3600);
-  s.field("window_s", &TimeConfig::window_s, "device_clock: a delay that lasts longer is a step of its clock")
+      .range(0.001, 3600)
+      .only_for({"device_clock"});
+  s.field("window_s", &TimeConfig::window_s, "a delay that lasts longer is a step of its clock")
       .unit("s")
-      .range(0.1, 3600);
-  s.field("rollover_s", &TimeConfig::rollover_s, "device_clock: period of the device's counter; 0: endless")
+      .range(0.1, 3600)
+      .only_for({"device_clock"});
+  s.field("rollover_s", &TimeConfig::rollover_s, "period of the device's counter; 0: endless")
       .unit("s")
-      .range(0, 1e9);
-  s.field("max_age_s", &TimeConfig::max_age_s,
-          "device_utc: a time older than this at arrival is not believed")
+      .range(0, 1e9)
+      .only_for({"device_clock"});
+  s.field("max_age_s", &TimeConfig::max_age_s, "a time older than this at arrival is not believed")
       .unit("s")
-      .range(0.001, 1e6);
-  s.field("tolerance_s", &TimeConfig::tolerance_s,
-          "device_utc: a time this far after its arrival is still believed")
+      .range(0.001, 1e6)
+      .only_for({"device_utc"});
+  s.field("tolerance_s", &TimeConfig::tolerance_s, "a time this far after its arrival is still believed")
       .unit("s")
-      .range(0, 3600);
+      .range(0, 3600)
+      .only_for({"device_utc"});
 }
 
 }  // namespace fathom::config

@@ -92,6 +92,37 @@ TEST(BridgeConfig, UnitAndLatitudeOfAPressureMustBeGiven) {
             std::string::npos);
 }
 
+TEST(BridgeConfig, AKeyOfAnotherProtocolIsRefused) {
+  const auto known_where = [](const std::string& key, const std::string& now, const std::string& known) {
+    return "sensors.0." + key + "expected no such key where " + now + "; it is known where " + known;
+  };
+  struct Case {
+    std::string answer;
+    std::string expected;
+  };
+  const Case cases[] = {
+      {refused<DepthBridgeConfig>("depth_bridge", {"sensors.0.ascii.prefix=P"}),
+       known_where("ascii: is {\"prefix\":\"P\"}, ", "protocol is paroscientific",
+                   "protocol is one of ascii_depth")},
+      {refused<DvlBridgeConfig>("dvl_bridge",
+                                {"sensors.0.protocol=a50", "sensors.0.heading_alignment_deg=0"}),
+       known_where("heading_alignment_deg: is 0, ", "protocol is waterlinked", "protocol is one of pd0")},
+      {refused<GpsBridgeConfig>("gps_bridge", {"sensors.0.protocol=ubx", "sensors.0.require_checksum=true"}),
+       known_where("require_checksum: is true, ", "protocol is ubx", "protocol is one of nmea0183, psimssb")},
+      {refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.transducers.total_pressure=P"}),
+       known_where("transducers: is {\"total_pressure\":\"P\"}, ", "protocol is ascii_air_data",
+                   "protocol is one of nmea_air_data")},
+      {refused<GpsBridgeConfig>("gps_bridge", {"sensors.0.source.type=udp"}),
+       known_where("source.baud: is 115200, ", "type is udp", "type is one of serial")},
+      {refused<GpsBridgeConfig>("gps_bridge", {"sensors.0.time.drift_ppm=9"}),
+       known_where("time.drift_ppm: is 9, ", "mode is device_utc", "mode is one of device_clock")}};
+  for (const Case& one : cases) EXPECT_NE(one.answer.find(one.expected), std::string::npos) << one.answer;
+  // Aliases are the protocol that they stand for.
+  EXPECT_EQ(refused<DvlBridgeConfig>("dvl_bridge",
+                                     {"sensors.0.protocol=workhorse", "sensors.0.heading_alignment_deg=45"}),
+            "accepted");
+}
+
 TEST(BridgeConfig, AnAirDataLineMustGiveTheAirspeedThatIsWanted) {
   const auto columns = [](const std::string& list) {
     return refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.line.columns=[" + list + "]"});
@@ -112,7 +143,8 @@ TEST(BridgeConfig, AnAirDataLineMustGiveTheAirspeedThatIsWanted) {
   EXPECT_NE(columns(speed + "," + speed).find("each quantity once"), std::string::npos);
   EXPECT_NE(refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.line.separator=."}).find("separator"),
             std::string::npos);
-  EXPECT_NE(refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.transducers.impact_pressure=IAS"})
+  EXPECT_NE(refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.protocol=nmea_air_data",
+                                                             "sensors.0.transducers.impact_pressure=IAS"})
                 .find("comes twice"),
             std::string::npos);
 }
@@ -127,7 +159,8 @@ TEST(BridgeConfig, TwoInstrumentsNeedTwoNames) {
 
 TEST(BridgeConfig, DepthUnitsBecomePascal) {
   const auto plan = sensor_plans(shipped<DepthBridgeConfig>(
-      "depth_bridge", {"sensors.0.unit=dbar", R"(sensors.0.ascii={"prefix":"P=","scale":0.1,"offset":-2})"}));
+      "depth_bridge", {"sensors.0.protocol=ascii_depth", "sensors.0.unit=dbar",
+                       R"(sensors.0.ascii={"prefix":"P=","scale":0.1,"offset":-2})"}));
   EXPECT_DOUBLE_EQ(plan.at(0).options.pressure_unit_Pa, 1e4);
   EXPECT_DOUBLE_EQ(plan.at(0).options.ascii_scale, 1e3);
   EXPECT_DOUBLE_EQ(plan.at(0).options.ascii_offset, -2e4);
@@ -139,7 +172,7 @@ TEST(BridgeConfig, AirColumnsAndNamesReachTheCodec) {
       "air_data_bridge",
       {R"(sensors.0.line={"prefix":"$A,","separator":";","columns":[{"quantity":"ignored"},)"
        R"({"quantity":"true_airspeed","unit":"mph"}]})",
-       "sensors.0.transducers.true_airspeed=SPD", "sensors.0.require_checksum=false"}));
+       "sensors.0.require_checksum=false"}));
   const codec::AirDataOptions& air = plan.at(0).options.air_data;
   EXPECT_FALSE(plan.at(0).options.require_checksum);
   EXPECT_EQ(air.prefix.view(), "$A,");
@@ -147,7 +180,9 @@ TEST(BridgeConfig, AirColumnsAndNamesReachTheCodec) {
   ASSERT_EQ(air.count, 2U);
   EXPECT_EQ(air.columns[1].quantity, codec::AirQuantity::true_airspeed);
   EXPECT_EQ(air.columns[1].unit, codec::AirUnit::mph);
-  EXPECT_EQ(air.transducer[1].view(), "SPD");
+  const auto nmea = sensor_plans(shipped<AirDataBridgeConfig>(
+      "air_data_bridge", {"sensors.0.protocol=nmea_air_data", "sensors.0.transducers.true_airspeed=SPD"}));
+  EXPECT_EQ(nmea.at(0).options.air_data.transducer[1].view(), "SPD");
 }
 
 TEST(BridgeConfig, HashFollowsTheEffectiveConfiguration) {
