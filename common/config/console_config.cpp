@@ -97,6 +97,7 @@ void describe(Schema<ConsoleConfig>& s) {
 }
 
 template LoadedConfig<ConsoleConfig> load_service_config(const LoadRequest& request);
+template std::string explain_service_config<ConsoleConfig>();
 
 ConfigKind console_kind() {
   return make_kind<ConsoleConfig>("console");

@@ -24,6 +24,7 @@ void describe(Schema<DiscoveryConfig>& s) {
 }
 
 template LoadedConfig<DiscoveryConfig> load_service_config(const LoadRequest& request);
+template std::string explain_service_config<DiscoveryConfig>();
 
 ConfigKind discovery_kind() {
   return make_kind<DiscoveryConfig>("discovery");

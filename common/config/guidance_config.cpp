@@ -40,7 +40,7 @@ void describe(Schema<GuidanceLimits>& s) {
       .range(0.01, 1e5);
   s.field("max_heading_sigma_deg", &GuidanceLimits::max_heading_sigma_rad,
           "largest uncertainty of the heading")
-      .unit("deg, 1 sigma")
+      .unit("deg")
       .range(0.001, 180)
       .scaled(kDegree);
   s.field("need_aligned", &GuidanceLimits::need_aligned, "steer only when navigation is fully aligned");
@@ -85,6 +85,7 @@ void describe(Schema<GuidanceConfig>& s) {
 }
 
 template LoadedConfig<GuidanceConfig> load_service_config(const LoadRequest& request);
+template std::string explain_service_config<GuidanceConfig>();
 
 ConfigKind guidance_kind() {
   return make_kind<GuidanceConfig>("guidance_example");

@@ -248,6 +248,7 @@ void describe(Schema<MonitorConfig>& s) {
 }
 
 template LoadedConfig<MonitorConfig> load_service_config(const LoadRequest& request);
+template std::string explain_service_config<MonitorConfig>();
 
 ConfigKind monitor_kind() {
   return make_kind<MonitorConfig>("monitor");

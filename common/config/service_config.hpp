@@ -20,4 +20,9 @@ struct LoadedConfig {
 template <class T>
 [[nodiscard]] LoadedConfig<T> load_service_config(const LoadRequest& request);
 
+/// Every key of a service's file with its unit, range, default and sentence, for people. Instantiated
+/// likewise.
+template <class T>
+[[nodiscard]] std::string explain_service_config();
+
 }  // namespace fathom::config

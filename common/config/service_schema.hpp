@@ -28,4 +28,9 @@ LoadedConfig<T> load_service_config(const LoadRequest& request) {
   return out;
 }
 
+template <class T>
+std::string explain_service_config() {
+  return explain_text(rows_of<T>());
+}
+
 }  // namespace fathom::config

@@ -22,7 +22,7 @@ int fail(const std::string& executable, ExitCode code, std::string message) {
 
 }  // namespace
 
-int run_service(int argc, char** argv, const ServiceInfo& info,
+int run_service(int argc, char** argv, const ServiceInfo& info, const std::function<std::string()>& explain,
                 const std::function<Prepared(const config::LoadRequest&, bool check)>& load,
                 const std::function<ExitCode(ServiceHost&)>& body) {
   runtime::block_stop_signals();
@@ -33,9 +33,12 @@ int run_service(int argc, char** argv, const ServiceInfo& info,
   CLI::App app{info.description, executable};
   config::LoadRequest request;
   bool check = false;
-  app.add_option("--config", request.file, "configuration file (JSON)")->required();
+  bool explains = false;
+  app.add_option("--config", request.file, "configuration file (JSON)");
   app.add_option("--set", request.sets, "override: key.sub=value, may be repeated")->allow_extra_args(false);
   app.add_flag("--check", check, "check the configuration and exit");
+  app.add_flag("--explain", explains,
+               "print the keys of the configuration with unit, range, default and meaning, and exit");
   app.set_version_flag("--version", executable + " " + std::string(runtime::version()));
   try {
     app.parse(argc, argv);
@@ -44,6 +47,12 @@ int run_service(int argc, char** argv, const ServiceInfo& info,
   } catch (const CLI::ParseError& error) {
     return fail(executable, ExitCode::bad_configuration, std::string(error.what()) + "; see --help");
   }
+  if (explains) {
+    std::fputs(explain().c_str(), stdout);
+    return static_cast<int>(ExitCode::done);
+  }
+  if (request.file.empty())
+    return fail(executable, ExitCode::bad_configuration, "--config is required; see --help");
   try {
     Prepared prepared = load(request, check);
     if (check) {

@@ -16,11 +16,14 @@ struct Prepared {
   std::string instance{};  ///< name of this service where there may be several of its kind; else empty
   std::string discovery_listen{};  ///< where it is a discovery server; else empty
 };
+/// `explain` prints every key of the service's configuration.
 [[nodiscard]] int run_service(int argc, char** argv, const ServiceInfo& info,
+                              const std::function<std::string()>& explain,
                               const std::function<Prepared(const config::LoadRequest&, bool check)>& load,
                               const std::function<ExitCode(ServiceHost&)>& body);
 
-/// The main of a service: `EXE --config FILE [--set key.sub=value ...] [--check] [--version]`.
+/// The main of a service: `EXE --config FILE [--set key.sub=value ...] [--check]`, and
+/// `EXE --explain`, which prints the keys of FILE with their units, ranges and defaults, or `EXE --version`.
 ///
 /// Loads the configuration before anything starts and calls `body(host, config)`, which builds the service
 /// and returns host.run(). An error becomes one line on standard error, `fathom-NAME: ...`, and the exit
@@ -35,7 +38,7 @@ template <class Config, class Body, class Verify>
 [[nodiscard]] int run(int argc, char** argv, const ServiceInfo& info, Body&& body, Verify&& verify) {
   Config config{};
   return run_service(
-      argc, argv, info,
+      argc, argv, info, config::explain_service_config<Config>,
       [&](const config::LoadRequest& request, bool check) {
         auto loaded = config::load_service_config<Config>(request);
         config = std::move(loaded.value);

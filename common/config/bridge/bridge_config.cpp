@@ -221,6 +221,14 @@ template LoadedConfig<HeadingBridgeConfig> load_service_config(const LoadRequest
 template LoadedConfig<UsblBridgeConfig> load_service_config(const LoadRequest& request);
 template LoadedConfig<ActuatorBridgeConfig> load_service_config(const LoadRequest& request);
 template LoadedConfig<AirDataBridgeConfig> load_service_config(const LoadRequest& request);
+template std::string explain_service_config<ImuBridgeConfig>();
+template std::string explain_service_config<DvlBridgeConfig>();
+template std::string explain_service_config<GpsBridgeConfig>();
+template std::string explain_service_config<DepthBridgeConfig>();
+template std::string explain_service_config<HeadingBridgeConfig>();
+template std::string explain_service_config<UsblBridgeConfig>();
+template std::string explain_service_config<ActuatorBridgeConfig>();
+template std::string explain_service_config<AirDataBridgeConfig>();
 
 ConfigKind imu_bridge_kind() {
   return make_kind<ImuBridgeConfig>("imu_bridge");

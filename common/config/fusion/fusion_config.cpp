@@ -126,6 +126,8 @@ LoadedConfig<FusionConfig> load_service_config<FusionConfig>(const LoadRequest& 
   return out;
 }
 
+template std::string explain_service_config<FusionConfig>();
+
 ConfigKind fusion_kind() {
   return make_kind<FusionConfig>("fusion");
 }

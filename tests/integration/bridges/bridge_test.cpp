@@ -393,6 +393,9 @@ TEST(BridgeProcess, BadConfigurationEndsWithOneLineBeforeAnythingStarts) {
                                  ": sensors.0.rate_hz: is -1, expected a number from 0.001 to 10000\n");
   Process usage("fathom-imu-bridge", {"--nonsense"}, folder / "usage");
   EXPECT_EQ(usage.wait(), 2);
+  Process no_file("fathom-imu-bridge", {"--check"}, folder / "no_file");
+  EXPECT_EQ(no_file.wait(), 2);
+  EXPECT_EQ(no_file.output(), "fathom-imu-bridge: --config is required; see --help\n");
   Process none("fathom-imu-bridge", {"--config", folder / "none.json"}, folder / "none");
   EXPECT_EQ(none.wait(), 2);
 }
@@ -409,6 +412,9 @@ TEST(BridgeProcess, CheckAndVersionEndAtOnce) {
     Process version(name, {"--version"}, folder / (std::string(kind) + "_version"));
     EXPECT_EQ(version.wait(), 0);
     EXPECT_EQ(version.output().rfind(name + " ", 0), 0U) << version.output();
+    Process explain(name, {"--explain"}, folder / (std::string(kind) + "_explain"));
+    EXPECT_EQ(explain.wait(), 0);
+    EXPECT_NE(explain.output().find("\nsensors[].protocol "), std::string::npos) << explain.output();
   }
 }
 
