@@ -1,4 +1,5 @@
 #include "config/fusion/fusion_config.hpp"
+#include "config/fusion/mounting_check.hpp"
 #include "fusion/fusion_service.hpp"
 #include "host/run.hpp"
 
@@ -11,5 +12,8 @@ int main(int argc, char** argv) {
       [](host::ServiceHost& host, const config::FusionConfig& config) {
         fusion::FusionService service(host, config);
         return host.run();
+      },
+      [](const config::FusionConfig& config, const std::string& file, bool /*check*/) {
+        config::refuse_second_mounting(config, file);
       });
 }
