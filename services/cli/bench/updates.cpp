@@ -1,8 +1,10 @@
 #include "cli/bench/updates.hpp"
 
+#include <optional>
 #include <string>
 
 #include "cli/bench/floor.hpp"
+#include "cli/bench/samples.hpp"
 #include "cli/bench/vehicle.hpp"
 #include "cli/command.hpp"
 #include "estimation/aiding/constant_depth.hpp"
@@ -17,83 +19,13 @@ using estimation::EventSample;
 
 constexpr int kUpdates = 40;
 
-EventSample gps(const geo::Geodetic& at) {
-  GpsSample s;
-  s.fix = GpsFix::fix_3d;
-  s.latitude_rad = at.latitude_rad;
-  s.longitude_rad = at.longitude_rad;
-  s.altitude_m = at.altitude_m;
-  s.velocity_N_m_s = {1.7, 0.9, 0.0};
-  return s;
-}
-
-EventSample dvl(bool beams) {
-  DvlSample s;
-  if (beams) {
-    s.beam_velocity_m_s = {1.0, -1.0, 0.0, 0.0};
-    s.beam_angle_rad = 0.5236;
-  } else {
-    s.velocity_D_m_s = {2.0, 0.1, 0.0};
-  }
-  return s;
-}
-
-EventSample usbl(const geo::Geodetic& at, const std::string& model) {
-  UsblSample s;
-  s.sigma_m = 2.0;
-  s.station_latitude_rad = at.latitude_rad + 2e-5;
-  s.station_longitude_rad = at.longitude_rad;
-  s.station_depth_m = 5.0;
-  s.station_rpy_rad = {0.02, -0.01, 1.0};
-  if (model == "usbl_position") {
-    s.latitude_rad = at.latitude_rad;
-    s.longitude_rad = at.longitude_rad;
-    s.depth_m = 20.0;
-    return s;
-  }
-  s.frame = UsblFrame::vessel_frd;
-  if (model == "usbl_vector") {
-    s.relative_m = {-60.0, 100.0, 15.0};
-    return s;
-  }
-  s.range_m = 128.0;
-  s.bearing_rad = 2.1;
-  s.depression_rad = 0.12;
-  return s;
-}
-
 /// A sample with which this model can do something.
 EventSample sample_for(const estimation::AidingEntry& entry, const geo::Geodetic& at) {
-  const std::string model = entry.name;
-  switch (entry.source) {
-    case SourceKind::gps:
-      return gps(at);
-    case SourceKind::dvl:
-      return dvl(model == "dvl_beams");
-    case SourceKind::usbl:
-      return usbl(at, model);
-    case SourceKind::depth: {
-      DepthSample s;
-      s.depth_m = 20.0;
-      return s;
-    }
-    case SourceKind::heading: {
-      HeadingSample s;
-      s.heading_rad = 0.5;
-      return s;
-    }
-    case SourceKind::airspeed: {
-      AirspeedSample s;
-      s.airspeed_m_s = 20.0;
-      s.baro_altitude_m = 30.0;
-      return s;
-    }
-    default: {
-      PropulsionSample s;
-      s.rpm = 1000.0;
-      return s;
-    }
-  }
+  std::optional<EventSample> sample;
+  for_each_aiding_kind([&](auto kind) {
+    if (kind.kSource == entry.source) sample = bench_sample<typename decltype(kind)::Sample>(entry.name, at);
+  });
+  return sample.value();
 }
 
 /// What is measured: `observe` makes the rows, the filter does the rest.

@@ -27,8 +27,8 @@ BenchVehicle::BenchVehicle(const std::string& configuration, double imu_rate_hz)
   config_.sensors = {estimation::default_sensor(SourceKind::gps, "gps0"),
                      estimation::default_sensor(SourceKind::dvl, "dvl0"),
                      estimation::default_sensor(SourceKind::depth, "depth0"),
-                     estimation::default_sensor(SourceKind::heading, "compass0"),
-                     estimation::default_sensor(SourceKind::usbl, "usbl0")};
+                     estimation::default_sensor(SourceKind::heading, "compass0")};
+  carry_transponder();
   const geo::LocalEarth earth(kStart);
   const Eigen::Matrix3d c = geo::to_matrix(geo::from_rpy({0.0, 0.0, kHeading_rad}));
   const Eigen::Vector3d transport = earth.transport_rate_N(velocity_N());
@@ -61,6 +61,10 @@ bool BenchVehicle::every(double rate_hz) const {
   return step_ % std::llround(rate_hz_ / rate_hz) == 0;
 }
 
+geo::Geodetic BenchVehicle::position(TimeNs stamp_ns) {
+  return geo::moved_by(kStart, to_seconds(stamp_ns - kEpochNs) * velocity_N());
+}
+
 void BenchVehicle::step(std::vector<Sample>& out) {
   out.clear();
   now_ns_ = kEpochNs + step_ * from_seconds(1.0 / rate_hz_);
@@ -69,9 +73,6 @@ void BenchVehicle::step(std::vector<Sample>& out) {
   imu.angular_rate_B_rad_s = rate_B_rad_s_;
   imu.specific_force_B_m_s2 = force_B_m_s2_;
   out.emplace_back(imu);
-  const auto position = [this](TimeNs stamp_ns) {
-    return geo::moved_by(kStart, to_seconds(stamp_ns - kEpochNs) * velocity_N());
-  };
   // A ripple instead of noise, so that no reading repeats.
   const double ripple = std::sin(0.7 * static_cast<double>(step_));
   if (step_ > 0 && every(2.0)) {
@@ -120,17 +121,6 @@ estimation::Navigator settled(const estimation::Setup& setup, const BenchVehicle
     navigator.finish(step);
   }
   return navigator;
-}
-
-UsblSample BenchVehicle::late_fix(double late_s) const {
-  UsblSample usbl;
-  usbl.header = header("usbl0", now_ns_ - from_seconds(late_s));
-  const geo::Geodetic at = geo::moved_by(kStart, to_seconds(usbl.header.stamp_ns - kEpochNs) * velocity_N());
-  usbl.latitude_rad = at.latitude_rad;
-  usbl.longitude_rad = at.longitude_rad;
-  usbl.depth_m = 20.0;
-  usbl.sigma_m = 2.0;
-  return usbl;
 }
 
 }  // namespace fathom::cli

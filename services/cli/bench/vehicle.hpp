@@ -1,10 +1,13 @@
 #pragma once
 
+#include <type_traits>
 #include <variant>
 #include <vector>
 
 #include "estimation/engine/fusion_engine.hpp"
 #include "estimation/navigator/navigator.hpp"
+#include "geo/wgs84.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::cli {
 
@@ -12,7 +15,7 @@ namespace fathom::cli {
 /// estimator to do all its work on, at any rate and for any time.
 class BenchVehicle {
  public:
-  using Sample = std::variant<ImuSample, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample>;
+  using Sample = AnySample;
 
   BenchVehicle(const std::string& configuration, double imu_rate_hz);
 
@@ -27,6 +30,8 @@ class BenchVehicle {
   [[nodiscard]] TimeNs now_ns() const { return now_ns_; }
 
  private:
+  void carry_transponder();
+  [[nodiscard]] static geo::Geodetic position(TimeNs stamp_ns);
   [[nodiscard]] SampleHeader header(const char* sensor, TimeNs stamp_ns) const;
   [[nodiscard]] bool every(double rate_hz) const;
 
