@@ -7,6 +7,7 @@
 
 #include "bus/detail/versions/settings.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
 namespace {
@@ -19,6 +20,15 @@ Duration to_duration(DurationNs ns) {
 
 [[noreturn]] void no_profile(const std::string& topic, const char* kind) {
   throw BusError("topic " + topic + ": the QoS profiles have no " + kind + " '" + topic + "'");
+}
+
+// What instruments have that name no profile of their own.
+constexpr const char* kInstrument = "fathom/v1/instrument";
+
+bool is_instrument(const std::string& topic) {
+  bool found = false;
+  for_each_kind([&](auto kind) { found = found || kind.kTopic == topic; });
+  return found;
 }
 
 void check_deadline(const std::string& topic, const std::optional<DurationNs>& deadline) {
@@ -76,7 +86,8 @@ dds::DataWriterQos writer_qos(const dds::Publisher& publisher, const std::string
                               const WriterOptions& options) {
   check_deadline(topic, options.deadline_ns);
   dds::DataWriterQos qos;
-  if (!done(publisher.get_datawriter_qos_from_profile(topic, qos))) {
+  if (!done(publisher.get_datawriter_qos_from_profile(topic, qos)) &&
+      !(is_instrument(topic) && done(publisher.get_datawriter_qos_from_profile(kInstrument, qos)))) {
     no_profile(topic, "data_writer");
   }
   if (options.deadline_ns) qos.deadline().period = to_duration(*options.deadline_ns);
@@ -100,7 +111,8 @@ dds::DataReaderQos reader_qos(const dds::Subscriber& subscriber, const std::stri
     if (!options.profile_suffix.empty() && options.profile_suffix != "deep") {
       no_profile(topic + "." + options.profile_suffix, "data_reader");
     }
-    if (!done(subscriber.get_datareader_qos_from_profile(topic, qos))) {
+    if (!done(subscriber.get_datareader_qos_from_profile(topic, qos)) &&
+        !(is_instrument(topic) && done(subscriber.get_datareader_qos_from_profile(kInstrument, qos)))) {
       no_profile(topic, "data_reader");
     }
   }
