@@ -13,14 +13,43 @@
 #include "config/scenario/simulator_config.hpp"
 
 namespace fathom::config {
+namespace {
+
+template <class Config>
+ConfigKind bridge(ConfigKind kind) {
+  kind.plans = [](const LoadRequest& request) {
+    return sensor_plans(load_service_config<Config>(request).value);
+  };
+  return kind;
+}
+
+}  // namespace
 
 std::span<const ConfigKind> config_kinds() {
-  static const std::array kKinds{
-      imu_bridge_kind(),     dvl_bridge_kind(),  gps_bridge_kind(),      depth_bridge_kind(),
-      heading_bridge_kind(), usbl_bridge_kind(), actuator_bridge_kind(), air_data_bridge_kind(),
-      fusion_kind(),         hydro_kind(),       monitor_kind(),         guidance_kind(),
-      simulator_kind(),      scenario_kind(),    console_kind(),         discovery_kind()};
+  static const std::array kKinds{bridge<ImuBridgeConfig>(imu_bridge_kind()),
+                                 bridge<DvlBridgeConfig>(dvl_bridge_kind()),
+                                 bridge<GpsBridgeConfig>(gps_bridge_kind()),
+                                 bridge<DepthBridgeConfig>(depth_bridge_kind()),
+                                 bridge<HeadingBridgeConfig>(heading_bridge_kind()),
+                                 bridge<UsblBridgeConfig>(usbl_bridge_kind()),
+                                 bridge<ActuatorBridgeConfig>(actuator_bridge_kind()),
+                                 bridge<AirDataBridgeConfig>(air_data_bridge_kind()),
+                                 fusion_kind(),
+                                 hydro_kind(),
+                                 monitor_kind(),
+                                 guidance_kind(),
+                                 simulator_kind(),
+                                 scenario_kind(),
+                                 console_kind(),
+                                 discovery_kind()};
   return kKinds;
+}
+
+std::vector<SensorPlan> bridge_plans(std::string_view role, const LoadRequest& request) {
+  for (const ConfigKind& kind : config_kinds()) {
+    if (kind.name == role && kind.plans != nullptr) return kind.plans(request);
+  }
+  throw ConfigError(request.file, "role", "\"" + std::string(role) + "\"", "that of a bridge");
 }
 
 }  // namespace fathom::config

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "base/name.hpp"
@@ -25,31 +24,26 @@ class DatasetError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Sensor streams in the order of their files. header.sensor is the word of the kind, or "reference";
-/// header.sequence counts from 0.
-struct Dataset {
-  std::vector<ImuSample> imu;
-  std::vector<GpsSample> gps;
-  std::vector<DvlSample> dvl;
-  std::vector<DepthSample> depth;
-  std::vector<HeadingSample> heading;
-  std::vector<UsblSample> usbl;
-  std::vector<AirspeedSample> airspeed;
-  std::vector<PropulsionSample> propulsion;
-  std::vector<FinsSample> fins;
+template <class Sample>
+struct Stream {
+  std::vector<Sample> samples;
+};
+template <class... Samples>
+struct StreamsOf : Stream<Samples>... {};
+
+/// Sensor streams in the order of their files, one a kind: `data.of<GpsSample>()`. header.sensor is the word
+/// of the kind, or "reference"; header.sequence counts from 0.
+struct Dataset : Kinds::Samples<StreamsOf> {
+  template <OfAKind Sample>
+  [[nodiscard]] std::vector<Sample>& of() {
+    return Stream<Sample>::samples;
+  }
+  template <OfAKind Sample>
+  [[nodiscard]] const std::vector<Sample>& of() const {
+    return Stream<Sample>::samples;
+  }
   std::vector<Truth> reference;
 };
-
-/// The stream of a kind.
-template <OfAKind Sample>
-std::vector<Sample>& stream(Dataset& data) {
-  return std::get<std::vector<Sample>&>(std::tie(data.imu, data.gps, data.dvl, data.depth, data.heading,
-                                                 data.usbl, data.airspeed, data.propulsion, data.fins));
-}
-template <OfAKind Sample>
-const std::vector<Sample>& stream(const Dataset& data) {
-  return stream<Sample>(const_cast<Dataset&>(data));  // NOLINT: nothing is written through it
-}
 
 /// The instant that t_s = 0 means where nothing else is said: 2020-01-01T00:00:00Z.
 inline constexpr TimeNs kDefaultEpochNs = 1'577'836'800 * kNsPerSecond;
@@ -89,7 +83,7 @@ template <class Consumer>
 void visit(const Dataset& data, const Arrival& arrival, Consumer&& consumer) {
   for_each_kind([&](auto kind) {
     if (kind.kSource == arrival.source)
-      consumer(stream<typename decltype(kind)::Sample>(data)[static_cast<std::size_t>(arrival.index)]);
+      consumer(data.of<typename decltype(kind)::Sample>()[static_cast<std::size_t>(arrival.index)]);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <type_traits>
 #include <variant>
@@ -183,5 +184,9 @@ using AnySample = Kinds::Samples<std::variant>;
 /// "imu", "gps", ...; "unknown" for a number that is none.
 [[nodiscard]] std::string_view to_string(SourceKind source);
 [[nodiscard]] std::optional<SourceKind> kind_named(std::string_view word);
+/// The role that publishes a kind.
+[[nodiscard]] std::string_view role_of(SourceKind source);
+/// Every role of the table once, in the order of the kinds.
+[[nodiscard]] std::span<const std::string_view> bridge_roles();
 
 }  // namespace fathom

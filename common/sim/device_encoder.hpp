@@ -2,8 +2,8 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -30,18 +30,16 @@ class DeviceEncoder {
  public:
   DeviceEncoder(const Scenario& scenario, TimeNs power_on_ns);
 
-  /// Empty when the sensor has no device output, and for the first of two measurements that share an
-  /// ensemble: what a DVL measures of the bottom waits for the water layer.
+  /// Empty when the sensor has no device output, or its device waits for more.
   [[nodiscard]] std::vector<std::uint8_t> encode(const Measurement& measurement);
 
  private:
-  std::vector<std::uint8_t> pd0(const DvlSample& sample);
+  template <class... Samples>
+  using Devices = std::tuple<SimulatedDevice<Samples>...>;
 
   Scenario scenario_;
   TimeNs power_on_ns_;
-  std::uint32_t ensemble_ = 0;
-  TimeNs last_dvl_ns_ = 0;
-  std::optional<DvlSample> ping_;  ///< on the bottom, until its water layer comes
+  Kinds::Samples<Devices> devices_;
 };
 
 }  // namespace fathom::sim

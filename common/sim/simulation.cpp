@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 
 #include "geo/so3.hpp"
-#include "sim/sensor_models.hpp"
 #include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
 
@@ -56,111 +56,114 @@ class Schedule {
   TimeNs last_received_ns_ = 0;
 };
 
+template <class Sample>
+[[nodiscard]] auto make_model(const Scenario& scenario, std::uint64_t seed) {
+  using Model = typename ModelOf<Sample>::type;
+  const SimulatedSensor<Sample>& config = scenario.sensors.of<Sample>();
+  if constexpr (std::is_constructible_v<Model, decltype(config), const Scenario&, std::uint64_t>) {
+    return Model(config, scenario, seed);
+  } else if constexpr (std::is_constructible_v<Model, decltype(config), const EnvironmentConfig&,
+                                               std::uint64_t>) {
+    return Model(config, scenario.environment, seed);
+  } else {
+    return Model(config, seed);
+  }
+}
+
+/// A sensor of a kind under way.
+template <class Sample>
+struct Instrument {
+  Instrument(const Scenario& scenario, std::uint64_t seed)
+      : config(scenario.sensors.of<Sample>()),
+        model(make_model<Sample>(scenario, seed)),
+        schedule(config, Name(KindOf<Sample>::kWord), seed) {}
+
+  SimulatedSensor<Sample> config;
+  typename ModelOf<Sample>::type model;
+  Schedule schedule;
+};
+
+template <class... Samples>
+struct InstrumentsOf : Instrument<Samples>... {
+  InstrumentsOf(const Scenario& scenario, std::uint64_t seed) : Instrument<Samples>(scenario, seed)... {}
+};
+using Instruments = Kinds::Samples<InstrumentsOf>;
+
+/// One interval of the inertial unit.
+struct Interval {
+  TruthPoint before;
+  ImuTruth between;
+  TruthPoint now;
+};
+
 }  // namespace
 
 struct Simulation::Impl {
-  Impl(const Scenario& s, const Options& o)
+  Impl(const Scenario& scenario, const Options& o)
       : options(o),
-        sensors(s.sensors),
-        truth(s, o.seed),
-        imu(sensors.imu, o.seed),
-        gps(sensors.gps, s.environment, o.seed),
-        dvl(sensors.dvl, o.seed),
-        depth(sensors.depth, o.seed),
-        heading(sensors.heading, s.environment, o.seed),
-        usbl(sensors.usbl, s, o.seed),
-        propulsion(sensors.propulsion, o.seed),
-        fins(sensors.fins, o.seed),
-        airspeed(sensors.airspeed, s.environment, o.seed),
-        imu_schedule(sensors.imu, "imu", o.seed),
-        gps_schedule(sensors.gps, "gps", o.seed),
-        dvl_schedule(sensors.dvl, "dvl", o.seed),
-        depth_schedule(sensors.depth, "depth", o.seed),
-        heading_schedule(sensors.heading, "heading", o.seed),
-        usbl_schedule(sensors.usbl, "usbl", o.seed),
-        propulsion_schedule(sensors.propulsion, "propulsion", o.seed),
-        fins_schedule(sensors.fins, "fins", o.seed),
-        airspeed_schedule(sensors.airspeed, "airspeed", o.seed) {}
+        imu_rate_hz(scenario.sensors.of<ImuSample>().rate_hz),
+        truth(scenario, o.seed),
+        instruments(scenario, o.seed) {}
+
+  template <class Sample>
+  [[nodiscard]] Instrument<Sample>& of() {
+    return instruments;
+  }
 
   void advance(std::vector<Measurement>& out) {
-    const TruthPoint before = truth.point();
+    Interval interval;
+    interval.before = truth.point();
     ++intervals;
-    const double now_s = static_cast<double>(intervals) / sensors.imu.rate_hz;
-    const ImuTruth interval = truth.advance_to(now_s);
-    const TruthPoint& now = truth.point();
-    gps.observe(now);
+    interval.between = truth.advance_to(static_cast<double>(intervals) / imu_rate_hz);
+    interval.now = truth.point();
     const std::size_t first = out.size();
-
-    if (sensors.imu.enabled) {
-      const auto slot = imu_schedule.take();
-      ImuSample sample = imu.sample(interval, now);
-      if (!slot.lost && !inside(sensors.imu.dropouts, now_s)) {
-        imu_schedule.stamp(sample.header, options, now_s, slot.latency_s);
-        out.emplace_back(sample);
-      }
-    }
-    const auto sampled = [&](Schedule& schedule, const std::vector<Window>& silent, auto&& measure) {
-      while (schedule.due(now_s)) {
-        const auto slot = schedule.take();
-        auto sample = measure(interpolate(before, now, std::max(slot.t_s, before.t_s)));
-        if (!sample || slot.lost || inside(silent, slot.t_s)) continue;
-        schedule.stamp(sample->header, options, slot.t_s, slot.latency_s);
-        out.emplace_back(*sample);
-      }
-    };
-    // Receivers without a fix and DVLs without the bottom go on talking.
-    static const std::vector<Window> never;
-    sampled(gps_schedule, never, [&](const TruthPoint& at) { return std::optional(gps.sample(at)); });
-    while (dvl_schedule.due(now_s)) {
-      const auto slot = dvl_schedule.take();
-      const TruthPoint at = interpolate(before, now, std::max(slot.t_s, before.t_s));
-      DvlSample bottom = dvl.sample(at);
-      auto layer = dvl.water_layer(at);
-      if (slot.lost) continue;
-      dvl_schedule.stamp(bottom.header, options, slot.t_s, slot.latency_s);
-      out.emplace_back(bottom);
-      if (!layer) continue;
-      dvl_schedule.stamp(layer->header, options, slot.t_s, slot.latency_s);
-      out.emplace_back(*layer);
-    }
-    sampled(depth_schedule, sensors.depth.dropouts, [&](const TruthPoint& at) { return depth.sample(at); });
-    sampled(heading_schedule, sensors.heading.dropouts,
-            [&](const TruthPoint& at) { return std::optional(heading.sample(at)); });
-    sampled(propulsion_schedule, sensors.propulsion.dropouts,
-            [&](const TruthPoint& at) { return std::optional(propulsion.sample(at)); });
-    sampled(fins_schedule, sensors.fins.dropouts,
-            [&](const TruthPoint& at) { return std::optional(fins.sample(at)); });
-    sampled(airspeed_schedule, sensors.airspeed.dropouts,
-            [&](const TruthPoint& at) { return std::optional(airspeed.sample(at)); });
-    while (usbl_schedule.due(now_s)) {
-      const auto slot = usbl_schedule.take();
-      auto sample = usbl.sample(interpolate(before, now, std::max(slot.t_s, before.t_s)));
-      const double latency_s = usbl.latency_s();
-      if (!sample || slot.lost || inside(sensors.usbl.dropouts, slot.t_s)) continue;
-      usbl_schedule.stamp(sample->header, options, slot.t_s, latency_s);
-      out.emplace_back(*sample);
-    }
+    for_each_kind([&](auto kind) { take(of<typename decltype(kind)::Sample>(), interval, out); });
     std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
                      [](const Measurement& a, const Measurement& b) {
                        return header_of(a).stamp_ns < header_of(b).stamp_ns;
                      });
   }
 
+  /// The inertial unit: one sample an interval.
+  void take(Instrument<ImuSample>& imu, const Interval& interval, std::vector<Measurement>& out) const {
+    if (!imu.config.enabled) return;
+    const auto slot = imu.schedule.take();
+    ImuSample sample = imu.model.sample(interval.between, interval.now);
+    const double now_s = static_cast<double>(intervals) / imu_rate_hz;
+    if (slot.lost || inside(imu.config.dropouts, now_s)) return;
+    imu.schedule.stamp(sample.header, options, now_s, slot.latency_s);
+    out.emplace_back(sample);
+  }
+
+  template <class Sample>
+  void take(Instrument<Sample>& sensor, const Interval& interval, std::vector<Measurement>& out) const {
+    auto& model = sensor.model;
+    if constexpr (requires { model.observe(interval.now); }) model.observe(interval.now);
+    const double now_s = static_cast<double>(intervals) / imu_rate_hz;
+    while (sensor.schedule.due(now_s)) {
+      auto slot = sensor.schedule.take();
+      const TruthPoint at =
+          interpolate(interval.before, interval.now, std::max(slot.t_s, interval.before.t_s));
+      std::optional<Sample> sample = model.sample(at);
+      // A model may know better how long its sample takes, and may measure twice at once.
+      if constexpr (requires { model.latency_s(); }) slot.latency_s = model.latency_s();
+      std::optional<Sample> second;
+      if constexpr (requires { model.second(at); }) second = model.second(at);
+      const bool silent = !sensor.config.kTalksOn && inside(sensor.config.dropouts, slot.t_s);
+      if (!sample || slot.lost || silent) continue;
+      for (auto* one : {&sample, &second}) {
+        if (!*one) continue;
+        sensor.schedule.stamp((*one)->header, options, slot.t_s, slot.latency_s);
+        out.emplace_back(**one);
+      }
+    }
+  }
+
   Options options;
-  SensorSuite sensors;
+  double imu_rate_hz;
   TruthGenerator truth;
   std::uint64_t intervals = 0;
-  ImuModel imu;
-  GpsModel gps;
-  DvlModel dvl;
-  DepthModel depth;
-  HeadingModel heading;
-  UsblModel usbl;
-  PropulsionModel propulsion;
-  FinsModel fins;
-  AirspeedModel airspeed;
-  Schedule imu_schedule, gps_schedule, dvl_schedule, depth_schedule, heading_schedule, usbl_schedule,
-      propulsion_schedule, fins_schedule, airspeed_schedule;
+  Instruments instruments;
 };
 
 Simulation::Simulation(const Scenario& scenario, const Options& options)
@@ -188,7 +191,8 @@ Truth Simulation::truth() const {
   out.altitude_m = now.altitude_m;
   out.velocity_N_m_s = geo::arr(now.v_N_m_s);
   out.rpy_rad = geo::arr(rpy_of(now.q_NB));
-  out.gps_available = impl_->sensors.gps.enabled && impl_->gps.available();
+  const Instrument<GpsSample>& gps = impl_->of<GpsSample>();
+  out.gps_available = gps.config.enabled && gps.model.available();
   return out;
 }
 

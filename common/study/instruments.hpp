@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "estimation/engine_config.hpp"
-#include "sim/sensor_config.hpp"
+#include "sim/sensors/suite.hpp"
 
 /// Instruments of the studies: one set of figures, from which the simulated errors are drawn and of which the
 /// filters are told.

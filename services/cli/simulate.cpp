@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
@@ -39,7 +40,7 @@ sim::Scenario load(const SimulateOptions& options) {
 }
 
 void keep(dataset::Dataset& data, const sim::Measurement& measurement) {
-  std::visit([&]<class T>(const T& sample) { dataset::stream<T>(data).push_back(sample); }, measurement);
+  std::visit([&]<class T>(const T& sample) { data.of<T>().push_back(sample); }, measurement);
 }
 
 dataset::Dataset run(const sim::Scenario& scenario, const SimulateOptions& options, double duration_s) {
@@ -49,7 +50,7 @@ dataset::Dataset run(const sim::Scenario& scenario, const SimulateOptions& optio
   sim::Simulation simulation(scenario, simulate);
   dataset::Dataset data;
   std::vector<sim::Measurement> measurements;
-  const double imu_hz = scenario.sensors.imu.rate_hz;
+  const double imu_hz = scenario.sensors.of<ImuSample>().rate_hz;
   const auto intervals = static_cast<std::uint64_t>(std::llround(duration_s * imu_hz));
   const auto every = static_cast<std::uint64_t>(std::max(1.0, std::round(imu_hz / options.reference_hz)));
   Progress progress("simulating " + scenario.name, intervals);
@@ -76,17 +77,18 @@ void simulate(const SimulateOptions& options) {
     throw Failure(ExitCode::runtime_failure, error.what());
   }
   if (options.json) {
-    std::printf(
-        "{\"scenario\":\"%s\",\"seed\":%llu,\"duration_s\":%.17g,\"imu\":%zu,\"gps\":%zu,\"dvl\":%zu,"
-        "\"depth\":%zu,\"heading\":%zu,\"usbl\":%zu,\"airspeed\":%zu,\"propulsion\":%zu,\"fins\":%zu,"
-        "\"reference\":%zu}\n",
-        scenario.name.c_str(), static_cast<unsigned long long>(options.seed), duration_s, data.imu.size(),
-        data.gps.size(), data.dvl.size(), data.depth.size(), data.heading.size(), data.usbl.size(),
-        data.airspeed.size(), data.propulsion.size(), data.fins.size(), data.reference.size());
+    nlohmann::ordered_json line = {
+        {"scenario", scenario.name}, {"seed", options.seed}, {"duration_s", duration_s}};
+    for_each_kind([&](auto kind) {
+      line[std::string(kind.kWord)] = data.of<typename decltype(kind)::Sample>().size();
+    });
+    line["reference"] = data.reference.size();
+    std::printf("%s\n", line.dump().c_str());
   } else {
     std::printf("%s: %.6g s of %s, seed %llu: %zu inertial samples, %zu reference rows\n",
                 options.out.c_str(), duration_s, scenario.name.c_str(),
-                static_cast<unsigned long long>(options.seed), data.imu.size(), data.reference.size());
+                static_cast<unsigned long long>(options.seed), data.of<ImuSample>().size(),
+                data.reference.size());
   }
 }
 

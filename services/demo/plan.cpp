@@ -14,7 +14,6 @@
 #include "dataset/dataset.hpp"
 #include "demo/recording.hpp"
 #include "security/keygen.hpp"
-#include "sim/device_encoder.hpp"
 
 namespace fathom::demo {
 namespace {
@@ -163,14 +162,17 @@ class Builder {
 Sets monitor_sets(const Plan& plan, const sim::Scenario& scenario, const std::vector<std::string>& bridges,
                   const Sets& scenario_sets) {
   json sensors = json::array();
-  for (const char* kind : {"imu", "dvl", "gps", "depth", "heading", "airspeed"}) {
-    const sim::SensorCommon& sensor = *sim::find_sensor(scenario.sensors, kind);
-    const std::string_view bridge = std::string_view(kind) == "airspeed" ? "air_data" : kind;
-    if (std::find(bridges.begin(), bridges.end(), bridge) == bridges.end() || !sensor.enabled) continue;
-    json entry = {{"name", kind}, {"kind", kind}, {"rate_hz", sensor.rate_hz}};
-    if (std::string_view(kind) == "imu") entry["severity"] = "critical";
+  for_each_kind([&](auto kind) {
+    using Sample = typename decltype(kind)::Sample;
+    const auto& sensor = scenario.sensors.of<Sample>();
+    const bool bridged = std::find_if(bridges.begin(), bridges.end(), [&](const std::string& bridge) {
+                           return bridge + "_bridge" == kind.kRole;
+                         }) != bridges.end();
+    if (!sensor.kAlwaysHeard || !bridged || !sensor.enabled) return;
+    json entry = {{"name", kind.kWord}, {"kind", kind.kWord}, {"rate_hz", sensor.rate_hz}};
+    if (kind.kUse == Use::integrated) entry["severity"] = "critical";
     sensors.push_back(std::move(entry));
-  }
+  });
   json services = json::array();
   for (const std::string& name : plan.demands.services) {
     json entry = {{"name", name}};
@@ -178,7 +180,7 @@ Sets monitor_sets(const Plan& plan, const sim::Scenario& scenario, const std::ve
     services.push_back(std::move(entry));
   }
   Sets out{"sensors=" + sensors.dump(), "services=" + services.dump(),
-           "navigation.rate_hz=" + json(scenario.sensors.imu.rate_hz).dump()};
+           "navigation.rate_hz=" + json(scenario.sensors.of<ImuSample>().rate_hz).dump()};
   if (std::find(bridges.begin(), bridges.end(), "gps") == bridges.end())
     out.emplace_back("gps.expected=false");
   out.insert(out.end(), scenario_sets.begin(), scenario_sets.end());
@@ -206,15 +208,15 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
     plan.duration_s = options.duration_s > 0.0 ? options.duration_s : scenario.duration_s;
     plan.demands.limits = scenario.limits;
     plan.demands.whole_run = plan.duration_s >= scenario.duration_s;
-    fusion.push_back("engine.imu.nominal_rate_hz=" + json(scenario.sensors.imu.rate_hz).dump());
+    fusion.push_back("engine.imu.nominal_rate_hz=" + json(scenario.sensors.of<ImuSample>().rate_hz).dump());
   } else {
     const Recording recording = describe_recording(options.dataset, options.config, builder.places().config);
     scenario.services.clear();
-    scenario.sensors.imu.rate_hz = recording.imu_rate_hz;
-    scenario.sensors.gps.rate_hz = recording.rate_hz("gps", scenario.sensors.gps.rate_hz);
-    scenario.sensors.dvl.rate_hz = recording.rate_hz("dvl", scenario.sensors.dvl.rate_hz);
-    scenario.sensors.depth.rate_hz = recording.rate_hz("depth", scenario.sensors.depth.rate_hz);
-    scenario.sensors.heading.rate_hz = recording.rate_hz("heading", scenario.sensors.heading.rate_hz);
+    for_each_kind([&](auto kind) {
+      double& rate_hz = scenario.sensors.of<typename decltype(kind)::Sample>().rate_hz;
+      rate_hz = recording.rate_hz(kind.kWord, rate_hz);
+    });
+    scenario.sensors.of<ImuSample>().rate_hz = recording.imu_rate_hz;
     plan.title = std::filesystem::path(options.dataset).lexically_normal().string();
     plan.duration_s = options.duration_s > 0.0 ? options.duration_s : recording.duration_s;
     plan.demands.limits = {};
@@ -239,6 +241,10 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   }
 
   auto overrides = config::service_overrides(scenario, wiring);
+  if (!options.dataset.empty()) {  // what the scenario has no device for cannot be played
+    std::erase_if(bridges,
+                  [&](const std::string& bridge) { return overrides.count(bridge + "_bridge") == 0; });
+  }
   const Sets& scenario_fusion = overrides["fusion"];
   fusion.insert(fusion.end(), scenario_fusion.begin(), scenario_fusion.end());
 
@@ -264,7 +270,7 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   plan.demands.gps_limit_s = plan.record.gps_limit_s;
   plan.demands.silence_s = monitor_config.value.health.service.missing_s;
   plan.demands.startup_s = monitor_config.value.health.startup_s;
-  plan.demands.nav_rate_hz = scenario.sensors.imu.rate_hz;
+  plan.demands.nav_rate_hz = scenario.sensors.of<ImuSample>().rate_hz;
   auto& expected = plan.demands.expected_alarms;
   const std::vector<std::string>& own = plan.demands.limits.expected_alarms;
   expected.insert(expected.end(), own.begin(), own.end());

@@ -31,7 +31,7 @@ std::filesystem::path find_fusion_file(const std::filesystem::path& directory,
 
 }  // namespace
 
-double Recording::rate_hz(const std::string& kind, double otherwise) const {
+double Recording::rate_hz(std::string_view kind, double otherwise) const {
   const auto at = rates.find(kind);
   return at == rates.end() ? otherwise : at->second;
 }
@@ -39,24 +39,20 @@ double Recording::rate_hz(const std::string& kind, double otherwise) const {
 Recording describe_recording(const std::filesystem::path& directory, const std::filesystem::path& fusion_file,
                              const std::filesystem::path& config_directory) {
   const dataset::Dataset data = dataset::read(directory, {0, "auv"});
-  if (data.imu.empty())
+  if (data.of<ImuSample>().empty())
     throw dataset::DatasetError(directory.string() + ": no inertial samples, expected imu.csv");
   Recording out;
   out.fusion_file = fusion_file.empty() ? find_fusion_file(directory, config_directory) : fusion_file;
-  const auto note = [&out](const char* kind, const auto& stream) {
+  for_each_kind([&](auto kind) {
+    const auto& stream = data.of<typename decltype(kind)::Sample>();
     if (stream.empty()) return;
-    out.bridges.emplace_back(kind);
-    out.rates[kind] = mean_rate_hz(stream);
-  };
-  note("imu", data.imu);
-  note("gps", data.gps);
-  note("dvl", data.dvl);
-  note("depth", data.depth);
-  note("heading", data.heading);
-  note("usbl", data.usbl);
-  note("actuator", data.propulsion);
+    out.rates.emplace(kind.kWord, mean_rate_hz(stream));
+    const std::string bridge(kind.kRole.substr(0, kind.kRole.rfind("_bridge")));
+    if (std::find(out.bridges.begin(), out.bridges.end(), bridge) == out.bridges.end())
+      out.bridges.push_back(bridge);
+  });
   out.imu_rate_hz = std::round(out.rates["imu"]);
-  const TimeNs first_ns = data.imu.front().header.stamp_ns;
+  const TimeNs first_ns = data.of<ImuSample>().front().header.stamp_ns;
   const auto start = std::find_if(data.reference.begin(), data.reference.end(), [first_ns](const Truth& row) {
     return row.header.stamp_ns >= first_ns && known(row.latitude_rad) && known(row.rpy_rad[2]);
   });
@@ -67,7 +63,7 @@ Recording describe_recording(const std::filesystem::path& directory, const std::
   }
   out.start = *start;
   out.start_s = to_seconds(start->header.stamp_ns);
-  out.last_imu_s = to_seconds(data.imu.back().header.stamp_ns);
+  out.last_imu_s = to_seconds(data.of<ImuSample>().back().header.stamp_ns);
   out.duration_s = out.last_imu_s + 1.0;
   return out;
 }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/time.hpp"
@@ -12,8 +14,8 @@ namespace fathom::demo {
 
 /// What a recorded vehicle's folder means for a demonstration.
 struct Recording {
-  std::vector<std::string> bridges;     ///< instruments that were recorded, e.g. "imu", "dvl"
-  std::map<std::string, double> rates;  ///< mean rates of these
+  std::vector<std::string> bridges;                  ///< instruments that were recorded, e.g. "imu", "dvl"
+  std::map<std::string, double, std::less<>> rates;  ///< mean rates, by kind
   double imu_rate_hz = 100.0;
   double duration_s = 0.0;  ///< until shortly after the last sample
   double last_imu_s = 0.0;  ///< t_s of the last inertial sample
@@ -22,8 +24,8 @@ struct Recording {
   std::filesystem::path fusion_file;
   double end_error_limit = 0.01;  ///< share of the distance travelled
 
-  [[nodiscard]] bool has(const std::string& kind) const { return rates.count(kind) > 0; }
-  [[nodiscard]] double rate_hz(const std::string& kind, double otherwise) const;
+  [[nodiscard]] bool has(std::string_view kind) const { return rates.count(kind) > 0; }
+  [[nodiscard]] double rate_hz(std::string_view kind, double otherwise) const;
 };
 
 /// `fusion_file` empty: CONFIG/solve/NAME.json, NAME being that of the folder or of one above it; else the

@@ -17,7 +17,7 @@ class Simulated final : public MeasurementSource {
       : simulation_(scenario, options), truth_period_ns_(from_seconds(1.0 / truth_rate_hz)) {
     next_truth_ns_ = options.epoch_ns;
     next_interval_ns_ = options.epoch_ns;
-    interval_ns_ = 1e9 / scenario.sensors.imu.rate_hz;
+    interval_ns_ = 1e9 / scenario.sensors.of<ImuSample>().rate_hz;
     epoch_ns_ = options.epoch_ns;
   }
 
@@ -53,7 +53,7 @@ class Recorded final : public MeasurementSource {
     read.epoch_ns = options.epoch_ns;
     read.vehicle = options.vehicle;
     dataset::Dataset data = dataset::read(directory, read);
-    for (auto& dvl : data.dvl) complete(dvl, devices.sensors.dvl);
+    for (auto& dvl : data.of<DvlSample>()) complete(dvl, devices.sensors.of<DvlSample>());
     for (const auto& arrival : dataset::arrivals(data)) {
       dataset::visit(data, arrival, [&](const auto& sample) {
         const auto* device = sim::find_sensor(devices.sensors, sample.header.sensor.view());

@@ -14,6 +14,16 @@ namespace {
 using Fault = std::pair<std::string, std::string>;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+// The services of the table of kinds by the words of a scenario: roles without their ending.
+std::vector<std::pair<std::string, std::string>> bridge_words() {
+  std::vector<std::pair<std::string, std::string>> words;
+  for (const std::string_view role : bridge_roles()) {
+    const std::string word(role.substr(0, role.rfind("_bridge")));
+    words.emplace_back(word, word);
+  }
+  return words;
+}
+
 }  // namespace
 
 void describe(Schema<sim::EnvironmentConfig>& s) {
@@ -151,20 +161,12 @@ void describe(Schema<sim::Scenario>& s) {
   s.field("vehicle", &C::vehicle, "its dynamics").required();
   s.field("mission", &C::mission, "orders to the autopilot, by time").required();
   s.field("sensors", &C::sensors, "instruments, their errors and their device output").required();
-  s.field("bridges", &C::bridges, "bridges that a run of the whole system needs")
-      .words({{"imu", "imu"},
-              {"dvl", "dvl"},
-              {"gps", "gps"},
-              {"depth", "depth"},
-              {"heading", "heading"},
-              {"usbl", "usbl"},
-              {"actuator", "actuator"},
-              {"air_data", "air_data"}});
+  s.field("bridges", &C::bridges, "bridges that a run of the whole system needs").words(bridge_words());
   s.field("services", &C::services,
           "overrides of the services' configurations: service, key, value as after --set");
   s.field("limits", &C::limits, "what a run has to reach").required();
   s.check([](const sim::Scenario& scenario) -> Fault {
-    if (!scenario.sensors.imu.enabled)
+    if (!scenario.sensors.of<ImuSample>().enabled)
       return {"sensors.imu.enabled", "true: the IMU sets the pace of the simulation"};
     for (std::size_t i = 1; i < scenario.mission.size(); ++i) {
       if (scenario.mission[i].at_s < scenario.mission[i - 1].at_s)

@@ -1,7 +1,6 @@
 #pragma once
 
-// Descriptions of a scenario's parts, shared by scenario_config.cpp, vehicle_config.cpp and
-// sensor_config.cpp.
+// Descriptions of a scenario's parts, shared by the files beside it.
 
 #include "config/json/schema.hpp"
 #include "sim/scenario.hpp"
@@ -12,15 +11,9 @@ void describe(Schema<sim::Window>& s);
 void describe(Schema<sim::LinkConfig>& s);
 void describe(Schema<sim::GyroConfig>& s);
 void describe(Schema<sim::AccelerometerConfig>& s);
-void describe(Schema<sim::ImuConfig>& s);
-void describe(Schema<sim::GpsConfig>& s);
-void describe(Schema<sim::DvlConfig>& s);
-void describe(Schema<sim::DepthConfig>& s);
-void describe(Schema<sim::HeadingConfig>& s);
-void describe(Schema<sim::UsblConfig>& s);
-void describe(Schema<sim::PropulsionConfig>& s);
-void describe(Schema<sim::FinsConfig>& s);
-void describe(Schema<sim::AirspeedConfig>& s);
+/// A simulated sensor, of each kind in sensors/.
+template <OfAKind Sample>
+void describe(Schema<sim::SimulatedSensor<Sample>>& s);
 void describe(Schema<sim::SensorSuite>& s);
 
 void describe(Schema<sim::AuvConfig>& s);

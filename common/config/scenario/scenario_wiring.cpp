@@ -1,14 +1,12 @@
 #include "config/scenario/scenario_wiring.hpp"
 
-#include <algorithm>
-#include <array>
 #include <numbers>
-#include <utility>
+#include <type_traits>
 
 #include <nlohmann/json.hpp>
 
 #include "codec/registry.hpp"
-#include "sim/device_encoder.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::config {
 namespace {
@@ -43,31 +41,25 @@ json time_of(const sim::SensorCommon& sensor) {
 
 std::map<std::string, std::vector<std::string>> service_overrides(const sim::Scenario& scenario,
                                                                   const Wiring& wiring) {
-  constexpr std::array<std::pair<const char*, const char*>, 8> kBridges{{{"imu", "imu_bridge"},
-                                                                         {"gps", "gps_bridge"},
-                                                                         {"dvl", "dvl_bridge"},
-                                                                         {"depth", "depth_bridge"},
-                                                                         {"heading", "heading_bridge"},
-                                                                         {"usbl", "usbl_bridge"},
-                                                                         {"propulsion", "actuator_bridge"},
-                                                                         {"airspeed", "air_data_bridge"}}};
   std::map<std::string, std::vector<std::string>> out;
-  for (const auto& [kind, bridge] : kBridges) {
-    const sim::SensorCommon& sensor = *sim::find_sensor(scenario.sensors, kind);
-    if (!sensor.enabled || sensor.protocol.empty()) continue;
-    auto& sets = out[bridge];
+  for_each_kind([&](auto kind) {
+    using Sample = typename decltype(kind)::Sample;
+    const sim::SensorCommon& sensor = scenario.sensors.of<Sample>();
+    if (!sensor.enabled || sensor.protocol.empty()) return;
+    auto& sets = out[std::string(kind.kRole)];
+    if (!sets.empty()) return;  // what another kind of the same instrument said
     json time = time_of(sensor);
     // NMEA receivers say the time of day of their fix.
-    if (std::string_view(kind) == "gps") time = {{"mode", "device_utc"}};
+    if constexpr (std::is_same_v<Sample, GpsSample>) time = {{"mode", "device_utc"}};
     sets.push_back("sensors.0.source=" + source_of(sensor.link, wiring).dump());
     sets.push_back("sensors.0.protocol=" + sensor.protocol);
     sets.push_back("sensors.0.rate_hz=" + json(sensor.rate_hz).dump());
     sets.push_back("sensors.0.time=" + time.dump());
-    if (std::string_view(kind) == "depth") {
+    if constexpr (std::is_same_v<Sample, DepthSample>) {
       const double latitude_deg = scenario.start.latitude_rad * 180.0 / std::numbers::pi;
       sets.push_back("sensors.0.latitude_deg=" + json(latitude_deg).dump());
     }
-  }
+  });
   for (const auto& [service, values] : scenario.services) {
     for (const auto& [key, value] : values) out[service].push_back(key + "=" + value);
   }

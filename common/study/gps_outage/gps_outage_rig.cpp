@@ -126,7 +126,7 @@ sim::Scenario flight_scenario() {
   order(770.0).bank_rad = -25.0 * kDegree;
   (void)turn_at(850.0);
 
-  sim::ImuConfig& imu = s.sensors.imu;
+  sim::ImuConfig& imu = s.sensors.of<ImuSample>();
   imu.enabled = true;
   imu.rate_hz = kFlightImu_hz;
   imu.increments = false;
@@ -147,7 +147,7 @@ sim::Scenario flight_scenario() {
     triad->quantum = triad->range / kCounts;
   }
 
-  sim::GpsConfig& gps = s.sensors.gps;
+  sim::GpsConfig& gps = s.sensors.of<GpsSample>();
   gps.enabled = true;
   gps.rate_hz = 2.0;
   gps.phase_s = 0.5;

@@ -55,14 +55,14 @@ sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
     order(150.0, 50.0, kDepth_m);
   }
 
-  auto& imu = s.sensors.imu;
+  auto& imu = s.sensors.of<ImuSample>();
   imu.enabled = true;
   imu.rate_hz = 100.0;
   imu.gyro.bias_sigma = 1.0 * kDegree / 3600.0;
   imu.gyro.random_walk = 0.05 * kDegree / 60.0;
   imu.accelerometer.bias_sigma = 0.5e-3 * 9.80665;
   imu.accelerometer.random_walk = 5e-4;
-  auto& dvl = s.sensors.dvl;
+  auto& dvl = s.sensors.of<DvlSample>();
   dvl.enabled = true;
   dvl.rate_hz = kDvl_hz;
   dvl.phase_s = 0.05;
@@ -71,17 +71,17 @@ sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
   dvl.scale_sigma = kDvlScaleSigma;
   dvl.maximum_range_m = 200.0;
   if (one.dvl_loss) dvl.dropouts = {{kLossFrom_s, kLossFrom_s + kLoss_s + 1.0}};
-  auto& depth = s.sensors.depth;
+  auto& depth = s.sensors.of<DepthSample>();
   depth.enabled = true;
   depth.rate_hz = 5.0;
   depth.phase_s = 0.02;
   depth.sigma_m = 0.02;
-  auto& propulsion = s.sensors.propulsion;
+  auto& propulsion = s.sensors.of<PropulsionSample>();
   propulsion.enabled = true;
   propulsion.rate_hz = 5.0;
   propulsion.phase_s = 0.04;
   propulsion.sigma_rpm = 3.0;
-  auto& fins = s.sensors.fins;
+  auto& fins = s.sensors.of<FinsSample>();
   fins.enabled = true;
   fins.rate_hz = 10.0;
   fins.phase_s = 0.03;

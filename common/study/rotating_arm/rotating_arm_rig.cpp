@@ -75,10 +75,10 @@ sim::Scenario arm_scenario(const ArmCase& one, Instruments instruments) {
   s.mission[1].at_s = kArmRest_s;
   s.mission[1].speed_m_s = one.speed_m_s;
 
-  s.sensors.imu = simulated(kTactical, real);
+  s.sensors.of<ImuSample>() = simulated(kTactical, real);
 
   // Aiding falls on inertial samples: what is between them is another study's question.
-  sim::DvlConfig& dvl = s.sensors.dvl;
+  sim::DvlConfig& dvl = s.sensors.of<DvlSample>();
   dvl = simulated(kDvl, real);
   dvl.rate_hz = one.dvl_hz;
   dvl.phase_s = 1.0 / one.dvl_hz;
@@ -89,14 +89,14 @@ sim::Scenario arm_scenario(const ArmCase& one, Instruments instruments) {
   dvl.outlier_probability = real * one.outlier_probability;
   if (one.dropout_s > 0.0) dvl.dropouts.push_back({300.0, 300.0 + one.dropout_s});
 
-  sim::HeadingConfig& heading = s.sensors.heading;
+  sim::HeadingConfig& heading = s.sensors.of<HeadingSample>();
   heading.enabled = true;
   heading.rate_hz = 5.0;
   heading.phase_s = 0.2;
   heading.sigma_rad = real * kCompassNoise_rad;
   heading.deviation_rad = {real * kCompassA_rad, real * kCompassB_rad, 0.0, real * kCompassD_rad, 0.0};
 
-  sim::DepthConfig& depth = s.sensors.depth;
+  sim::DepthConfig& depth = s.sensors.of<DepthSample>();
   depth.enabled = true;
   depth.rate_hz = 5.0;
   depth.phase_s = 0.2;

@@ -5,6 +5,7 @@
 
 #include "sim/random.hpp"
 #include "study/instruments.hpp"
+#include "study/survey/survey_usbl.hpp"
 
 namespace fathom::study {
 namespace {
@@ -27,9 +28,6 @@ constexpr double kCompassAccuracy_rad = 1.0 * kDegree;  // as its data sheet has
 constexpr double kCompassFilter_rad = 2.0 * kDegree;    // while the curve is being learned: STUDY-3
 constexpr double kDepthNoise_m = 0.02;
 constexpr double kDepthBias_m = 0.03;
-constexpr double kUsblShare = 0.01;
-constexpr double kUsblFloor_m = 0.3;
-constexpr double kUsblLatency_s = 2.0;
 constexpr std::array<double, 2> kCurrent_N_m_s{0.12, -0.18};
 
 constexpr double kSurface_m = 18.5;
@@ -132,8 +130,8 @@ sim::Scenario survey_scenario(const SurveyCase& one, std::uint64_t seed) {
       step.speed_m_s = kOrder_m_s;
     }
 
-  s.sensors.imu = simulated(one.navigation_grade ? kNavigation : kTactical, 1.0);
-  sim::GpsConfig& gps = s.sensors.gps;
+  s.sensors.of<ImuSample>() = simulated(one.navigation_grade ? kNavigation : kTactical, 1.0);
+  sim::GpsConfig& gps = s.sensors.of<GpsSample>();
   gps.enabled = true;
   gps.rate_hz = 5.0;
   gps.lever_B_m = kGpsLever_B_m;
@@ -146,7 +144,7 @@ sim::Scenario survey_scenario(const SurveyCase& one, std::uint64_t seed) {
   gps.velocity_down_sigma_m_s = 2.0 * kGpsVelocity_m_s;
   gps.dropouts.push_back({kSurveyDive_s, kSurveyDuration_s});
 
-  sim::DvlConfig& dvl = s.sensors.dvl;
+  sim::DvlConfig& dvl = s.sensors.of<DvlSample>();
   dvl = simulated(kDvl, 1.0);
   dvl.rate_hz = 5.0;
   dvl.phase_s = kUnderWay_s + 5.0;  // switched on when the vehicle is out of the sheltered water
@@ -170,28 +168,20 @@ sim::Scenario survey_scenario(const SurveyCase& one, std::uint64_t seed) {
   }
 
   sim::Random random(seed, "compass of the vehicle");
-  sim::HeadingConfig& heading = s.sensors.heading;
+  sim::HeadingConfig& heading = s.sensors.of<HeadingSample>();
   heading.enabled = true;
   heading.rate_hz = 1.0;
   heading.sigma_rad = kCompassNoise_rad;
   for (std::size_t i = 0; i < heading.deviation_rad.size(); ++i)
     heading.deviation_rad[i] = random.normal(i == 0 ? kCompassA_rad : kCompassCurve_rad);
 
-  sim::DepthConfig& depth = s.sensors.depth;
+  sim::DepthConfig& depth = s.sensors.of<DepthSample>();
   depth.enabled = true;
   depth.rate_hz = 1.0;
   depth.sigma_m = kDepthNoise_m;
   depth.bias_sigma_m = kDepthBias_m;
 
-  if (one.usbl) {
-    sim::UsblConfig& usbl = s.sensors.usbl;
-    usbl.enabled = true;
-    usbl.rate_hz = 0.2;
-    usbl.range_fraction = kUsblShare;
-    usbl.floor_m = kUsblFloor_m;
-    usbl.latency_s = usbl.maximum_latency_s = kUsblLatency_s;
-    usbl.ship_N_m = {150.0, 300.0, 5.0};
-  }
+  if (one.usbl) add_survey_usbl(s);
   return s;
 }
 
@@ -264,11 +254,7 @@ estimation::EngineConfig survey_config(const SurveyCase& one, SurveyFilter filte
   compass.sigma = {compass_sigma, compass_sigma, compass_sigma};
   compass.frozen_change = 0.0;
   c.sensors = {gps, dvl, depth, compass};
-  if (one.usbl) {
-    auto usbl = estimation::default_sensor(SourceKind::usbl, "usbl");
-    usbl.sigma = {kUsblFloor_m, kUsblFloor_m, kUsblFloor_m};
-    c.sensors.push_back(usbl);
-  }
+  if (one.usbl) c.sensors.push_back(told_survey_usbl());
   if (published)
     for (auto& sensor : c.sensors) believe_everything(sensor);
   return c;

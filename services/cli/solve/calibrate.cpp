@@ -41,7 +41,9 @@ class Latest {
 class Log {
  public:
   explicit Log(const SolveRun& solve_run)
-      : config_(solve_run.config->engine), rpm_(solve_run.data->propulsion), fins_(solve_run.data->fins) {}
+      : config_(solve_run.config->engine),
+        rpm_(solve_run.data->of<PropulsionSample>()),
+        fins_(solve_run.data->of<FinsSample>()) {}
 
   void add(const NavState& state) {
     const PropulsionSample* shaft = rpm_.at(state.header.stamp_ns);
@@ -158,11 +160,11 @@ std::string calibrate_hydro(const SolveRun& solve_run, const std::string& direct
     throw Failure(ExitCode::bad_configuration,
                   config_file + ": engine.vehicle_model.coefficients." + complaint + ", to calibrate from");
   }
-  if (solve_run.data->propulsion.empty()) {
+  if (solve_run.data->of<PropulsionSample>().empty()) {
     throw Failure(ExitCode::bad_input,
                   directory + "/propulsion.csv: no rows, expected the shaft speed to calibrate with");
   }
-  if (solve_run.data->dvl.empty()) {
+  if (solve_run.data->of<DvlSample>().empty()) {
     throw Failure(ExitCode::bad_input,
                   directory + "/dvl.csv: no rows, expected velocities over ground to calibrate with");
   }

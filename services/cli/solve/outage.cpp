@@ -88,7 +88,7 @@ void pool(OutageFigures& figures) {
 }
 
 Motion motion_in(const dataset::Dataset& data, const std::string& directory) {
-  const auto motion = motion_of(data.gps);
+  const auto motion = motion_of(data.of<GpsSample>());
   if (motion) return *motion;
   throw Failure(ExitCode::bad_input,
                 directory + "/gps.csv: no fix in motion, expected a moving vehicle for --gps-outage");
@@ -154,7 +154,7 @@ void run_windows(SolveRun solve_run, const std::vector<GpsWindow>& removed, bool
   std::vector<Watch> watches;
   for (const GpsWindow& window : removed) {
     Watch watch;
-    watch.fixes = fixes_in(solve_run.data->gps, window);
+    watch.fixes = fixes_in(solve_run.data->of<GpsSample>(), window);
     if (watch.fixes.empty()) continue;  // GPS was out by itself: nothing to compare with
     watch.begin_ns = window.begin_ns;
     watch.end_ns = watch.fixes.back()->header.stamp_ns;

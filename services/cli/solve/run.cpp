@@ -77,15 +77,14 @@ double gps_latency_s(const NavDetail& detail) {
 }
 
 void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config) {
-  for_each_aiding_kind([&](auto kind) {
-    rename(dataset::stream<typename decltype(kind)::Sample>(data), kind.kSource, config);
-  });
+  for_each_aiding_kind(
+      [&](auto kind) { rename(data.of<typename decltype(kind)::Sample>(), kind.kSource, config); });
 }
 
 estimation::InitialState start_from_reference(const dataset::Dataset& data,
                                               const config::FusionConfig& config,
                                               const std::string& directory) {
-  const TimeNs first_ns = data.imu.front().header.stamp_ns;
+  const TimeNs first_ns = data.of<ImuSample>().front().header.stamp_ns;
   const auto row = std::find_if(data.reference.begin(), data.reference.end(),
                                 [first_ns](const Truth& truth) { return truth.header.stamp_ns >= first_ns; });
   const std::string file = directory + "/reference.csv: ";

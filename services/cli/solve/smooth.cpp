@@ -18,9 +18,9 @@ SolveResult run_smoothed(const SolveRun& solve_run, const SmoothedStates& states
   const SystemClock clock;
   const TimeNs begin_ns = clock.monotonic_ns();
   for_each_sample(solve_run, [&](const auto& sample) { smoother.add(sample); });
-  result.imu_samples = solve_run.data->imu.size();
+  result.imu_samples = solve_run.data->of<ImuSample>().size();
   std::vector<NavState> smoothed;
-  smoothed.reserve(solve_run.data->imu.size());
+  smoothed.reserve(solve_run.data->of<ImuSample>().size());
   estimation::Smoother::Output output;
   output.verdict = [&](const Verdict& verdict) {
     ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];

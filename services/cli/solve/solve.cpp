@@ -67,7 +67,7 @@ dataset::Dataset read_dataset(const std::string& directory, const config::Fusion
   } catch (const dataset::DatasetError& error) {
     throw Failure(ExitCode::bad_input, error.what());
   }
-  if (data.imu.empty()) {
+  if (data.of<ImuSample>().empty()) {
     throw Failure(ExitCode::bad_input,
                   directory + "/imu.csv: no inertial samples, expected at least one row");
   }
@@ -124,7 +124,7 @@ SolveReport solve(const SolveOptions& options) {
     ++report.positions;
     if (rows.pass(state.header.stamp_ns)) csv.add(state);
     score(state, scorer);
-    if (!data.gps.empty()) path.add(state);
+    if (!data.of<GpsSample>().empty()) path.add(state);
   };
 
   report.dataset = options.directory;
@@ -136,12 +136,12 @@ SolveReport solve(const SolveOptions& options) {
     dataset::Scorer filtered;
     const auto take_filtered = [&](const NavState& state) {
       score(state, filtered);
-      if (!data.gps.empty()) filtered_path.add(state);
+      if (!data.of<GpsSample>().empty()) filtered_path.add(state);
     };
     report.result = run_smoothed(solve_run, {take_filtered, take});
     report.filtered = filtered.score();
   } else {
-    HeadingWatch heading(loaded.value, data.gps);
+    HeadingWatch heading(loaded.value, data.of<GpsSample>());
     NavDetail detail;
     solve_run.on_state = [&](const NavState& state, const estimation::FusionEngine& engine) {
       take(state);
@@ -157,7 +157,7 @@ SolveReport solve(const SolveOptions& options) {
   if (report.score.count > 0)
     report.distance_m = truth.distance_m(report.score.first_ns, report.score.last_ns);
   const Antenna antenna = antenna_of(loaded.value, report.result.gps_latency_s);
-  for (const GpsSample& fix : data.gps) {
+  for (const GpsSample& fix : data.of<GpsSample>()) {
     if (fix.fix == GpsFix::none || solve_run.removes(fix)) continue;
     report.at_fixes.add(path.error_m(fix, antenna));
     if (options.smooth) report.filtered_at_fixes.add(filtered_path.error_m(fix, antenna));

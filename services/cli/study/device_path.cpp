@@ -7,38 +7,19 @@
 #include <Eigen/Core>
 
 #include "codec/registry.hpp"
+#include "config/registry.hpp"
 #include "config/scenario/scenario_wiring.hpp"
-#include "config/service_config.hpp"
 #include "geo/so3.hpp"
 
 namespace fathom::cli {
 namespace {
 
-template <class Config>
-config::SensorPlan plan_of(const std::string& file, const std::vector<std::string>& sets) {
-  const auto loaded = config::load_service_config<Config>({file, sets});
-  return config::sensor_plans(loaded.value).front();
-}
-
-std::string bridge_of(std::string_view kind) {
-  if (kind == "propulsion" || kind == "fins") return "actuator";
-  return kind == "airspeed" ? "air_data" : std::string(kind);
-}
-
-config::SensorPlan plan_of(std::string_view kind, const std::string& directory,
+config::SensorPlan plan_of(std::string_view role, const std::string& directory,
                            const std::map<std::string, std::vector<std::string>>& overrides) {
-  const std::string service = bridge_of(kind) + "_bridge";
+  const std::string service(role);
   const auto found = overrides.find(service);
   const std::vector<std::string> sets = found == overrides.end() ? std::vector<std::string>() : found->second;
-  const std::string file = directory + "/" + service + ".json";
-  if (kind == "imu") return plan_of<config::ImuBridgeConfig>(file, sets);
-  if (kind == "gps") return plan_of<config::GpsBridgeConfig>(file, sets);
-  if (kind == "dvl") return plan_of<config::DvlBridgeConfig>(file, sets);
-  if (kind == "depth") return plan_of<config::DepthBridgeConfig>(file, sets);
-  if (kind == "heading") return plan_of<config::HeadingBridgeConfig>(file, sets);
-  if (kind == "usbl") return plan_of<config::UsblBridgeConfig>(file, sets);
-  if (kind == "airspeed") return plan_of<config::AirDataBridgeConfig>(file, sets);
-  return plan_of<config::ActuatorBridgeConfig>(file, sets);
+  return config::bridge_plans(role, {directory + "/" + service + ".json", sets}).front();
 }
 
 void turn_into_body(ImuSample& sample, const std::array<double, 9>& R_BS) {
@@ -84,12 +65,12 @@ struct DevicePath::Channel : codec::Sink {
 DevicePath::DevicePath(const sim::Scenario& scenario, const std::string& config_directory, TimeNs power_on_ns)
     : encoder_(scenario, power_on_ns) {
   const auto overrides = config::service_overrides(scenario, {});
-  for (const char* kind :
-       {"imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins", "airspeed"}) {
-    const sim::SensorCommon& sensor = *sim::find_sensor(scenario.sensors, kind);
-    if (!sensor.enabled || sensor.protocol.empty() || !sim::can_encode(kind, sensor.protocol)) continue;
-    channels_[kind] = std::make_unique<Channel>(plan_of(kind, config_directory, overrides));
-  }
+  for_each_kind([&](auto kind) {
+    const sim::SensorCommon& sensor = scenario.sensors.of<typename decltype(kind)::Sample>();
+    if (!sensor.enabled || sensor.protocol.empty() || !sim::can_encode(kind.kSource, sensor.protocol)) return;
+    channels_.emplace(kind.kWord,
+                      std::make_unique<Channel>(plan_of(kind.kRole, config_directory, overrides)));
+  });
 }
 
 DevicePath::~DevicePath() = default;

@@ -81,7 +81,7 @@ ScenarioCase load_case(const std::string& name, const std::filesystem::path& dir
   out.name = name;
   out.scenario = config::load_scenario({config::scenario_file(name), {}});
   std::vector<std::string> sets{"engine.imu.nominal_rate_hz=" +
-                                nlohmann::json(out.scenario.sensors.imu.rate_hz).dump()};
+                                nlohmann::json(out.scenario.sensors.of<ImuSample>().rate_hz).dump()};
   const auto overrides = config::service_overrides(out.scenario, {});
   if (const auto found = overrides.find("fusion"); found != overrides.end())
     sets.insert(sets.end(), found->second.begin(), found->second.end());

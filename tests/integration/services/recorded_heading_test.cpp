@@ -90,9 +90,9 @@ TEST_P(RecordedHeading, FromWhereverTheRecordingIsCut) {
     const auto drop = [&](auto& stream) {
       std::erase_if(stream, [&](const auto& sample) { return sample.header.stamp_ns < begin_ns; });
     };
-    drop(cut.imu);
-    drop(cut.gps);
-    drop(cut.airspeed);
+    drop(cut.of<ImuSample>());
+    drop(cut.of<GpsSample>());
+    drop(cut.of<AirspeedSample>());
     drop(cut.reference);
     const std::string data = (folder / std::to_string(static_cast<int>(begin_s))).string();
     dataset::write(data, cut);

@@ -107,11 +107,12 @@ TEST_F(SolveTest, SmoothsFromBothEnds) {
   // Fixes that scatter by a quarter of a metre, and an accelerometer that begins to pull to the east while
   // there are none.
   dataset::Dataset data = StraightCourse(true).data;
-  data.dvl.clear();
-  for (std::size_t i = 2500; i < data.imu.size(); ++i) data.imu[i].specific_force_B_m_s2[1] += 2e-2;
-  for (std::size_t i = 0; i < data.gps.size(); ++i) {
-    data.gps[i].latitude_rad += 4e-8 * std::sin(12.9898 * static_cast<double>(i));
-    data.gps[i].longitude_rad += 4e-8 * std::sin(78.233 * static_cast<double>(i));
+  data.of<DvlSample>().clear();
+  for (std::size_t i = 2500; i < data.of<ImuSample>().size(); ++i)
+    data.of<ImuSample>()[i].specific_force_B_m_s2[1] += 2e-2;
+  for (std::size_t i = 0; i < data.of<GpsSample>().size(); ++i) {
+    data.of<GpsSample>()[i].latitude_rad += 4e-8 * std::sin(12.9898 * static_cast<double>(i));
+    data.of<GpsSample>()[i].longitude_rad += 4e-8 * std::sin(78.233 * static_cast<double>(i));
   }
   dataset::write(path("data"), data);
   const std::vector<std::string> call{"--smooth",     "--start",  "reference",
@@ -244,7 +245,8 @@ TEST_F(SolveTest, AGapWidensTheUncertaintyAndALongOneLosesTheAttitude) {
   dataset::Dataset data = StraightCourse(false).data;
   const auto cut = [&](int from_s, int to_s) {
     dataset::Dataset gappy = data;
-    gappy.imu.erase(gappy.imu.begin() + from_s * 100, gappy.imu.begin() + to_s * 100);
+    gappy.of<ImuSample>().erase(gappy.of<ImuSample>().begin() + from_s * 100,
+                                gappy.of<ImuSample>().begin() + to_s * 100);
     dataset::write(path("data"), gappy);
   };
   ASSERT_EQ((cut(30, 33), solve({"--start", "reference", "--json"})), 0) << err;
@@ -270,7 +272,7 @@ TEST_F(SolveTest, NoReferenceIsNoStart) {
 dataset::Dataset at_rest(double heading_rad) {
   dataset::Dataset data;
   for (int i = 0; i <= 3000; ++i) {
-    ImuSample& imu = data.imu.emplace_back();
+    ImuSample& imu = data.of<ImuSample>().emplace_back();
     imu.header.stamp_ns = imu.header.received_ns = dataset::kDefaultEpochNs + i * 10'000'000LL;
     imu.header.sequence = static_cast<std::uint64_t>(i);
     imu.angular_rate_B_rad_s = {kEarthRate * std::cos(kLatitude) * std::cos(heading_rad),
@@ -285,7 +287,7 @@ dataset::Dataset at_rest(double heading_rad) {
     truth.velocity_N_m_s = {0.0, 0.0, 0.0};
     truth.rpy_rad = {0.0, 0.0, heading_rad};
     if (i % 100 != 7) continue;
-    GpsSample& gps = data.gps.emplace_back();
+    GpsSample& gps = data.of<GpsSample>().emplace_back();
     gps.header = imu.header;
     gps.fix = GpsFix::fix_3d;
     gps.latitude_rad = kLatitude;
@@ -364,10 +366,10 @@ TEST_F(SolveTest, AReferenceWithoutAttitudeIsNoStart) {
 
 TEST_F(SolveTest, BadMeasurementsGetVerdictsAndMoveNothing) {
   dataset::Dataset data = StraightCourse(false).data;
-  data.imu[1000].angular_rate_B_rad_s[2] = kUnknown;
-  data.imu[2001].header.stamp_ns = data.imu[2000].header.stamp_ns;
-  data.imu[2001].header.received_ns = data.imu[2000].header.stamp_ns;
-  data.dvl[10].velocity_D_m_s.fill(kUnknown);
+  data.of<ImuSample>()[1000].angular_rate_B_rad_s[2] = kUnknown;
+  data.of<ImuSample>()[2001].header.stamp_ns = data.of<ImuSample>()[2000].header.stamp_ns;
+  data.of<ImuSample>()[2001].header.received_ns = data.of<ImuSample>()[2000].header.stamp_ns;
+  data.of<DvlSample>()[10].velocity_D_m_s.fill(kUnknown);
   dataset::write(path("data"), data);
   ASSERT_EQ(solve({"--start", "reference", "--json"}), 0) << err;
   const auto metrics = nlohmann::json::parse(out);

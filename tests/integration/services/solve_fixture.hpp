@@ -33,7 +33,7 @@ class StraightCourse {
     for (int i = 0; i <= kSeconds * 100; ++i) {
       const TimeNs stamp = dataset::kDefaultEpochNs + i * 10'000'000LL;
       const double latitude = kLatitude + kSpeed_m_s * 0.01 * i / kMeridian_m;
-      ImuSample& imu = data.imu.emplace_back();
+      ImuSample& imu = data.of<ImuSample>().emplace_back();
       imu.header.stamp_ns = imu.header.received_ns = stamp;
       imu.angular_rate_B_rad_s = {kEarthRate * std::cos(latitude), -kSpeed_m_s / kMeridian_m,
                                   -kEarthRate * std::sin(latitude)};
@@ -49,13 +49,13 @@ class StraightCourse {
         truth.rpy_rad = {0.0, 0.0, 0.0};
       }
       if (i % 100 == 3) {
-        DvlSample& dvl = data.dvl.emplace_back();
+        DvlSample& dvl = data.of<DvlSample>().emplace_back();
         dvl.header.stamp_ns = stamp;
         dvl.header.received_ns = stamp + 200'000'000;
         dvl.velocity_D_m_s = {kSpeed_m_s, 0.0, 0.0};
       }
       if (with_gps && i % 50 == 0) {
-        GpsSample& gps = data.gps.emplace_back();
+        GpsSample& gps = data.of<GpsSample>().emplace_back();
         gps.header = imu.header;
         gps.fix = GpsFix::fix_3d;
         gps.latitude_rad = latitude;

@@ -20,12 +20,12 @@ class SolveRecordings : public SolveTest {
     const fs::path whole = fs::path(FATHOM_DATASETS) / name;
     if (!kSanitized) return whole.string();
     dataset::Dataset data = dataset::read(whole);
-    const TimeNs end_ns = data.imu.front().header.stamp_ns + from_seconds(enough_s);
-    const auto cut = [end_ns](auto&... streams) {
-      (std::erase_if(streams, [end_ns](const auto& sample) { return sample.header.stamp_ns > end_ns; }), ...);
+    const TimeNs end_ns = data.of<ImuSample>().front().header.stamp_ns + from_seconds(enough_s);
+    const auto cut = [end_ns](auto& stream) {
+      std::erase_if(stream, [end_ns](const auto& sample) { return sample.header.stamp_ns > end_ns; });
     };
-    cut(data.imu, data.gps, data.dvl, data.depth, data.heading, data.usbl, data.airspeed, data.propulsion,
-        data.fins, data.reference);
+    for_each_kind([&](auto kind) { cut(data.of<typename decltype(kind)::Sample>()); });
+    cut(data.reference);
     dataset::write(path(name), data);
     return path(name);
   }

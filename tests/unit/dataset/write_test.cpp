@@ -38,15 +38,15 @@ Dataset sample_data() {
   std::mt19937_64 random(7);
   Dataset data;
   for (int i = 0; i < 500; ++i) {
-    ImuSample& imu = data.imu.emplace_back();
+    ImuSample& imu = data.of<ImuSample>().emplace_back();
     imu.header = header(kDefaultEpochNs - kNsPerSecond + i * 10'000'001LL);
     fill(imu.angular_rate_B_rad_s, random);
     fill(imu.specific_force_B_m_s2, random);
   }
-  data.imu[3].specific_force_B_m_s2[1] = kUnknown;
+  data.of<ImuSample>()[3].specific_force_B_m_s2[1] = kUnknown;
   for (int i = 0; i < 20; ++i) {
     const TimeNs stamp = kDefaultEpochNs + i * 250'000'000LL;
-    GpsSample& gps = data.gps.emplace_back();
+    GpsSample& gps = data.of<GpsSample>().emplace_back();
     gps.header = header(stamp, 120'000'000);
     gps.fix = i % 5 == 0 ? GpsFix::none : GpsFix::fix_3d;
     if (gps.fix != GpsFix::none) {
@@ -58,7 +58,7 @@ Dataset sample_data() {
     fill(gps.position_sigma_N_m, random);
     fill(gps.velocity_N_m_s, random);
     fill(gps.velocity_sigma_N_m_s, random);
-    DvlSample& dvl = data.dvl.emplace_back();
+    DvlSample& dvl = data.of<DvlSample>().emplace_back();
     dvl.header = header(stamp);
     fill(dvl.velocity_D_m_s, random);
     fill(dvl.beam_velocity_m_s, random);
@@ -66,12 +66,12 @@ Dataset sample_data() {
     dvl.mode = i % 2 == 0 ? DvlMode::bottom : DvlMode::water;
     dvl.sigma_m_s = 0.01;
     dvl.altitude_m = 44.0;
-    data.depth.push_back({header(stamp), 5.0 + i, 0.02, kUnknown, kUnknown});
-    HeadingSample& heading = data.heading.emplace_back();
+    data.of<DepthSample>().push_back({header(stamp), 5.0 + i, 0.02, kUnknown, kUnknown});
+    HeadingSample& heading = data.of<HeadingSample>().emplace_back();
     heading.header = header(stamp);
     heading.heading_rad = 0.1 * i;
     heading.north = i < 10 ? North::magnetic : North::true_north;
-    UsblSample& usbl = data.usbl.emplace_back();
+    UsblSample& usbl = data.of<UsblSample>().emplace_back();
     usbl.header = header(stamp, 2 * kNsPerSecond);
     usbl.latitude_rad = 0.6;
     usbl.longitude_rad = -2.1;
@@ -90,9 +90,9 @@ Dataset sample_data() {
       usbl.station_depth_m = 4.0;
       usbl.station_rpy_rad = {0.01, -0.02, 1.3};
     }
-    data.airspeed.push_back({header(stamp), 20.0, 300.0, kUnknown, 20.3});
-    data.propulsion.push_back({header(stamp), 1500.0 + i});
-    data.fins.push_back({header(stamp), 0.01 * i, -0.01 * i});
+    data.of<AirspeedSample>().push_back({header(stamp), 20.0, 300.0, kUnknown, 20.3});
+    data.of<PropulsionSample>().push_back({header(stamp), 1500.0 + i});
+    data.of<FinsSample>().push_back({header(stamp), 0.01 * i, -0.01 * i});
     Truth& truth = data.reference.emplace_back();
     truth.header = header(stamp);
     truth.latitude_rad = 0.6;
@@ -121,49 +121,52 @@ void expect_round_trip(bool gzip) {
   write(folder.path() / "new", data, {kDefaultEpochNs, gzip});
   EXPECT_EQ(std::filesystem::exists(folder.path() / "new" / "imu.csv.gz"), gzip);
   const Dataset back = read(folder.path() / "new");
-  ASSERT_EQ(back.imu.size(), data.imu.size());
-  for (std::size_t i = 0; i < data.imu.size(); ++i) {
-    EXPECT_EQ(back.imu[i].header.stamp_ns, data.imu[i].header.stamp_ns);
-    expect_same(back.imu[i].angular_rate_B_rad_s, data.imu[i].angular_rate_B_rad_s);
-    expect_same(back.imu[i].specific_force_B_m_s2, data.imu[i].specific_force_B_m_s2);
+  ASSERT_EQ(back.of<ImuSample>().size(), data.of<ImuSample>().size());
+  for (std::size_t i = 0; i < data.of<ImuSample>().size(); ++i) {
+    EXPECT_EQ(back.of<ImuSample>()[i].header.stamp_ns, data.of<ImuSample>()[i].header.stamp_ns);
+    expect_same(back.of<ImuSample>()[i].angular_rate_B_rad_s, data.of<ImuSample>()[i].angular_rate_B_rad_s);
+    expect_same(back.of<ImuSample>()[i].specific_force_B_m_s2, data.of<ImuSample>()[i].specific_force_B_m_s2);
   }
-  ASSERT_EQ(back.gps.size(), data.gps.size());
-  ASSERT_EQ(back.dvl.size(), data.dvl.size());
-  ASSERT_EQ(back.usbl.size(), data.usbl.size());
-  ASSERT_EQ(back.heading.size(), data.heading.size());
+  ASSERT_EQ(back.of<GpsSample>().size(), data.of<GpsSample>().size());
+  ASSERT_EQ(back.of<DvlSample>().size(), data.of<DvlSample>().size());
+  ASSERT_EQ(back.of<UsblSample>().size(), data.of<UsblSample>().size());
+  ASSERT_EQ(back.of<HeadingSample>().size(), data.of<HeadingSample>().size());
   ASSERT_EQ(back.reference.size(), data.reference.size());
-  for (std::size_t i = 0; i < data.gps.size(); ++i) {
-    EXPECT_EQ(back.gps[i].header.received_ns, data.gps[i].header.received_ns);
-    EXPECT_EQ(back.gps[i].fix, data.gps[i].fix);
-    EXPECT_EQ(back.gps[i].satellites, data.gps[i].satellites);
-    expect_same(back.gps[i].latitude_rad, data.gps[i].latitude_rad);
-    expect_same(back.gps[i].longitude_rad, data.gps[i].longitude_rad);
-    expect_same(back.gps[i].velocity_sigma_N_m_s, data.gps[i].velocity_sigma_N_m_s);
-    expect_same(back.dvl[i].velocity_D_m_s, data.dvl[i].velocity_D_m_s);
-    expect_same(back.dvl[i].beam_velocity_m_s, data.dvl[i].beam_velocity_m_s);
-    EXPECT_EQ(back.dvl[i].mode, data.dvl[i].mode);
-    expect_same(back.dvl[i].altitude_m, data.dvl[i].altitude_m);
-    expect_same(back.depth.at(i).depth_m, data.depth[i].depth_m);
-    expect_same(back.depth.at(i).sigma_m, data.depth[i].sigma_m);
-    expect_same(back.heading[i].heading_rad, data.heading[i].heading_rad);
-    EXPECT_EQ(back.heading[i].north, data.heading[i].north);
-    EXPECT_EQ(back.usbl[i].header.received_ns, data.usbl[i].header.received_ns);
-    expect_same(back.usbl[i].sigma_m, data.usbl[i].sigma_m);
-    EXPECT_EQ(back.usbl[i].frame, data.usbl[i].frame);
-    expect_same(back.usbl[i].depth_m, data.usbl[i].depth_m);
-    expect_same(back.usbl[i].relative_m, data.usbl[i].relative_m);
-    expect_same(back.usbl[i].range_m, data.usbl[i].range_m);
-    expect_same(back.usbl[i].bearing_rad, data.usbl[i].bearing_rad);
-    expect_same(back.usbl[i].depression_rad, data.usbl[i].depression_rad);
-    expect_same(back.usbl[i].sigma_rad, data.usbl[i].sigma_rad);
-    expect_same(back.usbl[i].station_latitude_rad, data.usbl[i].station_latitude_rad);
-    expect_same(back.usbl[i].station_longitude_rad, data.usbl[i].station_longitude_rad);
-    expect_same(back.usbl[i].station_depth_m, data.usbl[i].station_depth_m);
-    expect_same(back.usbl[i].station_rpy_rad, data.usbl[i].station_rpy_rad);
-    expect_same(back.airspeed.at(i).baro_altitude_m, data.airspeed[i].baro_altitude_m);
-    expect_same(back.airspeed.at(i).true_airspeed_m_s, data.airspeed[i].true_airspeed_m_s);
-    expect_same(back.propulsion.at(i).rpm, data.propulsion[i].rpm);
-    expect_same(back.fins.at(i).stern_rad, data.fins[i].stern_rad);
+  for (std::size_t i = 0; i < data.of<GpsSample>().size(); ++i) {
+    EXPECT_EQ(back.of<GpsSample>()[i].header.received_ns, data.of<GpsSample>()[i].header.received_ns);
+    EXPECT_EQ(back.of<GpsSample>()[i].fix, data.of<GpsSample>()[i].fix);
+    EXPECT_EQ(back.of<GpsSample>()[i].satellites, data.of<GpsSample>()[i].satellites);
+    expect_same(back.of<GpsSample>()[i].latitude_rad, data.of<GpsSample>()[i].latitude_rad);
+    expect_same(back.of<GpsSample>()[i].longitude_rad, data.of<GpsSample>()[i].longitude_rad);
+    expect_same(back.of<GpsSample>()[i].velocity_sigma_N_m_s, data.of<GpsSample>()[i].velocity_sigma_N_m_s);
+    expect_same(back.of<DvlSample>()[i].velocity_D_m_s, data.of<DvlSample>()[i].velocity_D_m_s);
+    expect_same(back.of<DvlSample>()[i].beam_velocity_m_s, data.of<DvlSample>()[i].beam_velocity_m_s);
+    EXPECT_EQ(back.of<DvlSample>()[i].mode, data.of<DvlSample>()[i].mode);
+    expect_same(back.of<DvlSample>()[i].altitude_m, data.of<DvlSample>()[i].altitude_m);
+    expect_same(back.of<DepthSample>().at(i).depth_m, data.of<DepthSample>()[i].depth_m);
+    expect_same(back.of<DepthSample>().at(i).sigma_m, data.of<DepthSample>()[i].sigma_m);
+    expect_same(back.of<HeadingSample>()[i].heading_rad, data.of<HeadingSample>()[i].heading_rad);
+    EXPECT_EQ(back.of<HeadingSample>()[i].north, data.of<HeadingSample>()[i].north);
+    EXPECT_EQ(back.of<UsblSample>()[i].header.received_ns, data.of<UsblSample>()[i].header.received_ns);
+    expect_same(back.of<UsblSample>()[i].sigma_m, data.of<UsblSample>()[i].sigma_m);
+    EXPECT_EQ(back.of<UsblSample>()[i].frame, data.of<UsblSample>()[i].frame);
+    expect_same(back.of<UsblSample>()[i].depth_m, data.of<UsblSample>()[i].depth_m);
+    expect_same(back.of<UsblSample>()[i].relative_m, data.of<UsblSample>()[i].relative_m);
+    expect_same(back.of<UsblSample>()[i].range_m, data.of<UsblSample>()[i].range_m);
+    expect_same(back.of<UsblSample>()[i].bearing_rad, data.of<UsblSample>()[i].bearing_rad);
+    expect_same(back.of<UsblSample>()[i].depression_rad, data.of<UsblSample>()[i].depression_rad);
+    expect_same(back.of<UsblSample>()[i].sigma_rad, data.of<UsblSample>()[i].sigma_rad);
+    expect_same(back.of<UsblSample>()[i].station_latitude_rad, data.of<UsblSample>()[i].station_latitude_rad);
+    expect_same(back.of<UsblSample>()[i].station_longitude_rad,
+                data.of<UsblSample>()[i].station_longitude_rad);
+    expect_same(back.of<UsblSample>()[i].station_depth_m, data.of<UsblSample>()[i].station_depth_m);
+    expect_same(back.of<UsblSample>()[i].station_rpy_rad, data.of<UsblSample>()[i].station_rpy_rad);
+    expect_same(back.of<AirspeedSample>().at(i).baro_altitude_m,
+                data.of<AirspeedSample>()[i].baro_altitude_m);
+    expect_same(back.of<AirspeedSample>().at(i).true_airspeed_m_s,
+                data.of<AirspeedSample>()[i].true_airspeed_m_s);
+    expect_same(back.of<PropulsionSample>().at(i).rpm, data.of<PropulsionSample>()[i].rpm);
+    expect_same(back.of<FinsSample>().at(i).stern_rad, data.of<FinsSample>()[i].stern_rad);
     expect_same(back.reference[i].velocity_N_m_s, data.reference[i].velocity_N_m_s);
     expect_same(back.reference[i].rpy_rad, data.reference[i].rpy_rad);
   }
@@ -183,17 +186,18 @@ TEST(WriteDataset, GivesTheSameBytesTwiceAndRemovesWhatWasThere) {
   write(folder.path() / "a", data, {kDefaultEpochNs, true});
   write(folder.path() / "b", data, {kDefaultEpochNs, true});
   EXPECT_EQ(content(folder.path() / "a" / "imu.csv.gz"), content(folder.path() / "b" / "imu.csv.gz"));
-  data.gps.clear();
+  data.of<GpsSample>().clear();
   write(folder.path() / "a", data);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a" / "imu.csv.gz"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a" / "gps.csv.gz"));
-  EXPECT_TRUE(read(folder.path() / "a").gps.empty());
+  EXPECT_TRUE(read(folder.path() / "a").of<GpsSample>().empty());
 }
 
 TEST(WriteDataset, LeavesOutColumnsThatNobodyKnows) {
   const DatasetFolder folder;
   Dataset data;
-  data.depth.push_back({header(kDefaultEpochNs + 1'500'000'000), 2.5, kUnknown, kUnknown, kUnknown});
+  data.of<DepthSample>().push_back(
+      {header(kDefaultEpochNs + 1'500'000'000), 2.5, kUnknown, kUnknown, kUnknown});
   write(folder.path(), data);
   EXPECT_EQ(content(folder.path() / "depth.csv"), "t_s,depth_m\n1.50,2.5\n");
 }

@@ -25,15 +25,15 @@ TEST_P(RealFixes, RaiseNoAlarmOfASourceThatLies) {
   std::filesystem::copy(file, folder / "gps.csv.gz");
   const dataset::Dataset recorded = dataset::read(folder);
   std::filesystem::remove_all(folder);
-  ASSERT_GT(recorded.gps.size(), 100U);
+  ASSERT_GT(recorded.of<GpsSample>().size(), 100U);
 
   HealthConfig config;
   config.nav.expected = false;
-  const TimeNs begin_ns = recorded.gps.front().header.stamp_ns;
+  const TimeNs begin_ns = recorded.of<GpsSample>().front().header.stamp_ns;
   const auto at = [&](TimeNs utc_ns) { return Instant{utc_ns - begin_ns + kNsPerSecond, utc_ns}; };
   VehicleHealth health(config, at(begin_ns));
   std::set<std::string> raised;
-  for (const GpsSample& sample : recorded.gps) {
+  for (const GpsSample& sample : recorded.of<GpsSample>()) {
     const Instant now = at(sample.header.stamp_ns + 100 * kNsPerMillisecond);
     health.add(sample, now);
     health.evaluate(now);

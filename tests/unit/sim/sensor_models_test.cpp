@@ -1,11 +1,11 @@
-#include "sim/sensor_models.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "sim/scenario.hpp"
+#include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
 #include "vehicles.hpp"
 

@@ -28,19 +28,19 @@ Scenario instrumented() {
     sensor.latency_s = latency_s;
     sensor.jitter_s = 0.005;
   };
-  use(s.imu, "vectornav", 100.0, 0.002);
-  use(s.gps, "nmea0183", 2.0, 0.1);
-  use(s.dvl, "pd0", 5.0, 0.15);
-  use(s.depth, "paroscientific", 10.0, 0.03);
-  use(s.heading, "nmea0183", 10.0, 0.04);
-  use(s.usbl, "psimssb", 0.2, 0.6);
-  use(s.propulsion, "nmea0183", 5.0, 0.02);
-  use(s.fins, "nmea0183", 5.0, 0.02);
-  use(s.airspeed, "ascii_air_data", 5.0, 0.02);
-  s.gps.lever_B_m = {0.0, 0.0, -0.4};
-  s.usbl.minimum_depth_m = -1.0;
-  s.imu.gyro.random_walk = 3e-5;
-  s.imu.accelerometer.random_walk = 5e-4;
+  use(s.of<ImuSample>(), "vectornav", 100.0, 0.002);
+  use(s.of<GpsSample>(), "nmea0183", 2.0, 0.1);
+  use(s.of<DvlSample>(), "pd0", 5.0, 0.15);
+  use(s.of<DepthSample>(), "paroscientific", 10.0, 0.03);
+  use(s.of<HeadingSample>(), "nmea0183", 10.0, 0.04);
+  use(s.of<UsblSample>(), "psimssb", 0.2, 0.6);
+  use(s.of<PropulsionSample>(), "nmea0183", 5.0, 0.02);
+  use(s.of<FinsSample>(), "nmea0183", 5.0, 0.02);
+  use(s.of<AirspeedSample>(), "ascii_air_data", 5.0, 0.02);
+  s.of<GpsSample>().lever_B_m = {0.0, 0.0, -0.4};
+  s.of<UsblSample>().minimum_depth_m = -1.0;
+  s.of<ImuSample>().gyro.random_walk = 3e-5;
+  s.of<ImuSample>().accelerometer.random_walk = 5e-4;
   return out;
 }
 
@@ -80,7 +80,7 @@ TEST(Simulation, TheSameSeedGivesTheSameBytes) {
 
 TEST(Simulation, AnotherSensorLeavesTheNoiseOfTheOthersAlone) {
   Scenario without = instrumented();
-  without.sensors.dvl.enabled = false;
+  without.sensors.of<DvlSample>().enabled = false;
   const Outcome a = play(instrumented(), 4, 30.0);
   const Outcome b = play(without, 4, 30.0);
   const auto imu_of = [](const Outcome& r) {
@@ -134,8 +134,8 @@ TEST(Simulation, APingMeasuresBottomAndWaterLayer) {
   scenario.environment.current_N_m_s = {0.3, -0.2};
   scenario.environment.current_from_s = 0.0;
   const auto alone = decoded(play(scenario, 3, 30.0), scenario);
-  scenario.sensors.dvl.water_layer = true;
-  scenario.sensors.dvl.bottom_lost = {{20.0, 25.0}};
+  scenario.sensors.of<DvlSample>().water_layer = true;
+  scenario.sensors.of<DvlSample>().bottom_lost = {{20.0, 25.0}};
   const auto samples = decoded(play(scenario, 3, 30.0), scenario);
   ASSERT_EQ(samples.size(), 2 * 151U);
   ASSERT_EQ(alone.size(), 151U);
@@ -161,8 +161,8 @@ TEST(Simulation, APingMeasuresBottomAndWaterLayer) {
 
 TEST(Simulation, AWaterTrackIsNoBottomTrack) {
   Scenario scenario = instrumented();
-  scenario.sensors.dvl.water_track = true;
-  scenario.sensors.dvl.maximum_range_m = 1.0;  // far from the bottom
+  scenario.sensors.of<DvlSample>().water_track = true;
+  scenario.sensors.of<DvlSample>().maximum_range_m = 1.0;  // far from the bottom
   const auto samples = decoded(play(scenario, 3, 10.0), scenario);
   ASSERT_EQ(samples.size(), 2 * 51U);
   for (const DvlSample& one : samples) {
@@ -193,8 +193,8 @@ TEST(Simulation, GpsOnlyAtTheSurface) {
 
 TEST(Simulation, ScheduledAndRandomDropouts) {
   Scenario scenario = instrumented();
-  scenario.sensors.depth.dropouts = {{10.0, 20.0}};
-  scenario.sensors.heading.dropout_probability = 0.3;
+  scenario.sensors.of<DepthSample>().dropouts = {{10.0, 20.0}};
+  scenario.sensors.of<HeadingSample>().dropout_probability = 0.3;
   const Outcome r = play(scenario, 1, 40.0);
   int depth_inside = 0;
   int headings = 0;
@@ -264,6 +264,19 @@ TEST(DeviceEncoder, KnowsWhatItCanSay) {
   EXPECT_FALSE(can_encode("dvl", "nmea0183"));
   EXPECT_FALSE(can_encode("imu", "no_such_protocol"));
   EXPECT_EQ(find_sensor(SensorSuite{}, "sonar"), nullptr);
+}
+
+TEST(DeviceEncoder, SpeaksOnlyProtocolsThatTheRegistryDecodes) {
+  for_each_kind([](auto kind) {
+    for (const std::string_view protocol : SimulatedDevice<typename decltype(kind)::Sample>::kProtocols) {
+      const codec::Protocol* known = codec::find_protocol(protocol);
+      ASSERT_NE(known, nullptr) << kind.kWord << ": " << protocol;
+      EXPECT_EQ(known->name, protocol) << kind.kWord;
+      EXPECT_TRUE(can_encode(kind.kSource, protocol));
+    }
+    EXPECT_FALSE(can_encode(kind.kSource, "morse")) << kind.kWord;
+  });
+  EXPECT_FALSE(can_encode(SourceKind::imu, "pd0"));
 }
 
 }  // namespace

@@ -15,8 +15,8 @@ inline sim::Scenario base_scenario(sim::VehicleConfig::Kind kind) {
   out.start.latitude_rad = 45.0 * kDegree;
   out.start.longitude_rad = 7.0 * kDegree;
   out.environment.surface_altitude_m = 20.0;
-  out.sensors.imu.enabled = true;
-  out.sensors.imu.rate_hz = 100.0;
+  out.sensors.of<ImuSample>().enabled = true;
+  out.sensors.of<ImuSample>().rate_hz = 100.0;
   return out;
 }
 

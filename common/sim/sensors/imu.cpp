@@ -1,17 +1,15 @@
+#include "sim/sensors/imu.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "geo/so3.hpp"
-#include "sim/sensor_models.hpp"
+#include "sim/encode/vectornav.hpp"
+#include "sim/truth_generator.hpp"
 
 namespace fathom::sim {
 
 using Eigen::Vector3d;
-
-bool inside(const std::vector<Window>& windows, double t_s) {
-  return std::any_of(windows.begin(), windows.end(),
-                     [t_s](const Window& window) { return t_s >= window.from_s && t_s < window.to_s; });
-}
 
 TriadModel::TriadModel(const TriadConfig& config, Random& random) : config_(config) {
   for (int i = 0; i < 3; ++i) turn_on_[i] = random.normal(config.bias_sigma);
@@ -83,6 +81,10 @@ ImuSample ImuModel::sample(const ImuTruth& interval, const TruthPoint& end) {
     out.specific_force_B_m_s2 = geo::arr(accelerometer_.point(end.f_B_m_s2, dt, random_));
   }
   return out;
+}
+
+Bytes SimulatedDevice<ImuSample>::encode(const ImuSample& imu, const DeviceCall& device) {
+  return encode::vectornav(imu, imu.header.stamp_ns - device.power_on_ns);
 }
 
 }  // namespace fathom::sim

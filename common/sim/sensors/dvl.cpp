@@ -1,8 +1,12 @@
+#include "sim/sensors/dvl.hpp"
+
 #include <array>
 #include <cmath>
 
 #include "geo/so3.hpp"
-#include "sim/sensor_models.hpp"
+#include "sim/encode/pd0.hpp"
+#include "sim/encode/waterlinked.hpp"
+#include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
 
 namespace fathom::sim {
@@ -30,7 +34,7 @@ DvlSample DvlModel::sample(const TruthPoint& point) {
   return measure(at, {config_.water_track && far, outlier}, random_);
 }
 
-std::optional<DvlSample> DvlModel::water_layer(const TruthPoint& point) {
+std::optional<DvlSample> DvlModel::second(const TruthPoint& point) {
   if (!config_.water_layer) return std::nullopt;
   return measure(at_lever(point, geo::vec(config_.lever_B_m)), {.water = true}, layer_);
 }
@@ -86,6 +90,38 @@ DvlSample DvlModel::measure(const TruthPoint& at, const Ping& ping, Random& rand
     out.error_velocity_m_s = (b[0] + b[1] - b[2] - b[3]) / (2.0 * std::sqrt(2.0) * s);
   }
   return out;
+}
+
+Bytes SimulatedDevice<DvlSample>::encode(const DvlSample& dvl, const DeviceCall& device) {
+  if (device.protocol != "waterlinked") return pd0(dvl, device.scenario.sensors.of<DvlSample>().water_layer);
+  if (dvl.mode == DvlMode::water) return {};  // it has no word for it
+  const TimeNs valid_ns = dvl.header.stamp_ns;
+  const double since_ms = last_ns_ == 0 ? kUnknown : to_seconds(valid_ns - last_ns_) * 1e3;
+  last_ns_ = valid_ns;
+  return bytes_of(encode::waterlinked(dvl, {valid_ns, dvl.header.received_ns, since_ms}));
+}
+
+Bytes SimulatedDevice<DvlSample>::pd0(const DvlSample& sample, bool water_layer) {
+  const TimeNs valid_ns = sample.header.stamp_ns;
+  if (sample.mode == DvlMode::bottom && water_layer) {
+    ping_ = sample;  // the other half of the ensemble comes next
+    return {};
+  }
+  encode::Pd0Options options;
+  options.ensemble = ++ensemble_;
+  if (sample.mode == DvlMode::bottom) return encode::pd0(sample, valid_ns, options);
+  DvlSample bottom = sample;
+  bottom.mode = DvlMode::bottom;
+  if (ping_ && ping_->header.stamp_ns == valid_ns) {
+    bottom = *ping_;
+  } else {
+    bottom.velocity_D_m_s.fill(kUnknown);
+    bottom.beam_velocity_m_s.fill(kUnknown);
+    bottom.beam_range_m.fill(kUnknown);
+    bottom.error_velocity_m_s = bottom.altitude_m = kUnknown;
+  }
+  ping_.reset();
+  return encode::pd0(bottom, valid_ns, options, &sample);
 }
 
 }  // namespace fathom::sim

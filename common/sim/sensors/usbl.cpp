@@ -1,9 +1,12 @@
+#include "sim/sensors/usbl.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
-#include "sim/sensor_models.hpp"
+#include "sim/encode/nmea.hpp"
+#include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
 
 namespace fathom::sim {
@@ -104,6 +107,10 @@ void UsblModel::relative(UsblSample& out, const TruthPoint& transponder, const g
 
 double UsblModel::latency_s() {
   return random_.uniform(config_.latency_s, std::max(config_.latency_s, config_.maximum_latency_s));
+}
+
+Bytes SimulatedDevice<UsblSample>::encode(const UsblSample& usbl, const DeviceCall& /*device*/) {
+  return bytes_of(encode::psimssb(usbl, usbl.header.stamp_ns));
 }
 
 }  // namespace fathom::sim

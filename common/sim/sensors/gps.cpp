@@ -1,8 +1,12 @@
+#include "sim/sensors/gps.hpp"
+
 #include <cmath>
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
-#include "sim/sensor_models.hpp"
+#include "sim/encode/nmea.hpp"
+#include "sim/encode/ubx.hpp"
+#include "sim/truth_generator.hpp"
 
 namespace fathom::sim {
 
@@ -63,6 +67,11 @@ GpsSample GpsModel::sample(const TruthPoint& point) {
   out.hdop = 0.9;
   if (std::hypot(v_N.x(), v_N.y()) > 0.2) out.course_rad = geo::wrap_two_pi(std::atan2(v_N.y(), v_N.x()));
   return out;
+}
+
+Bytes SimulatedDevice<GpsSample>::encode(const GpsSample& gps, const DeviceCall& device) {
+  if (device.protocol == "ubx") return encode::ubx_nav_pvt(gps, gps.header.stamp_ns);
+  return bytes_of(encode::nmea_gps(gps, gps.header.stamp_ns));
 }
 
 }  // namespace fathom::sim
