@@ -12,27 +12,6 @@ constexpr std::size_t kStride = Observation::kMaxRows;
 /// Of the squared distance, where everything is to pass.
 constexpr double kNoLimit = 1e30;
 
-/// Normal quantile by P. J. Acklam's rational approximation (relative error 1.2e-9), upper half only.
-double normal_quantile(double p) {
-  constexpr std::array<double, 6> a{-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
-                                    1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
-  constexpr std::array<double, 5> b{-5.447609879822406e+01, 1.615858368580409e+02, -1.556989798598866e+02,
-                                    6.680131188771972e+01, -1.328068155288572e+01};
-  constexpr std::array<double, 6> c{-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
-                                    -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
-  constexpr std::array<double, 4> d{7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00,
-                                    3.754408661907416e+00};
-  if (p > 0.97575) {
-    const double q = std::sqrt(-2.0 * std::log(1.0 - p));
-    return -(((((c[0] * q + c[1]) * q + c[2]) * q + c[3]) * q + c[4]) * q + c[5]) /
-           ((((d[0] * q + d[1]) * q + d[2]) * q + d[3]) * q + 1.0);
-  }
-  const double q = p - 0.5;
-  const double r = q * q;
-  return (((((a[0] * r + a[1]) * r + a[2]) * r + a[3]) * r + a[4]) * r + a[5]) * q /
-         (((((b[0] * r + b[1]) * r + b[2]) * r + b[3]) * r + b[4]) * r + 1.0);
-}
-
 double noise_scale(const SensorConfig& sensor, double squared_distance, int rows) {
   // (GATE-2)
   switch (sensor.robust) {
@@ -76,18 +55,6 @@ void keep_rows(InnovationStatistics& statistics, unsigned refused) {
 }
 
 }  // namespace
-
-double chi_square_quantile(double probability, int degrees) {
-  // One degree is the square of a normal variable, exactly.
-  if (degrees == 1) {
-    const double z = normal_quantile(0.5 + 0.5 * probability);
-    return z * z;
-  }
-  const double k = 2.0 / (9.0 * degrees);
-  const double z = normal_quantile(probability);
-  const double root = 1.0 - k + z * std::sqrt(k);
-  return degrees * root * root * root;
-}
 
 GateLimits gate_limits(const SensorConfig& sensor) {
   GateLimits limits;

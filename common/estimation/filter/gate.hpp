@@ -3,13 +3,10 @@
 #include <array>
 
 #include "base/unknown.hpp"
+#include "estimation/filter/chi_square.hpp"
 #include "estimation/filter/error_filter.hpp"
 
 namespace fathom::estimation {
-
-/// Value that a chi-square variable of `degrees` (1 to 6) stays below with the given probability; relative
-/// error below 1 % (Wilson-Hilferty with the normal quantile of Acklam).
-[[nodiscard]] double chi_square_quantile(double probability, int degrees);
 
 /// Limits of one sensor, made once from its configuration.
 struct GateLimits {
