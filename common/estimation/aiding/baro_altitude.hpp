@@ -19,7 +19,9 @@ class BaroAltitude {
     return append(BaroAltitude(in.state, in.sensor, sample), in, out);
   }
   [[nodiscard]] static AidingPolicy policy(const SensorConfig& sensor, const Sample& sample) {
-    return air_data_policy(sensor, sample);
+    AidingPolicy policy = air_data_policy(sensor, sample);
+    policy.velocity = VelocityOver::none;
+    return policy;
   }
 
   BaroAltitude(const AidingState& s, const SensorConfig& sensor, const AirspeedSample& sample)

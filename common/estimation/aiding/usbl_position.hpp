@@ -5,11 +5,12 @@
 
 namespace fathom::estimation {
 
-/// What an acoustic measurement means that repeats `reading` when it is frozen.
-[[nodiscard]] inline AidingPolicy usbl_policy(const std::array<double, 3>& reading) {
+/// What an acoustic measurement means that repeats `reading` when it is frozen. `complete`: it says where the
+/// vehicle is horizontally; a range, a bearing or a depth alone is a part of that.
+[[nodiscard]] inline AidingPolicy usbl_policy(const std::array<double, 3>& reading, bool complete) {
   AidingPolicy policy;
   policy.position = true;
-  policy.fix = Fix::acoustic;
+  if (complete) policy.fix = Fix::acoustic;
   policy.along_vehicle = false;
   policy.frozen_by_path = true;
   policy.reading = reading;
@@ -32,7 +33,7 @@ class UsblPosition {
                : can;
   }
   [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
-    return usbl_policy({sample.latitude_rad, sample.longitude_rad, sample.depth_m});
+    return usbl_policy({sample.latitude_rad, sample.longitude_rad, sample.depth_m}, true);
   }
 
   UsblPosition(const AidingState& s, const SensorConfig& sensor, const UsblSample& sample,

@@ -23,7 +23,8 @@ class UsblRangeBearing {
                : can;
   }
   [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
-    return usbl_policy({sample.range_m, sample.bearing_rad, sample.depression_rad});
+    return usbl_policy({sample.range_m, sample.bearing_rad, sample.depression_rad},
+                       known(sample.range_m) && known(sample.bearing_rad));
   }
 
   UsblRangeBearing(const AidingState& s, const SensorConfig& sensor, const UsblSample& sample,

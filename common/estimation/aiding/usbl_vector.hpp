@@ -21,7 +21,7 @@ class UsblVector {
                : can;
   }
   [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
-    return usbl_policy(sample.relative_m);
+    return usbl_policy(sample.relative_m, known(sample.relative_m[0]) && known(sample.relative_m[1]));
   }
 
   UsblVector(const AidingState& s, const SensorConfig& sensor, const UsblSample& sample,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/aiding/registry.hpp"
+#include "estimation/filter/chi_square.hpp"
 #include "estimation/navigator/constraints.hpp"
 #include "estimation/navigator/instruments.hpp"
 #include "estimation/navigator/reacquisition.hpp"
@@ -254,6 +255,43 @@ TEST(AidingPolicies, EachModelSaysWhatItBrings) {
   }
   EXPECT_EQ(fixes, 4);
   EXPECT_GE(velocities, 8);
+}
+
+AidingPolicy policy_of(std::string_view model, const EventSample& sample) {
+  for (const AidingEntry& entry : aiding_registry())
+    if (entry.name == model) return entry.policy({}, sample);
+  ADD_FAILURE() << "no model " << model;
+  return {};
+}
+
+TEST(AidingPolicies, APartOfAnAcousticFixIsNoPosition) {
+  UsblSample usbl;
+  usbl.frame = UsblFrame::vehicle_frd;
+  usbl.range_m = 120.0;
+  EXPECT_EQ(policy_of("usbl_range_bearing", usbl).fix, Fix::none);
+  usbl.depression_rad = 0.2;
+  EXPECT_EQ(policy_of("usbl_range_bearing", usbl).fix, Fix::none);
+  usbl.bearing_rad = 1.0;
+  EXPECT_EQ(policy_of("usbl_range_bearing", usbl).fix, Fix::acoustic);
+  UsblSample vector;
+  vector.relative_m = {kUnknown, 3.0, 5.0};
+  EXPECT_EQ(policy_of("usbl_vector", vector).fix, Fix::none);
+  vector.relative_m[0] = 2.0;
+  EXPECT_EQ(policy_of("usbl_vector", vector).fix, Fix::acoustic);
+}
+
+TEST(AidingPolicies, ABarometerAloneIsNoVelocity) {
+  AirspeedSample air;
+  air.baro_altitude_m = 300.0;
+  EXPECT_EQ(policy_of("baro_altitude", air).velocity, VelocityOver::none);
+  EXPECT_EQ(policy_of("airspeed", air).velocity, VelocityOver::medium);
+}
+
+TEST(ChiSquare, QuantilesAreThoseOfTheTables) {
+  EXPECT_NEAR(chi_square_quantile(0.95, 1), 3.841458821, 1e-8);
+  EXPECT_NEAR(chi_square_quantile(0.95, 2), 5.991464547, 1e-8);
+  EXPECT_NEAR(chi_square_quantile(0.99, 3), 11.344866730, 1e-8);
+  EXPECT_NEAR(chi_square_quantile(0.999, 6), 22.457744484, 1e-8);
 }
 
 }  // namespace
