@@ -16,8 +16,8 @@ namespace fathom::bridge {
 /// wrong is said in the life sign, which is degraded then.
 class Bridge {
  public:
-  /// Publishes samples of the kinds that name this service in the table of kinds; others in the same stream are
-  /// counted and ignored.
+  /// Publishes samples of the kinds that name this service in the table of kinds; others in the same stream
+  /// are counted and ignored.
   Bridge(host::ServiceHost& host, const std::vector<config::SensorPlan>& plans, std::string_view role);
   ~Bridge();
   Bridge(const Bridge&) = delete;
@@ -34,10 +34,11 @@ class Bridge {
 /// The whole main of a bridge.
 template <class Config>
 [[nodiscard]] int run_bridge(int argc, char** argv, const host::ServiceInfo& info) {
-  return host::run<Config>(argc, argv, info, [role = info.name](host::ServiceHost& host, const Config& config) {
-    Bridge bridge(host, config::sensor_plans(config), role);
-    return bridge.run();
-  });
+  return host::run<Config>(argc, argv, info,
+                           [role = info.name](host::ServiceHost& host, const Config& config) {
+                             Bridge bridge(host, config::sensor_plans(config), role);
+                             return bridge.run();
+                           });
 }
 
 }  // namespace fathom::bridge

@@ -20,8 +20,7 @@ inline constexpr std::size_t kRefusals = 2;
 /// Unknown (NaN) is a legal answer of an instrument that has lost its bottom or its satellites and is
 /// published, so that others see it alive; an inertial sample, a depth or a heading without its value is
 /// nothing.
-[[nodiscard]] std::optional<Refusal> refuse(const AnySample& sample,
-                                            const config::SampleLimits& limits);
+[[nodiscard]] std::optional<Refusal> refuse(const AnySample& sample, const config::SampleLimits& limits);
 
 /// Turns an inertial sample from instrument axes into the body: v_B = R_BS v_S (row-major).
 void rotate_into_body(ImuSample& sample, const std::array<double, 9>& R_BS);

@@ -6,7 +6,7 @@
 
 namespace fathom::estimation {
 
-/// Velocity through the water ahead and across as the vehicle's own dynamics foretell it from shaft speed,
+/// Velocity through the water ahead and across as the vehicle's own dynamics predict it from shaft speed,
 /// fins and turning: a virtual velocity log (AID-MOD-1..2). It errs by a share of itself and by a slow bias,
 /// which are states, and by what changes within seconds, which is noise that lasts: R is multiplied by how
 /// many samples come within its correlation time.

@@ -22,7 +22,7 @@ template <template <class> class Walk>
 void describe(Walk<VehicleModelConfig>& s) {
   using C = VehicleModelConfig;
   s.field("enabled", &C::enabled,
-          "shaft speed and fins foretell the velocity through the water; needs the state "
+          "shaft speed and fins predict the velocity through the water; needs the state "
           "groups current and model_bias");
   s.field("coefficients_file", &C::coefficients_file,
           "file of the coefficients, relative to this file, e.g. \"hydro/remus100.json\"; empty: as given in "

@@ -1,9 +1,6 @@
 #include "estimation/engine/fusion_engine.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -34,13 +31,28 @@ EngineConfig checked(const EngineConfig& config) {
   return config;
 }
 
+VerdictKind refusal_of(History::Placing placing) {
+  switch (placing) {
+    case History::Placing::duplicate:
+      return VerdictKind::duplicate;
+    case History::Placing::from_the_future:
+      return VerdictKind::from_the_future;
+    case History::Placing::not_started:
+      return VerdictKind::not_aligned;
+    case History::Placing::taken:
+    case History::Placing::late:
+      break;
+  }
+  return VerdictKind::late;
+}
+
 }  // namespace
 
 class FusionEngine::Impl final : public VerdictSink {
  public:
   explicit Impl(const EngineConfig& config)
       : setup_(checked(config)),
-        intake_(setup_),
+        preprocessor_(setup_),
         history_(setup_),
         forecaster_(setup_),
         verdicts_(kVerdictsKept + 2 * setup_.config.measurement_capacity) {
@@ -50,20 +62,11 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   bool add(const ImuSample& sample) {
-    if (!sound_stamp(sample.header.stamp_ns)) {
-      Judgement judgement;
-      judgement.kind = VerdictKind::out_of_range;
-      refuse(sample.header, SourceKind::imu, {}, judgement);
-      return false;
-    }
-    const ImuPreprocessor::Result result = intake_.take(sample);
+    if (!sound_stamp(sample.header.stamp_ns)) return refuse(sample, VerdictKind::out_of_range);
+    const ImuPreprocessor::Result result = preprocessor_.take(sample);
     switch (result.outcome) {
-      case ImuPreprocessor::Outcome::refused: {
-        Judgement judgement;
-        judgement.kind = result.refusal;
-        refuse(sample.header, SourceKind::imu, {}, judgement);
-        return false;
-      }
+      case ImuPreprocessor::Outcome::refused:
+        return refuse(sample, result.refusal);
       case ImuPreprocessor::Outcome::first:
         history_.begin(sample.header.stamp_ns, *this);
         break;
@@ -106,23 +109,12 @@ class FusionEngine::Impl final : public VerdictSink {
     one.sensor = sensor;
     one.sequence = header.sequence;
     one.sample = sample;
-    switch (history_.insert(one, *this)) {
-      case History::Placing::taken:
-        forecaster_.remember(sensor, one.sample);
-        return;
-      case History::Placing::late:
-        judgement.kind = VerdictKind::late;
-        break;
-      case History::Placing::duplicate:
-        judgement.kind = VerdictKind::duplicate;
-        break;
-      case History::Placing::from_the_future:
-        judgement.kind = VerdictKind::from_the_future;
-        break;
-      case History::Placing::not_started:
-        judgement.kind = VerdictKind::not_aligned;
-        break;
+    const History::Placing placing = history_.insert(one, *this);
+    if (placing == History::Placing::taken) {
+      forecaster_.remember(sensor, one.sample);
+      return;
     }
+    judgement.kind = refusal_of(placing);
     refuse(header, source, writer, judgement);
   }
 
@@ -149,23 +141,22 @@ class FusionEngine::Impl final : public VerdictSink {
     one.sample = command;
     switch (history_.insert(one, *this)) {
       case History::Placing::taken:
-        break;
+        return {};
       case History::Placing::late:
-        return too_far(command, "before");
       case History::Placing::from_the_future:
-        return too_far(command, "after");
+        return too_far(command, history_.navigator().now_ns(), setup_.config.horizon_s);
       case History::Placing::duplicate:
         return "it was given before";
       case History::Placing::not_started:
-        return "navigation has not begun";
+        break;
     }
-    return {};
+    return "navigation has not begun";
   }
 
   void start_from(const InitialState& state) {
     (void)nav_state();  // the last one stands until the next inertial sample
     history_.clear(*this);
-    intake_ = ImuPreprocessor(setup_);
+    preprocessor_ = ImuPreprocessor(setup_);
     pending_start_ = state;
   }
 
@@ -181,7 +172,7 @@ class FusionEngine::Impl final : public VerdictSink {
     const StateHead head{StateHead::kMagic, kStateVersion,   layout(kStateVersion),
                          newest.sequence,   newest.stamp_ns, newest.received_ns};
     image("head", head);
-    image("intake", intake_);
+    image("intake", preprocessor_);
     history_.write(image);
     return true;
   }
@@ -198,7 +189,7 @@ class FusionEngine::Impl final : public VerdictSink {
     image("intake", intake);
     image.expect(intake.newest_ns() == head.stamp_ns, "intake.last_ns", "the stamp of the state");
     if (std::string why = history_.read(image, head.stamp_ns, *this); !why.empty()) return why;
-    intake_ = intake;
+    preprocessor_ = intake;
     nav_.header.stamp_ns = head.stamp_ns;
     nav_.header.received_ns = head.received_ns;
     nav_.header.sequence = head.sequence;
@@ -211,7 +202,11 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   void judged(const Measurement& measurement, const Judgement& judgement, VerdictKind previous) override {
-    if (measurement.command) return ordered(std::get<Command>(measurement.sample), judgement, measurement);
+    if (measurement.command) {
+      outcomes_.push() =
+          outcome_of(std::get<Command>(measurement.sample), judgement, measurement.revision > 0);
+      return;
+    }
     Verdict& verdict = push(measurement.header(), measurement.source, measurement.writer, judgement);
     verdict.revision = measurement.revision;
     verdict.previous = previous;
@@ -263,7 +258,7 @@ class FusionEngine::Impl final : public VerdictSink {
   /// Tells the fields of that version, as this build and configuration have them.
   [[nodiscard]] std::uint64_t layout(std::uint32_t version) const {
     archive::Layout out(version);
-    out("intake", intake_);
+    out("intake", preprocessor_);
     history_.layout(out);
     return out.fingerprint();
   }
@@ -274,33 +269,18 @@ class FusionEngine::Impl final : public VerdictSink {
     return -1;
   }
 
-  [[nodiscard]] std::string too_far(const Command& command, const char* side) const {
-    const double apart_s = std::abs(to_seconds(command.header.stamp_ns - history_.navigator().now_ns()));
-    std::array<char, 160> text{};
-    std::snprintf(text.data(), text.size(),
-                  "its stamp is %.3f s %s the newest inertial sample, expected no more than %g s", apart_s,
-                  side, setup_.config.horizon_s);
-    return text.data();
-  }
-
-  void ordered(const Command& command, const Judgement& judgement, const Measurement& measurement) {
-    OrderOutcome& out = outcomes_.push();
-    out = {};
-    out.order = command;
-    out.fate = judgement.kind == VerdictKind::used       ? OrderFate::done
-               : judgement.kind == VerdictKind::rejected ? OrderFate::held
-                                                         : OrderFate::not_done;
-    out.again = measurement.revision > 0;
-    if (judgement.dimensions == 0) return;
-    out.apart_m = std::hypot(judgement.innovation[0], judgement.innovation[1]);
-    out.allowed_m = judgement.limit;
-  }
-
   void stamp(SampleHeader& header) const {
     header.vehicle = nav_.header.vehicle;
     header.sensor = nav_.header.sensor;
     header.stamp_ns = nav_.header.stamp_ns;
     header.received_ns = nav_.header.received_ns;
+  }
+
+  bool refuse(const ImuSample& sample, VerdictKind kind) {
+    Judgement judgement;
+    judgement.kind = kind;
+    refuse(sample.header, SourceKind::imu, {}, judgement);
+    return false;
   }
 
   void refuse(const SampleHeader& header, SourceKind source, const Name& writer, const Judgement& judgement) {
@@ -316,7 +296,7 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   Setup setup_;
-  ImuPreprocessor intake_;
+  ImuPreprocessor preprocessor_;
   History history_;
   Forecaster forecaster_;
   SampleHeader forecast_header_;  ///< of take_forecast()

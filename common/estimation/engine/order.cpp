@@ -61,4 +61,26 @@ std::uint64_t order_number(const Command& order) {
   return hash + order.header.sequence;
 }
 
+std::string too_far(const Command& command, TimeNs newest_ns, double horizon_s) {
+  const double after_s = to_seconds(command.header.stamp_ns - newest_ns);
+  std::array<char, 160> text{};
+  std::snprintf(text.data(), text.size(),
+                "its stamp is %.3f s %s the newest inertial sample, expected no more than %g s",
+                std::abs(after_s), after_s < 0.0 ? "before" : "after", horizon_s);
+  return text.data();
+}
+
+OrderOutcome outcome_of(const Command& order, const Judgement& judgement, bool again) {
+  OrderOutcome out;
+  out.order = order;
+  out.fate = judgement.kind == VerdictKind::used       ? OrderFate::done
+             : judgement.kind == VerdictKind::rejected ? OrderFate::held
+                                                       : OrderFate::not_done;
+  out.again = again;
+  if (judgement.dimensions == 0) return out;
+  out.apart_m = std::hypot(judgement.innovation[0], judgement.innovation[1]);
+  out.allowed_m = judgement.limit;
+  return out;
+}
+
 }  // namespace fathom::estimation

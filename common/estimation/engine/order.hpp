@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "base/unknown.hpp"
+#include "estimation/navigator/measurement.hpp"
 #include "samples/command.hpp"
 
 namespace fathom::estimation {
@@ -29,5 +31,10 @@ struct OrderOutcome {
   double apart_m = kUnknown;    ///< of a position under way: horizontally, from where navigation was
   double allowed_m = kUnknown;  ///< without confirmation
 };
+
+/// That the order's stamp lies too far from the newest inertial sample, in words.
+[[nodiscard]] std::string too_far(const Command& command, TimeNs newest_ns, double horizon_s);
+/// `again`: it acted before, and a late event has let it act once more.
+[[nodiscard]] OrderOutcome outcome_of(const Command& order, const Judgement& judgement, bool again);
 
 }  // namespace fathom::estimation

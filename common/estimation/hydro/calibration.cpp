@@ -59,7 +59,7 @@ class Problem {
     sigma.tail<3>().setConstant(config_.velocity_sigma_m_s);
     return sigma;
   }
-  /// Velocity over ground that the model foretells less the one of the log, at the vouched points; nothing
+  /// Velocity over ground that the model predicts less the one of the log, at the vouched points; nothing
   /// where these coefficients are no vehicle.
   [[nodiscard]] std::optional<VectorXd> residuals(const VectorXd& x) const {
     const HydroCoefficients c = coefficients(x);

@@ -4,7 +4,7 @@
 
 namespace fathom::estimation::hydro {
 
-/// The part of a vehicle model that foretells the velocity through the water where the turning is measured:
+/// The part of a vehicle model that predicts the velocity through the water where the turning is measured:
 /// made once from the coefficients.
 class VelocityModel {
  public:

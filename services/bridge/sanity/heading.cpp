@@ -1,5 +1,6 @@
-#include "bridge/sanity/limits.hpp"
 #include "samples/heading.hpp"
+
+#include "bridge/sanity/limits.hpp"
 
 namespace fathom::bridge {
 

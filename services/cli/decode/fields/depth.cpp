@@ -1,5 +1,6 @@
-#include "cli/decode/fields.hpp"
 #include "samples/depth.hpp"
+
+#include "cli/decode/fields.hpp"
 
 namespace fathom::cli {
 

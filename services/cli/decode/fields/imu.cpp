@@ -1,5 +1,6 @@
-#include "cli/decode/fields.hpp"
 #include "samples/imu.hpp"
+
+#include "cli/decode/fields.hpp"
 
 namespace fathom::cli {
 
