@@ -142,54 +142,6 @@ bool named_state_groups(const std::string& name, StateGroups& groups) {
   return false;
 }
 
-SensorConfig default_sensor(SourceKind kind, const std::string& name) {
-  SensorConfig sensor;
-  sensor.sensor = name;
-  sensor.kind = kind;
-  switch (kind) {
-    case SourceKind::gps:
-      sensor.sigma = {1.5, 1.5, 3.0};
-      sensor.reacquire_s = 21.0;
-      sensor.frozen_change = 2.0;
-      break;
-    case SourceKind::dvl:
-      sensor.sigma = {0.01, 0.01, 0.01};
-      sensor.proportional_sigma = 0.002;
-      sensor.robust = RobustKind::student_t;
-      sensor.reacquire_s = 5.0;
-      sensor.frozen_change = 0.1;
-      break;
-    case SourceKind::depth:
-      sensor.sigma = {0.05, 0.05, 0.05};
-      sensor.reacquire_s = 5.0;
-      sensor.frozen_change = 1.0;
-      break;
-    case SourceKind::heading:
-      sensor.sigma = {0.0087, 0.0087, 0.0087};
-      sensor.robust = RobustKind::student_t;
-      sensor.reacquire_s = 30.0;
-      sensor.frozen_change = 0.1;
-      break;
-    case SourceKind::usbl:
-      sensor.sigma = {2.0, 2.0, 2.0};
-      sensor.robust = RobustKind::student_t;
-      sensor.reacquire_s = 60.0;
-      break;
-    case SourceKind::airspeed:
-      sensor.sigma = {1.0, 1.0, 1.0};
-      sensor.robust = RobustKind::student_t;
-      break;
-    case SourceKind::propulsion:
-      sensor.sigma = {0.15, 0.1, 0.1};
-      sensor.proportional_sigma = 0.01;
-      sensor.robust = RobustKind::student_t;
-      break;
-    default:
-      break;
-  }
-  return sensor;
-}
-
 EngineConfig::EngineConfig() {
   (void)named_state_groups(configuration, groups);
   forecast_limits = {{"horizontal_10m", 10.0}, {"horizontal_100m", 100.0}, {"heading_3deg", 0.0524}};

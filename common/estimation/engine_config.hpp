@@ -177,7 +177,7 @@ struct SensorConfig {
   double slip_time_s = 10.0;
 };
 
-/// A sensor with the defaults that suit its kind.
+/// A sensor with the defaults of its kind, which stand beside its aiding model (aiding/).
 [[nodiscard]] SensorConfig default_sensor(SourceKind kind, const std::string& name);
 
 enum class StartMode : std::uint8_t {

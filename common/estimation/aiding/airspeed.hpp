@@ -8,6 +8,12 @@
 
 namespace fathom::estimation {
 
+/// What an instrument of this kind has where its configuration says nothing.
+inline void set_defaults(SensorConfig& sensor, const AirspeedSample* /*kind*/) {
+  sensor.sigma = {1.0, 1.0, 1.0};
+  sensor.robust = RobustKind::student_t;
+}
+
 /// Velocity through air whose horizontal motion is the `current` state, along N.
 [[nodiscard]] inline Vector3 velocity_through_air_N(const AidingState& s) {
   return s.state.nav.v_N_m_s - Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0);

@@ -5,6 +5,13 @@
 
 namespace fathom::estimation {
 
+/// What an instrument of this kind has where its configuration says nothing.
+inline void set_defaults(SensorConfig& sensor, const DepthSample* /*kind*/) {
+  sensor.sigma = {0.05, 0.05, 0.05};
+  sensor.reacquire_s = 5.0;
+  sensor.frozen_change = 1.0;
+}
+
 /// Depth of the pressure port below a water surface whose ellipsoidal height is estimated, or configured
 /// (AID-DEP-1..2). So GPS altitude and depth agree without the surface having to be at zero.
 class Depth {

@@ -5,6 +5,15 @@
 
 namespace fathom::estimation {
 
+/// What an instrument of this kind has where its configuration says nothing.
+inline void set_defaults(SensorConfig& sensor, const DvlSample* /*kind*/) {
+  sensor.sigma = {0.01, 0.01, 0.01};
+  sensor.proportional_sigma = 0.002;
+  sensor.robust = RobustKind::student_t;
+  sensor.reacquire_s = 5.0;
+  sensor.frozen_change = 0.1;
+}
+
 /// What a measurement of a DVL means, by vector or by beams.
 [[nodiscard]] inline AidingPolicy dvl_policy(const DvlSample& sample) {
   AidingPolicy policy;

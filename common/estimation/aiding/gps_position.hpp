@@ -6,6 +6,13 @@
 
 namespace fathom::estimation {
 
+/// What an instrument of this kind has where its configuration says nothing.
+inline void set_defaults(SensorConfig& sensor, const GpsSample* /*kind*/) {
+  sensor.sigma = {1.5, 1.5, 3.0};
+  sensor.reacquire_s = 21.0;
+  sensor.frozen_change = 2.0;
+}
+
 /// Whether the receiver has a fix of the quality that is asked for, and one that it does not disown itself.
 [[nodiscard]] inline Usable usable_fix(const SensorConfig& sensor, const GpsSample& sample) {
   if (static_cast<std::uint8_t>(sample.fix) < sensor.min_fix) return Usable::no_fix;

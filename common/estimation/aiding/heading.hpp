@@ -5,6 +5,14 @@
 
 namespace fathom::estimation {
 
+/// What an instrument of this kind has where its configuration says nothing.
+inline void set_defaults(SensorConfig& sensor, const HeadingSample* /*kind*/) {
+  sensor.sigma = {0.0087, 0.0087, 0.0087};
+  sensor.robust = RobustKind::student_t;
+  sensor.reacquire_s = 30.0;
+  sensor.frozen_change = 0.1;
+}
+
 /// Heading from true north of the sample; NaN when it is magnetic and no variation is known. The variation
 /// the instrument reports goes before the configured one.
 [[nodiscard]] inline double true_heading(const HeadingSample& sample, double configured_variation_rad) {

@@ -6,6 +6,9 @@
 
 namespace fathom::estimation {
 
+/// Fins drive the vehicle model and have nothing of their own.
+inline void set_defaults(SensorConfig& /*sensor*/, const FinsSample* /*kind*/) {}
+
 /// Velocity through the water ahead and across as the vehicle's own dynamics predict it from shaft speed,
 /// fins and turning: a virtual velocity log (AID-MOD-1..2). It errs by a share of itself and by a slow bias,
 /// which are states, and by what changes within seconds, which is noise that lasts: R is multiplied by how

@@ -43,6 +43,17 @@ constexpr std::array kRegistry{
 
 }  // namespace
 
+SensorConfig default_sensor(SourceKind kind, const std::string& name) {
+  SensorConfig sensor;
+  sensor.sensor = name;
+  sensor.kind = kind;
+  for_each_aiding_kind([&](auto row) {
+    using Sample = typename decltype(row)::Sample;
+    if (row.kSource == kind) set_defaults(sensor, static_cast<const Sample*>(nullptr));
+  });
+  return sensor;
+}
+
 std::span<const AidingEntry> aiding_registry() {
   return kRegistry;
 }

@@ -8,6 +8,13 @@
 
 namespace fathom::estimation {
 
+/// What an instrument of this kind has where its configuration says nothing.
+inline void set_defaults(SensorConfig& sensor, const PropulsionSample* /*kind*/) {
+  sensor.sigma = {0.15, 0.1, 0.1};
+  sensor.proportional_sigma = 0.01;
+  sensor.robust = RobustKind::student_t;
+}
+
 /// Speed through the water from the propulsor's shaft speed, and the knowledge that such a vehicle moves
 /// along its own axis: along x the speed, across it zero, each with its sigma (AID-LOG-1..3). Slip, of the
 /// propulsor as of the hull, lasts for a while. Without current states the water is taken to stand still.

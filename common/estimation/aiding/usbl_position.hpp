@@ -5,6 +5,13 @@
 
 namespace fathom::estimation {
 
+/// What an instrument of this kind has where its configuration says nothing.
+inline void set_defaults(SensorConfig& sensor, const UsblSample* /*kind*/) {
+  sensor.sigma = {2.0, 2.0, 2.0};
+  sensor.robust = RobustKind::student_t;
+  sensor.reacquire_s = 60.0;
+}
+
 /// What an acoustic measurement means that repeats `reading` when it is frozen. `complete`: it says where the
 /// vehicle is horizontally; a range, a bearing or a depth alone is a part of that.
 [[nodiscard]] inline AidingPolicy usbl_policy(const std::array<double, 3>& reading, bool complete) {
