@@ -26,7 +26,7 @@ std::size_t width_of(const std::string& text) {
 
 std::string explain_text(const std::vector<FieldRow>& rows) {
   // A cell that is wider pushes the rest of its own line aside, not every line.
-  constexpr std::array<std::size_t, 4> kWidest{60, 12, 44, 36};
+  constexpr std::array<std::size_t, 4> kWidest{60, 12, 44, 40};
   std::vector<Cells> lines{{"KEY", "UNIT", "RANGE", "DEFAULT", "MEANING"}};
   for (const FieldRow& row : rows) lines.push_back(cells_of(row));
   std::array<std::size_t, 4> width{};

@@ -50,6 +50,23 @@ std::string short_text(const nlohmann::json& value) {
   return out.str();
 }
 
+/// One default, or "21 for gps, 5 for dvl, depth" where they differ.
+std::string text_of(const std::vector<std::pair<std::string, nlohmann::json>>& defaults) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> texts;
+  for (const auto& [choice, value] : defaults) {
+    const std::string text = short_text(value);
+    auto same = std::find_if(texts.begin(), texts.end(), [&](const auto& one) { return one.first == text; });
+    if (same == texts.end()) same = texts.insert(texts.end(), {text, {}});
+    same->second.push_back(choice);
+  }
+  std::string out;
+  for (const auto& [text, choices] : texts) {
+    if (!out.empty()) out += "; ";
+    out += texts.size() == 1 ? text : text + " for " + list_words(choices);
+  }
+  return out;
+}
+
 /// The sentence, behind the choices that it is for.
 std::string text_of(const FieldInfo& info) {
   return (info.only_for.empty() ? "" : list_words(info.only_for) + ": ") + info.sentence;
@@ -167,7 +184,11 @@ nlohmann::json SchemaCore::json_schema(const void* defaults, void* spare) const 
     if (entry->info.required) {
       required.push_back(entry->info.key);
     } else {
-      property["default"] = entry->ops->dump(at(defaults, entry->offset), entry->rules.get());
+      // Where no choice has it, each says its own.
+      auto standard = entry->ops->dump(at(defaults, entry->offset), entry->rules.get());
+      for (const auto& [choice, own] : defaults_of(*entry, defaults, spare)) {
+        if (own == standard) property["default"] = standard;
+      }
     }
     properties[entry->info.key] = std::move(property);
   }
@@ -206,7 +227,23 @@ nlohmann::json SchemaCore::schema_of_choice(const std::string& choice, const voi
   return out;
 }
 
-void SchemaCore::list(const void* defaults, const std::string& prefix, std::vector<FieldRow>& out) const {
+std::vector<std::pair<std::string, nlohmann::json>> SchemaCore::defaults_of(const Entry& entry,
+                                                                            const void* defaults,
+                                                                            void* spare) const {
+  const Entry* decider = deciding();
+  if (decider == nullptr || !defaults_)
+    return {{"", entry.ops->dump(at(defaults, entry.offset), entry.rules.get())}};
+  std::vector<std::pair<std::string, nlohmann::json>> out;
+  for (const std::string& choice : decider->info.choices) {
+    if (!entry.info.known_to(choice)) continue;
+    defaults_(choice, spare);
+    out.emplace_back(choice, entry.ops->dump(at(spare, entry.offset), entry.rules.get()));
+  }
+  return out;
+}
+
+void SchemaCore::list(const void* defaults, void* spare, const std::string& prefix,
+                      std::vector<FieldRow>& out) const {
   for (const auto& entry : entries_) {
     FieldRow row{prefix.empty() ? entry->info.key : prefix + "." + entry->info.key, entry->info, "", ""};
     row.info.sentence = text_of(entry->info);
@@ -214,8 +251,7 @@ void SchemaCore::list(const void* defaults, const std::string& prefix, std::vect
     const std::size_t place = out.size();
     entry->ops->rows(at(defaults, entry->offset), row.key, out);
     const bool section = out.size() > place;
-    if (!section && !entry->info.required)
-      row.default_text = short_text(entry->ops->dump(at(defaults, entry->offset), entry->rules.get()));
+    if (!section && !entry->info.required) row.default_text = text_of(defaults_of(*entry, defaults, spare));
     out.insert(out.begin() + static_cast<std::ptrdiff_t>(place), std::move(row));
   }
 }

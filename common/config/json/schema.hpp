@@ -117,7 +117,7 @@ class SchemaCore {
   [[nodiscard]] nlohmann::json dump(const void* whole) const;
   /// `spare` is another struct with the defaults, to be changed at will.
   [[nodiscard]] nlohmann::json json_schema(const void* defaults, void* spare) const;
-  void list(const void* defaults, const std::string& prefix, std::vector<FieldRow>& out) const;
+  void list(const void* defaults, void* spare, const std::string& prefix, std::vector<FieldRow>& out) const;
 
  private:
   struct Entry {
@@ -135,6 +135,10 @@ class SchemaCore {
   [[nodiscard]] std::string choice_of(const void* whole) const;
   [[nodiscard]] nlohmann::json schema_of_choice(const std::string& choice, const void* defaults,
                                                 void* spare) const;
+  /// The defaults of a field by the choices that know it; one for an empty choice where nothing decides.
+  [[nodiscard]] std::vector<std::pair<std::string, nlohmann::json>> defaults_of(const Entry& entry,
+                                                                                const void* defaults,
+                                                                                void* spare) const;
   void check_rules(const nlohmann::json& json, const void* whole, const Place& place) const;
 
   std::vector<std::unique_ptr<Entry>> entries_;  // FieldRef keeps references to their info
@@ -190,7 +194,8 @@ class Schema {
     return core_.json_schema(&probe_, &spare);
   }
   void list(const T& defaults, const std::string& prefix, std::vector<FieldRow>& out) const {
-    core_.list(&defaults, prefix, out);
+    T spare{};
+    core_.list(&defaults, &spare, prefix, out);
   }
 
  private:

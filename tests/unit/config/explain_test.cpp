@@ -67,6 +67,11 @@ TEST(Keys, ReachIntoSectionsAndLists) {
   EXPECT_EQ(row("engine.sensors[].kind").range, "gps, dvl, depth, heading, usbl, airspeed, propulsion, fins");
   EXPECT_EQ(row("engine.sensors[].use_beams").range, "true or false");
   EXPECT_THAT(row("engine.sensors[].use_beams").info.sentence, HasSubstr("dvl: "));
+  EXPECT_EQ(row("engine.sensors[].use_position").default_text, "true");
+  EXPECT_EQ(row("engine.sensors[].sigma_deg").default_text, "[0.498473, 0.498473, 0.498473]")
+      << "that of its kind";
+  EXPECT_THAT(row("engine.sensors[].reacquire_s").default_text,
+              HasSubstr("21 for gps; 5 for dvl, depth; 30 for"));
   EXPECT_EQ(row("engine.forecast_limits[].name").range, "name");
   EXPECT_EQ(row("start.state.latitude_deg").range, "-90 to 90");
 }

@@ -117,12 +117,17 @@ TEST(FusionConfig, EachKindKnowsTheKeysThatTheSchemaLeavesIt) {
       if (rule["if"]["properties"]["kind"]["const"] == row.kWord) forbidden = rule["then"]["properties"];
     }
     for (const auto& [key, property] : items["properties"].items()) {
-      if (!property.contains("default")) continue;
+      nlohmann::json value = property.value("default", nlohmann::json());
+      for (const auto& rule : items["allOf"]) {
+        const auto& own = rule["then"]["properties"];
+        if (value.is_null() && own.contains(key) && own[key] != false) value = own[key]["default"];
+      }
+      if (value.is_null()) continue;
       nlohmann::json one = {{"sensor", "a"}, {"kind", row.kWord}};
       for (const char* needed : {"lever_B_m", "mounting_rpy_deg"}) {
         if (!forbidden.contains(needed) || forbidden[needed] != false) one[needed] = {0, 0, 0};
       }
-      one[key] = property["default"];
+      one[key] = value;
       const std::string answer = error_of(sensor(one.dump()));
       const bool refused = forbidden.contains(key) && forbidden[key] == false;
       const std::string expected =
