@@ -48,8 +48,7 @@ constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "
                                                               "nmea0183_air_data"};
 
 const std::array<Protocol, 10> kProtocols{{
-    {"nmea0183", kNmeaAliases,
-     "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, PSIMSSB; any talker", make_nmea0183},
+    {"nmea0183", kNmeaAliases, kNmeaDescription, make_nmea0183},
     {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx},
     {"pd0", kPd0Aliases, "Teledyne RDI PD0 ensembles with bottom track", make_pd0},
     {"waterlinked", kWaterlinkedAliases, "Water Linked A50 and A125, JSON lines", make_waterlinked},

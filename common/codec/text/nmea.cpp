@@ -119,6 +119,9 @@ class Nmea0183 final : public Framer {
 
 }  // namespace
 
+constinit const std::string_view kNmeaDescription =
+    "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, PSIMSSB; any talker";
+
 std::unique_ptr<Codec> make_nmea0183(const CodecOptions& options) {
   return std::make_unique<Nmea0183>(options, Scope::everything);
 }

@@ -1,15 +1,18 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 
 #include "codec/codec.hpp"
 #include "codec/registry.hpp"
 
 namespace fathom::codec {
 
-/// NMEA 0183, any talker, one codec for all instruments: GGA, GNS, RMC, VTG, GST, ZDA to GpsSample; HDT, HDM,
-/// HDG, THS to HeadingSample; RPM to PropulsionSample; RSA and XDR to FinsSample; PSIMSSB to UsblSample.
-/// Other sentences are good frames without sample; DPT and DBT among them, which are ranges to the bottom.
+/// The sentences that give samples.
+extern const std::string_view kNmeaDescription;
+
+/// NMEA 0183, any talker, one codec for all instruments. What a sentence gives stands where it is parsed, in
+/// the folder of its kind. Other sentences are good frames without sample.
 [[nodiscard]] std::unique_ptr<Codec> make_nmea0183(const CodecOptions& options);
 
 /// The same stream, of which only PSIMSSB gives samples. GGA, HDT and THS are those of the ship and go into

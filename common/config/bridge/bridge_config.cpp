@@ -2,11 +2,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <set>
 
+#include "config/bridge/bridge_schema.hpp"
 #include "config/bridge/byte_source_config.hpp"
-#include "config/scenario/sensor_schema.hpp"
-#include "config/service_schema.hpp"
 
 namespace fathom::config {
 namespace {
@@ -195,22 +193,6 @@ void describe(Schema<ActuatorSensorConfig>& s) {
       .unit("deg")
       .range(1, 180)
       .scaled(kDegree);
-}
-
-template <class Sensor>
-void describe(Schema<BridgeConfig<Sensor>>& s) {
-  using Config = BridgeConfig<Sensor>;
-  s.include(&Config::common);
-  s.field("sensors", &Config::sensors, "the instruments").required();
-  s.check([](const Config& config) -> Violation {
-    if (config.sensors.empty()) return {"sensors", "at least one instrument"};
-    std::set<std::string> names;
-    for (const Sensor& each : config.sensors) {
-      if (!names.insert(each.sensor.name.str()).second)
-        return {"sensors", "different names for its instruments"};
-    }
-    return {};
-  });
 }
 
 template LoadedConfig<ImuBridgeConfig> load_service_config(const LoadRequest& request);

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "config/bridge/bridge_config.hpp"
+#include "config/bridge/bridge_schema.hpp"
 
 namespace fathom::config {
 namespace {
@@ -37,14 +37,14 @@ double pascal(DepthUnit unit) {
   return 1.0;
 }
 
+}  // namespace
+
 SensorPlan plan_of(const SensorConfig& sensor) {
   SensorPlan out;
   out.sensor = sensor;
   if (out.sensor.source.silence_s <= 0.0) out.sensor.source.silence_s = stale_after_s(sensor);
   return out;
 }
-
-}  // namespace
 
 std::array<double, 9> MountingConfig::rotation() const {
   if (frame == MountingFrame::matrix && R_BS) return *R_BS;

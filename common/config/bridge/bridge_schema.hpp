@@ -1,0 +1,34 @@
+#pragma once
+
+// For *_config.cpp of bridges: the file of a bridge, and what every instrument plans alike.
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "config/bridge/bridge_config.hpp"
+#include "config/scenario/sensor_schema.hpp"
+#include "config/service_schema.hpp"
+
+namespace fathom::config {
+
+template <class Sensor>
+void describe(Schema<BridgeConfig<Sensor>>& s) {
+  using Config = BridgeConfig<Sensor>;
+  s.include(&Config::common);
+  s.field("sensors", &Config::sensors, "the instruments").required();
+  s.check([](const Config& config) -> std::pair<std::string, std::string> {
+    if (config.sensors.empty()) return {"sensors", "at least one instrument"};
+    std::set<std::string> names;
+    for (const Sensor& each : config.sensors) {
+      if (!names.insert(each.sensor.name.str()).second)
+        return {"sensors", "different names for its instruments"};
+    }
+    return {};
+  });
+}
+
+/// The part of a plan that does not depend on the kind.
+[[nodiscard]] SensorPlan plan_of(const SensorConfig& sensor);
+
+}  // namespace fathom::config
