@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <variant>
 
 #include "samples/command.hpp"
@@ -26,6 +27,14 @@ using EventSample = AidingKinds::Samples<detail::CommandOr>;
   return dvl != nullptr && dvl->mode == DvlMode::water;
 }
 
-static_assert(std::variant_size_v<EventSample> == kSourceKinds && kSourceOf<ImuSample> == SourceKind{});
+static_assert(
+    [] {
+      std::size_t number = 1;
+      bool equal = true;
+      for_each_aiding_kind(
+          [&](auto kind) { equal = equal && static_cast<std::size_t>(kind.kSource) == number++; });
+      return equal;
+    }(),
+    "kinds that aid are numbered from 1 without a gap");
 
 }  // namespace fathom::estimation

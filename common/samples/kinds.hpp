@@ -37,8 +37,9 @@ enum class SourceKind : std::uint8_t {
   fins = 8,
 };
 
-/// What navigation does with a kind: the inertial unit is integrated, the others aid.
-enum class Use : std::uint8_t { integrated, aiding };
+/// What navigation does with a kind: the inertial unit is integrated, others aid, and some only inform:
+/// nothing that is estimated depends on them.
+enum class Use : std::uint8_t { integrated, aiding, informing };
 
 /// Text as part of a type.
 template <std::size_t N>
@@ -155,6 +156,8 @@ concept OfAKind = requires {
 };
 template <class Sample>
 concept Aiding = OfAKind<Sample> && KindOf<Sample>::kUse == Use::aiding;
+template <class Sample>
+concept Informing = OfAKind<Sample> && KindOf<Sample>::kUse == Use::informing;
 
 template <OfAKind Sample>
 inline constexpr SourceKind kSourceOf = KindOf<Sample>::kSource;

@@ -117,11 +117,13 @@ struct FusionService::Impl {
     verdicts.publish();
   }
 
+  /// All that aids or informs; the inertial unit is heard last.
   std::vector<std::shared_ptr<void>> listen_to_aiding() {
     std::vector<std::shared_ptr<void>> readers;
-    for_each_aiding_kind([&](auto kind) {
+    for_each_kind([&](auto kind) {
       using T = typename decltype(kind)::Sample;
-      readers.push_back(std::make_shared<bus::Reader<T>>(host.participant(), arrivals_of<T>()));
+      if constexpr (kind.kUse != Use::integrated)
+        readers.push_back(std::make_shared<bus::Reader<T>>(host.participant(), arrivals_of<T>()));
     });
     return readers;
   }
@@ -142,7 +144,7 @@ struct FusionService::Impl {
           if constexpr (std::is_same_v<T, ImuSample>) {
             return engine.add(sample);
           } else {
-            if constexpr (Aiding<T>) engine.add(sample, arrival.writer);
+            engine.add(sample, arrival.writer);
             return false;
           }
         },

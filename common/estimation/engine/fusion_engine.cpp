@@ -320,6 +320,7 @@ bool FusionEngine::add(const ImuSample& sample) {
 void FusionEngine::take(const EventSample& sample, SourceKind source, const Name& writer) {
   impl_->add(sample, source, writer);
 }
+void FusionEngine::inform(const AnySample& /*sample*/) {}
 std::string FusionEngine::objection(const Command& command) const {
   return impl_->objection(command);
 }

@@ -78,6 +78,12 @@ class FusionEngine {
   void add(const Sample& sample, const Name& writer = {}) {
     take(EventSample(sample), kSourceOf<Sample>, writer);
   }
+  /// Of a kind that only informs: what is published goes by it from the next inertial sample on, nothing is
+  /// estimated with it, and it gets no verdict.
+  template <Informing Sample>
+  void add(const Sample& sample, const Name& /*writer*/ = {}) {
+    inform(sample);
+  }
 
   /// Why a command is none that this engine follows, in words; empty when it is one.
   [[nodiscard]] std::string objection(const Command& command) const;
@@ -137,6 +143,7 @@ class FusionEngine {
 
  private:
   void take(const EventSample& sample, SourceKind source, const Name& writer);
+  void inform(const AnySample& sample);
 
   class Impl;
   std::unique_ptr<Impl> impl_;

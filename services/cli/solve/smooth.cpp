@@ -17,7 +17,9 @@ SolveResult run_smoothed(const SolveRun& solve_run, const SmoothedStates& states
   Progress progress(solve_run.label, static_cast<std::uint64_t>(kProgressSteps));
   const SystemClock clock;
   const TimeNs begin_ns = clock.monotonic_ns();
-  for_each_sample(solve_run, [&](const auto& sample) { smoother.add(sample); });
+  for_each_sample(solve_run, [&]<class Sample>(const Sample& sample) {
+    if constexpr (!Informing<Sample>) smoother.add(sample);
+  });
   result.imu_samples = solve_run.data->of<ImuSample>().size();
   std::vector<NavState> smoothed;
   smoothed.reserve(solve_run.data->of<ImuSample>().size());
