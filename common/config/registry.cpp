@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "config/bridge/altimeter_config.hpp"
 #include "config/bridge/bridge_config.hpp"
 #include "config/console_config.hpp"
 #include "config/discovery_config.hpp"
@@ -34,6 +35,7 @@ std::span<const ConfigKind> config_kinds() {
                                  bridge<UsblBridgeConfig>(usbl_bridge_kind()),
                                  bridge<ActuatorBridgeConfig>(actuator_bridge_kind()),
                                  bridge<AirDataBridgeConfig>(air_data_bridge_kind()),
+                                 bridge<AltimeterBridgeConfig>(altimeter_bridge_kind()),
                                  fusion_kind(),
                                  hydro_kind(),
                                  monitor_kind(),

@@ -276,6 +276,14 @@ struct ForecastLimitConfig {
   double limit = 100.0;
 };
 
+/// Where the altimeter sits, and how long what it heard holds. Its axis is the body's down axis.
+struct AltimeterConfig {
+  std::string sensor;
+  std::array<double, 3> lever_B_m{0.0, 0.0, 0.0};
+  double latency_s = 0.0;
+  double fresh_s = 2.0;
+};
+
 struct EngineConfig {
   std::string vehicle = "auv";
   std::string sensor = "fusion";           ///< header.sensor of what the engine says
@@ -299,6 +307,7 @@ struct EngineConfig {
   double usbl_timeout_s = 15.0;
   double velocity_timeout_s = 3.0;
   double zero_velocity_sigma_m_s = 0.02;
+  AltimeterConfig altimeter;
   std::array<double, 3> output_lever_B_m{0, 0, 0};
   OutputAxes output_axes = OutputAxes::body;
   double forecast_span_s = 600.0;

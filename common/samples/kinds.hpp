@@ -11,6 +11,7 @@
 
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
+#include "samples/altimeter.hpp"
 #include "samples/depth.hpp"
 #include "samples/dvl.hpp"
 #include "samples/gps.hpp"
@@ -35,6 +36,7 @@ enum class SourceKind : std::uint8_t {
   airspeed = 6,
   propulsion = 7,
   fins = 8,
+  altimeter = 9,
 };
 
 /// What navigation does with a kind: the inertial unit is integrated, others aid, and some only inform:
@@ -96,7 +98,8 @@ using Kinds = KindList<  //
     Kind<UsblSample, SourceKind::usbl, "usbl", "usbl_bridge">,
     Kind<AirspeedSample, SourceKind::airspeed, "airspeed", "air_data_bridge">,
     Kind<PropulsionSample, SourceKind::propulsion, "propulsion", "actuator_bridge">,
-    Kind<FinsSample, SourceKind::fins, "fins", "actuator_bridge">>;
+    Kind<FinsSample, SourceKind::fins, "fins", "actuator_bridge">,
+    Kind<AltimeterSample, SourceKind::altimeter, "altimeter", "altimeter_bridge", Use::informing>>;
 
 inline constexpr std::size_t kSourceKinds = Kinds::kSize;
 

@@ -40,8 +40,9 @@ struct NavState {
   AlignmentPhase alignment = AlignmentPhase::none;
   double latitude_rad = kUnknown;
   double longitude_rad = kUnknown;
-  double altitude_m = kUnknown;  ///< above the WGS-84 ellipsoid, up
-  double depth_m = kUnknown;     ///< below the surface, down
+  double altitude_m = kUnknown;               ///< above the WGS-84 ellipsoid, up
+  double depth_m = kUnknown;                  ///< below the surface, down
+  double altitude_above_bottom_m = kUnknown;  ///< as the altimeter heard it; NaN where that is not fresh
   std::array<double, 3> velocity_N_m_s{kUnknown, kUnknown, kUnknown};
   std::array<double, 4> q_NB{kUnknown, kUnknown, kUnknown, kUnknown};         ///< Hamilton, w first, B into N
   std::array<double, 3> rpy_rad{kUnknown, kUnknown, kUnknown};                ///< roll, pitch, yaw (ZYX)

@@ -39,6 +39,7 @@ json navigation(const StatusView& view) {
           {"lon_deg", degrees(nav.longitude_rad)},
           {"alt_m", number(nav.altitude_m)},
           {"depth_m", number(nav.depth_m)},
+          {"altitude_above_bottom_m", number(nav.altitude_above_bottom_m)},
           {"horizontal_95_m", number(horizontal_95_m(nav.position_covariance_N_m2))},
           {"vertical_95_m", number(vertical_95_m(nav.position_covariance_N_m2))},
           {"velocity_N_m_s", vector3(nav.velocity_N_m_s)},

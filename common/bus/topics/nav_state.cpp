@@ -20,6 +20,7 @@ struct Mapping<NavState> {
     copy(plain.longitude_rad, wire.longitude_rad());
     copy(plain.altitude_m, wire.altitude_m());
     copy(plain.depth_m, wire.depth_m());
+    copy(plain.altitude_above_bottom_m, wire.altitude_above_bottom_m());
     copy(plain.velocity_N_m_s, wire.velocity_N_m_s());
     copy(plain.q_NB, wire.q_NB());
     copy(plain.rpy_rad, wire.rpy_rad());

@@ -5,6 +5,7 @@
 #include "codec/acoustic/psimssb.hpp"
 #include "codec/acoustic/ship_pose.hpp"
 #include "codec/actuator/nmea_actuator.hpp"
+#include "codec/altimeter/nmea_altimeter.hpp"
 #include "codec/framer.hpp"
 #include "codec/heading/nmea_heading.hpp"
 #include "codec/satellite/nmea_epoch.hpp"
@@ -38,6 +39,7 @@ class Nmea0183 final : public Framer {
       return decode_gps(*type, sentence, frame.size(), offset, sink);
     }
     if (is_heading(sentence)) return decode_heading(sentence, frame.size(), offset, sink);
+    if (is_altimeter(sentence)) return decode_altimeter(sentence, frame.size(), offset, sink);
     if (sentence.type == "RPM") return decode_rpm(sentence, frame.size(), offset, sink);
     if (sentence.type == "RSA" || sentence.type == "XDR") {
       return decode_fins(sentence, frame.size(), offset, sink);
@@ -72,6 +74,13 @@ class Nmea0183 final : public Framer {
   Outcome decode_heading(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
     HeadingSample sample;
     if (const auto reason = parse_heading(sentence, sample)) return Outcome::refused(*reason);
+    emit(sink, sample, {}, offset, length);
+    return Outcome::used();
+  }
+
+  Outcome decode_altimeter(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
+    AltimeterSample sample;
+    if (const auto reason = parse_altimeter(sentence, sample)) return Outcome::refused(*reason);
     emit(sink, sample, {}, offset, length);
     return Outcome::used();
   }
@@ -120,7 +129,7 @@ class Nmea0183 final : public Framer {
 }  // namespace
 
 constinit const std::string_view kNmeaDescription =
-    "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, PSIMSSB; any talker";
+    "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, DPT DBT, PSIMSSB; any talker";
 
 std::unique_ptr<Codec> make_nmea0183(const CodecOptions& options) {
   return std::make_unique<Nmea0183>(options, Scope::everything);

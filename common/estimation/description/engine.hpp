@@ -5,6 +5,7 @@
 #include "base/field.hpp"
 #include "estimation/description/air_drop.hpp"
 #include "estimation/description/alignment.hpp"
+#include "estimation/description/altimeter.hpp"
 #include "estimation/description/constraints.hpp"
 #include "estimation/description/imu.hpp"
 #include "estimation/description/sensor.hpp"
@@ -84,6 +85,7 @@ void describe(Walk<EngineConfig>& s) {
           "velocity that remains while the vehicle is marked at rest")
       .unit("m/s")
       .range(1e-5, 10);
+  s.field("altimeter", &C::altimeter, "height above the bottom, which is published and aids nothing");
   s.field("output_lever_B_m", &C::output_lever_B_m,
           "from the inertial unit to the point whose position and velocity are published")
       .unit("m")

@@ -8,6 +8,7 @@
 #include "archive/layout.hpp"
 #include "archive/reader.hpp"
 #include "archive/writer.hpp"
+#include "estimation/engine/bottom.hpp"
 #include "estimation/engine/forecaster.hpp"
 #include "estimation/engine/history.hpp"
 #include "estimation/engine/imu_preprocessor.hpp"
@@ -55,6 +56,7 @@ class FusionEngine::Impl final : public VerdictSink {
         preprocessor_(setup_),
         history_(setup_),
         forecaster_(setup_),
+        bottom_(setup_.config.altimeter),
         verdicts_(kVerdictsKept + 2 * setup_.config.measurement_capacity) {
     nav_.header.vehicle = std::string_view(setup_.config.vehicle);
     nav_.header.sensor = std::string_view(setup_.config.sensor);
@@ -82,6 +84,7 @@ class FusionEngine::Impl final : public VerdictSink {
       pending_start_.reset();
     }
     forecaster_.watch(history_.navigator());
+    bottom_.latch(sample.header.stamp_ns);
     nav_.header.stamp_ns = sample.header.stamp_ns;
     nav_.header.received_ns = sample.header.received_ns;
     ++nav_.header.sequence;
@@ -116,6 +119,10 @@ class FusionEngine::Impl final : public VerdictSink {
     }
     judgement.kind = refusal_of(placing);
     refuse(header, source, writer, judgement);
+  }
+
+  void inform(const AnySample& sample) {
+    if (const auto* altimeter = std::get_if<AltimeterSample>(&sample)) bottom_.take(*altimeter);
   }
 
   [[nodiscard]] std::string objection(const Command& command) const {
@@ -246,7 +253,10 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   [[nodiscard]] const NavState& nav_state() const {
-    if (!filled_) estimation::fill(setup_, history_.navigator(), nav_);
+    if (!filled_) {
+      estimation::fill(setup_, history_.navigator(), nav_);
+      nav_.altitude_above_bottom_m = bottom_.altitude_m(setup_, history_.navigator());
+    }
     filled_ = true;
     return nav_;
   }
@@ -299,6 +309,7 @@ class FusionEngine::Impl final : public VerdictSink {
   ImuPreprocessor preprocessor_;
   History history_;
   Forecaster forecaster_;
+  Bottom bottom_;
   SampleHeader forecast_header_;  ///< of take_forecast()
   mutable NavState nav_;          ///< filled when asked for
   mutable bool filled_ = true;
@@ -320,7 +331,9 @@ bool FusionEngine::add(const ImuSample& sample) {
 void FusionEngine::take(const EventSample& sample, SourceKind source, const Name& writer) {
   impl_->add(sample, source, writer);
 }
-void FusionEngine::inform(const AnySample& /*sample*/) {}
+void FusionEngine::inform(const AnySample& sample) {
+  impl_->inform(sample);
+}
 std::string FusionEngine::objection(const Command& command) const {
   return impl_->objection(command);
 }

@@ -2,6 +2,7 @@
 
 #include "samples/kinds.hpp"
 #include "sim/sensors/airspeed.hpp"
+#include "sim/sensors/altimeter.hpp"
 #include "sim/sensors/depth.hpp"
 #include "sim/sensors/dvl.hpp"
 #include "sim/sensors/fins.hpp"

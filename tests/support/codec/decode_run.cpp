@@ -61,6 +61,11 @@ void describe(Line& line, const DepthSample& s) {
   line.word("depth").real(s.depth_m).real(s.sigma_m).real(s.pressure_Pa).real(s.temperature_degC);
 }
 
+void describe(Line& line, const AltimeterSample& s) {
+  line.word("altimeter").real(s.altitude_m).real(s.sigma_m).real(s.transducer_offset_m);
+  line.integer(s.vertical ? 1 : 0);
+}
+
 void describe(Line& line, const HeadingSample& s) {
   line.word("heading").integer(static_cast<int>(s.north)).real(s.heading_rad).real(s.sigma_rad);
   line.real(s.variation_rad).real(s.deviation_rad);

@@ -75,6 +75,13 @@ TEST(Refuse, ImpossibleValuesOfEachKind) {
   depth.depth_m = 12'000.0;
   EXPECT_EQ(refuse(depth, kLimits), Refusal::impossible);
 
+  AltimeterSample altimeter;
+  EXPECT_FALSE(refuse(altimeter, kLimits));  // it hears no bottom
+  altimeter.altitude_m = 11'000.5;
+  EXPECT_EQ(refuse(altimeter, kLimits), Refusal::impossible);
+  altimeter.altitude_m = -0.5;
+  EXPECT_EQ(refuse(altimeter, kLimits), Refusal::impossible);
+
   HeadingSample heading;
   EXPECT_EQ(refuse(heading, kLimits), Refusal::not_finite);
   heading.heading_rad = 2.0 * std::numbers::pi;

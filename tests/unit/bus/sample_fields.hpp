@@ -55,6 +55,10 @@ void fields(Is<DepthSample> auto& s, auto visit) {
   auto& [header, a, b, c, d] = s;
   visit(header, a, b, c, d);
 }
+void fields(Is<AltimeterSample> auto& s, auto visit) {
+  auto& [header, a, b, c, d] = s;
+  visit(header, a, b, c, d);
+}
 void fields(Is<HeadingSample> auto& s, auto visit) {
   auto& [header, a, b, c, d, e] = s;
   visit(header, a, b, c, d, e);
@@ -76,8 +80,8 @@ void fields(Is<FinsSample> auto& s, auto visit) {
   visit(header, a, b);
 }
 void fields(Is<NavState> auto& s, auto visit) {
-  auto& [header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = s;
-  visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
+  auto& [header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t] = s;
+  visit(header, a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, t);
 }
 void fields(Is<StateEstimate> auto& s, auto visit) {
   auto& [a, b, c] = s;

@@ -348,11 +348,12 @@ TEST(NmeaGps, ImpossibleValuesAreRefused) {
   EXPECT_EQ(reason("GPZDA,120000,45,01,2020,00,00"), RejectReason::out_of_range);
 }
 
-TEST(NmeaGps, RangesToTheBottomAreNoDepth) {
+TEST(NmeaGps, RangesToTheBottomAreAltitudesAndNoDepths) {
   const DecodeRun run =
       decode_text("nmea0183", "$SDDBT,7.9,f,2.4,M,1.3,F*0C\r\n" + sentence("SDDPT,2.4,0.5"));
-  EXPECT_TRUE(run.samples.empty());
-  EXPECT_EQ(run.totals.frames_ignored, 2U);
+  ASSERT_EQ(run.samples.size(), 2U);
+  for (const auto& decoded : run.samples)
+    EXPECT_TRUE(std::holds_alternative<AltimeterSample>(decoded.sample));
 }
 
 }  // namespace

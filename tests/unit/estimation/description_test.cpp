@@ -37,7 +37,7 @@ class Description : public testing::Test {};
 
 using Described =
     testing::Types<ImuConfig, StateGroups, StateModelConfig, SensorConfig, AlignmentConfig, StabilityConfig,
-                   DropConfig, NonHolonomicConfig, ConstantDepthConfig, ConstraintsConfig,
+                   DropConfig, AltimeterConfig, NonHolonomicConfig, ConstantDepthConfig, ConstraintsConfig,
                    hydro::HydroCoefficients, VehicleModelConfig, ForecastLimitConfig, EngineConfig>;
 TYPED_TEST_SUITE(Description, Described);
 

@@ -20,6 +20,12 @@ TEST(Kinds, WordsAndRolesAreFoundByTheirKind) {
   EXPECT_EQ(role_of(static_cast<SourceKind>(250)), "unknown");
 }
 
+TEST(Kinds, WhatOnlyInformsDoesNotAid) {
+  EXPECT_TRUE(Informing<AltimeterSample>);
+  EXPECT_FALSE(Aiding<AltimeterSample>);
+  for_each_aiding_kind([](auto kind) { EXPECT_EQ(kind.kUse, Use::aiding) << kind.kWord; });
+}
+
 TEST(Kinds, EachRoleIsNamedOnceThoughItMayPublishSeveralKinds) {
   const auto roles = bridge_roles();
   const std::set<std::string_view> once(roles.begin(), roles.end());

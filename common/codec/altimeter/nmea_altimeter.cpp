@@ -1,0 +1,37 @@
+#include "codec/altimeter/nmea_altimeter.hpp"
+
+namespace fathom::codec {
+namespace {
+
+constexpr double kDeepest_m = 12'000.0;
+constexpr double kFeetPerMetre = 1.0 / 0.3048;
+constexpr double kFathomsPerMetre = kFeetPerMetre / 6.0;
+constexpr double kLargestOffset_m = 1'000.0;
+
+}  // namespace
+
+bool is_altimeter(const Sentence& sentence) {
+  return sentence.talker.size() == 2 && (sentence.type == "DPT" || sentence.type == "DBT");
+}
+
+std::optional<RejectReason> parse_altimeter(const Sentence& sentence, AltimeterSample& sample) {
+  sample = AltimeterSample{};
+  FieldReader fields(sentence);
+  if (sentence.type == "DPT") {
+    if (sentence.fields < 2 || sentence.fields > 3) return RejectReason::structure;
+    sample.altitude_m = fields.number(0, 0.0, kDeepest_m);
+    sample.transducer_offset_m = fields.number(1, -kLargestOffset_m, kLargestOffset_m);
+    (void)fields.number(2, 0.0, kDeepest_m);
+  } else {
+    if (sentence.fields != 6) return RejectReason::structure;
+    (void)fields.number(0, 0.0, kDeepest_m * kFeetPerMetre);
+    (void)fields.letter(1, "f");
+    sample.altitude_m = fields.number(2, 0.0, kDeepest_m);
+    (void)fields.letter(3, "M");
+    (void)fields.number(4, 0.0, kDeepest_m * kFathomsPerMetre);
+    (void)fields.letter(5, "F");
+  }
+  return fields.refused();
+}
+
+}  // namespace fathom::codec

@@ -1,0 +1,27 @@
+#include "config/bridge/altimeter_config.hpp"
+
+#include "config/bridge/bridge_schema.hpp"
+
+namespace fathom::config {
+
+void describe(Schema<AltimeterSensorConfig>& s) {
+  using C = AltimeterSensorConfig;
+  s.include(&C::sensor);
+  s.field("require_checksum", &C::require_checksum, "NMEA 0183 sentences without a checksum are refused");
+  s.field("max_altitude_m", &C::max_altitude_m, "samples beyond are refused").unit("m").range(1, 12'000);
+}
+
+template LoadedConfig<AltimeterBridgeConfig> load_service_config(const LoadRequest& request);
+
+ConfigKind altimeter_bridge_kind() {
+  return make_kind<AltimeterBridgeConfig>("altimeter_bridge");
+}
+
+SensorPlan sensor_plan(const AltimeterSensorConfig& config) {
+  SensorPlan out = plan_of(config.sensor);
+  out.options.require_checksum = config.require_checksum;
+  out.limits.depth_m = config.max_altitude_m;
+  return out;
+}
+
+}  // namespace fathom::config

@@ -1,0 +1,54 @@
+// The altimeter's bridge as a process of its own.
+
+#include "samples/altimeter.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/encode/altimeter.hpp"
+#include "support.hpp"
+
+namespace fathom::test {
+namespace {
+
+TEST(AltimeterBridge, DptAndDbtBecomeAltitudesAndNonsenseIsRefused) {
+  constexpr int kDomain = 152;
+  const TemporaryFolder folder;
+  bus::Participant participant(test_participant(kDomain));
+  const Collector<AltimeterSample> altimeter(participant);
+  const SerialDevice device(folder / "altimeter");
+  const Process bridge(
+      "fathom-altimeter-bridge",
+      bridge_arguments("altimeter", kDomain,
+                       {R"(sensors.0.source={"type":"serial","path":")" + (folder / "altimeter") +
+                            R"(","backoff_most_s":0.2,"silence_s":1})",
+                        "sensors.0.max_altitude_m=100"}),
+      folder / "log");
+  ASSERT_TRUE(eventually([&] { return altimeter.matched(); })) << bridge.output();
+  AltimeterSample sent;
+  sent.altitude_m = 12.34;
+  sent.transducer_offset_m = 0.5;
+  AltimeterSample too_far = sent;
+  too_far.altitude_m = 150.0;  // beyond max_altitude_m
+  const auto bytes_of = [](const std::string& text) {
+    return std::vector<std::uint8_t>(text.begin(), text.end());
+  };
+  const auto bytes = bytes_of(sim::encode::nmea_dpt(too_far) + "$INDPT,2.3,0.0*47\r\n" +  // a wrong checksum
+                              sim::encode::nmea_dpt(sent) + "$SDDBT,8.1,f,2.4,M,1.3,F*0B\r\n");
+  ASSERT_TRUE(eventually([&] {
+    device.send(bytes);
+    return altimeter.count() > 7;
+  })) << bridge.output();
+  int dpt = 0;
+  int dbt = 0;
+  for (const AltimeterSample& sample : altimeter.all()) {
+    EXPECT_EQ(sample.header.sensor, Name("altimeter"));
+    if (sample.altitude_m == 12.34 && sample.transducer_offset_m == 0.5) ++dpt;
+    if (sample.altitude_m == 2.4 && !known(sample.transducer_offset_m)) ++dbt;
+  }
+  EXPECT_GT(dpt, 0);
+  EXPECT_GT(dbt, 0);
+  EXPECT_EQ(static_cast<std::size_t>(dpt + dbt), altimeter.all().size());
+}
+
+}  // namespace
+}  // namespace fathom::test

@@ -1,0 +1,74 @@
+// Height above the bottom by NMEA 0183.
+
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "nmea_text.hpp"
+
+namespace fathom::codec {
+namespace {
+
+using test::decode_text;
+using test::DecodeRun;
+using test::sentence;
+
+AltimeterSample altimeter(const std::string& body) {
+  const DecodeRun run = decode_text("nmea0183", sentence(body));
+  EXPECT_EQ(run.samples.size(), 1U) << body;
+  return run.samples.empty() ? AltimeterSample{} : std::get<AltimeterSample>(run.samples[0].sample);
+}
+
+RejectReason refused(const std::string& text) {
+  const DecodeRun run = decode_text("nmea0183", text);
+  EXPECT_EQ(run.rejected.size(), 1U) << text;
+  EXPECT_TRUE(run.samples.empty()) << text;
+  return run.rejected.empty() ? RejectReason::truncated : run.rejected[0].reason;
+}
+
+TEST(NmeaAltimeter, DptWithItsOffsetBesideIt) {
+  const AltimeterSample water = altimeter("SDDPT,2.4,0.5");
+  EXPECT_EQ(water.altitude_m, 2.4);
+  EXPECT_EQ(water.transducer_offset_m, 0.5);
+  EXPECT_TRUE(std::isnan(water.sigma_m));
+  EXPECT_FALSE(water.vertical);
+  const AltimeterSample keel = altimeter("INDPT,47.31,-1.25,200.0");  // version 3: with the range in use
+  EXPECT_EQ(keel.altitude_m, 47.31);
+  EXPECT_EQ(keel.transducer_offset_m, -1.25);
+}
+
+TEST(NmeaAltimeter, DbtGivesItsMetres) {
+  const AltimeterSample sample = altimeter("SDDBT,7.8,f,2.4,M,1.3,F");
+  EXPECT_EQ(sample.altitude_m, 2.4);
+  EXPECT_TRUE(std::isnan(sample.transducer_offset_m));
+  EXPECT_EQ(altimeter("SDDBT,,f,22.5,M,,F").altitude_m, 22.5);
+}
+
+TEST(NmeaAltimeter, SentencesFromTheBookWithTheirChecksums) {
+  const DecodeRun run = decode_text("nmea0183", "$INDPT,2.3,0.0*46\r\n$SDDBT,8.1,f,2.4,M,1.3,F*0B\r\n");
+  ASSERT_EQ(run.samples.size(), 2U);
+  EXPECT_EQ(std::get<AltimeterSample>(run.samples[0].sample).altitude_m, 2.3);
+  EXPECT_EQ(std::get<AltimeterSample>(run.samples[1].sample).altitude_m, 2.4);
+}
+
+TEST(NmeaAltimeter, WithoutABottomItIsAliveAndKnowsNone) {
+  EXPECT_TRUE(std::isnan(altimeter("SDDPT,,0.5").altitude_m));
+  EXPECT_TRUE(std::isnan(altimeter("SDDPT,12.5,").transducer_offset_m));
+  EXPECT_TRUE(std::isnan(altimeter("SDDBT,,f,,M,,F").altitude_m));
+}
+
+TEST(NmeaAltimeter, DamageAndNonsenseAreRefused) {
+  EXPECT_EQ(refused("$INDPT,2.3,0.0*47\r\n"), RejectReason::checksum);
+  EXPECT_EQ(refused(sentence("SDDPT,2.4")), RejectReason::structure);
+  EXPECT_EQ(refused(sentence("SDDPT,2.4,0.5,100.0,1")), RejectReason::structure);
+  EXPECT_EQ(refused(sentence("SDDBT,7.8,f,2.4,M")), RejectReason::structure);
+  EXPECT_EQ(refused(sentence("SDDPT,2x4,0.5")), RejectReason::field);
+  EXPECT_EQ(refused(sentence("SDDBT,7.8,f,2.4,m,1.3,F")), RejectReason::field);
+  EXPECT_EQ(refused(sentence("SDDPT,-0.1,0.5")), RejectReason::out_of_range);
+  EXPECT_EQ(refused(sentence("SDDPT,12000.1,0.5")), RejectReason::out_of_range);
+  EXPECT_EQ(refused(sentence("SDDPT,2.4,1000.5")), RejectReason::out_of_range);
+}
+
+}  // namespace
+}  // namespace fathom::codec
