@@ -169,7 +169,10 @@ class Table {
     put(row("position")
             .add(number("%.7f", nav.latitude_rad / kDegree) + " deg N  " +
                  number("%.7f", nav.longitude_rad / kDegree) + " deg E  altitude " +
-                 number("%.1f", nav.altitude_m) + " m  depth " + number("%.1f", nav.depth_m) + " m"));
+                 number("%.1f", nav.altitude_m) + " m  depth " + number("%.1f", nav.depth_m) + " m" +
+                 (known(nav.altitude_above_bottom_m)
+                      ? "  above bottom " + number("%.1f", nav.altitude_above_bottom_m) + " m"
+                      : std::string())));
     put(row("  95 %").add("+-" + number("%.2f", horizontal_95_m(nav.position_covariance_N_m2)) +
                           " m horizontal  +-" + number("%.2f", vertical_95_m(nav.position_covariance_N_m2)) +
                           " m vertical"));

@@ -19,6 +19,7 @@ export function makeOverview() {
     ["v95", "95 % vertical"],
     ["depth", "Depth"],
     ["alt", "Altitude"],
+    ["bottom", "Above bottom"],
     ["speed", "Speed"],
     ["course", "Course"],
     ["current", "Current"],
@@ -103,6 +104,7 @@ export function makeOverview() {
     put(f.v95, units.length(nav.vertical_95_m, 2));
     put(f.depth, units.length(nav.depth_m));
     put(f.alt, units.length(nav.alt_m));
+    put(f.bottom, units.length(nav.altitude_above_bottom_m));
     put(f.speed, units.speed(Math.hypot(north, east, down)));
     put(f.course, course);
     const doubt = Math.max(...tick.current.map(([, , sigma]) => sigma));
