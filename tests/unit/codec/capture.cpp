@@ -39,6 +39,9 @@ class Writer {
   void operator()(const DepthSample& s) {
     put("depth", s.depth_m, s.sigma_m, s.pressure_Pa, s.temperature_degC);
   }
+  void operator()(const AltimeterSample& s) {
+    put("altimeter", s.altitude_m, s.sigma_m, s.transducer_offset_m, s.vertical ? 1 : 0);
+  }
   void operator()(const HeadingSample& s) {
     put("heading", static_cast<int>(s.north), s.heading_rad, s.sigma_rad, s.variation_rad, s.deviation_rad);
   }
