@@ -12,6 +12,7 @@ void describe(Schema<AltimeterSensorConfig>& s) {
 }
 
 template LoadedConfig<AltimeterBridgeConfig> load_service_config(const LoadRequest& request);
+template std::string explain_service_config<AltimeterBridgeConfig>();
 
 ConfigKind altimeter_bridge_kind() {
   return make_kind<AltimeterBridgeConfig>("altimeter_bridge");
