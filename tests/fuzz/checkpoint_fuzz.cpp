@@ -59,6 +59,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return 0;
   }
   (void)fathom::fusion::objection(found.value().label, label(), 60.0);
-  hand_over(whole, found.value().image);
+  hand_over(whole, found.value().archive);
   return 0;
 }
