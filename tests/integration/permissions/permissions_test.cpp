@@ -62,12 +62,17 @@ nlohmann::json shipped(const std::string& scenario) {
       std::ifstream(FATHOM_SOURCE_DIR "/deploy/config/scenarios/" + scenario + ".json"));
 }
 
-/// A vehicle with every instrument: the survey's, and the pitot tube of the aircraft.
+/// A vehicle with every instrument: the survey's, the pitot tube of the aircraft, and an altimeter.
 std::string scenario_of_everything(const std::filesystem::path& folder) {
   nlohmann::json scenario = shipped("survey");
   scenario.erase("$schema");
   scenario["sensors"]["airspeed"] = shipped("flight")["sensors"]["airspeed"];
   scenario["bridges"].push_back("air_data");
+  scenario["sensors"]["altimeter"] = {{"enabled", true},
+                                      {"protocol", "nmea0183"},
+                                      {"link", {{"type", "pty"}, {"path", "altimeter"}}},
+                                      {"rate_hz", 5}};
+  scenario["bridges"].push_back("altimeter");
   const std::string file = folder / "everything.json";
   std::ofstream(file) << scenario.dump(2);
   return file;
