@@ -119,10 +119,15 @@ TEST(DiscoveryServer, MatchesOutliveItAndNewOnesAreMadeWhenItIsBack) {
   EXPECT_FALSE(young.matched());
   serving = start_server(131, address);
   ASSERT_TRUE(eventually([&] { return young.matched(); }, kPatience));
-  EXPECT_TRUE(young.delivers());
+  // A writer that has met the old reader alone would write past its own.
   ASSERT_TRUE(eventually(
-      [&] { return old.writer.matched_readers() == 2 && young.writer.matched_readers() == 2; }, kPatience))
+      [&] {
+        return old.writer.matched_readers() == 2 && young.writer.matched_readers() == 2 &&
+               young.reader.matched_writers() == 2;
+      },
+      kPatience))
       << "old and young have met: " << old.writer.matched_readers() << ", " << young.writer.matched_readers();
+  EXPECT_TRUE(young.delivers());
   EXPECT_TRUE(old.delivers());
   EXPECT_TRUE(at_reader.of(bus::BusEventKind::writer_lost).empty());
 }
