@@ -16,7 +16,7 @@ struct Instrument {
   // Readings that repeat.
   std::array<double, 3> reading{kUnknown, kUnknown, kUnknown};
   Eigen::Vector3d first_prediction = Eigen::Vector3d::Zero();
-  bool repeats = false;
+  bool repeats = false;  ///< asked by nobody: a field of the archives
   // Rejections that agree with each other.
   struct Rejections {
     TimeNs since_ns = 0;

@@ -1,4 +1,5 @@
 // The way back over a filter: the numerical vectors, and equality with the solution of all equations at once.
+// One linear problem and its dense solution serve every test, so they stay in one file.
 #include <cmath>
 #include <numeric>
 

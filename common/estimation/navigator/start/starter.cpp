@@ -12,7 +12,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kFreshFix_s = 5.0;
 constexpr double kLeastWindow_s = 0.5;
 constexpr double kWindowsKept = 4.0;
 

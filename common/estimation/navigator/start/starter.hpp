@@ -11,6 +11,9 @@
 
 namespace fathom::estimation {
 
+/// A fix that is older does not place the vehicle any more.
+inline constexpr double kFreshFix_s = 5.0;
+
 /// Why a start is not possible yet, or that it is.
 struct StartConditions {
   bool window_full = false;

@@ -14,7 +14,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kFreshVelocity_s = 1.0;
-constexpr double kFreshFix_s = 5.0;
 constexpr double kVelocitySigma_m_s = 0.3;
 constexpr int kFastFixes = 2;
 
