@@ -14,11 +14,6 @@ inline void set_defaults(SensorConfig& sensor, const AirspeedSample* /*kind*/) {
   sensor.robust = RobustKind::student_t;
 }
 
-/// Velocity through air whose horizontal motion is the `current` state, along N.
-[[nodiscard]] inline Vector3 velocity_through_air_N(const AidingState& s) {
-  return s.state.nav.v_N_m_s - Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0);
-}
-
 /// A gust lasts (AID-AIR-3): by how much the sigma of a sample is raised that comes `unused_s` after the one
 /// before.
 [[nodiscard]] inline double lasting_gust(const SensorConfig& sensor, double unused_s) {
@@ -68,13 +63,13 @@ class Airspeed {
         sample_(sample),
         is_true_(known(sample.true_airspeed_m_s)),
         lasting_(lasting_gust(sensor, unused_s)),
-        through_N_(velocity_through_air_N(s)) {}
+        through_N_(s.velocity_through_medium_N_m_s()) {}
 
   [[nodiscard]] static Usable usable(const AidingState& s, const AirspeedSample& sample) {
     const double airspeed_m_s = measured_m_s(sample);
     if (!(airspeed_m_s > 0.0 && airspeed_m_s < 700.0)) return Usable::out_of_range;
     if (!s.index.has(Group::current)) return Usable::not_estimated;
-    return velocity_through_air_N(s).norm() > kLeastAirspeed_m_s ? Usable::yes : Usable::out_of_range;
+    return s.velocity_through_medium_N_m_s().norm() > kLeastAirspeed_m_s ? Usable::yes : Usable::out_of_range;
   }
   [[nodiscard]] int dimension() const { return 1; }
   [[nodiscard]] Vector3 measured() const { return {measured_m_s(sample_), 0.0, 0.0}; }

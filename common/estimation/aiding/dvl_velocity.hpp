@@ -60,9 +60,8 @@ class DvlVelocity {
         sample_(sample),
         C_DB_(geo::to_matrix(geo::from_rpy(geo::vec(sensor.mounting_rpy_rad))).transpose()),
         lever_B_(geo::vec(sensor.lever_B_m)) {
-    Vector3 through_N = s.state.nav.v_N_m_s;
-    if (sample.mode == DvlMode::water)
-      through_N -= Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0);
+    const Vector3 through_N =
+        sample.mode == DvlMode::water ? s.velocity_through_medium_N_m_s() : s.state.nav.v_N_m_s;
     v_B_ = s.C_NB.transpose() * through_N + geo::cross(s.rate_nb_B_rad_s, lever_B_);
     scale_ = Vector3::Constant(1.0 + s.value(Group::dvl_scale, 0)) + s.value3(Group::dvl_scale_xyz);
     turn_ = Matrix3::Identity() - geo::skew(s.value3(Group::dvl_misalignment));

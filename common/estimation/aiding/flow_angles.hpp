@@ -30,7 +30,7 @@ class FlowAngles {
       : s_(s),
         sensor_(sensor),
         lasting_(lasting_gust(sensor, unused_s)),
-        through_N_(velocity_through_air_N(s)),
+        through_N_(s.velocity_through_medium_N_m_s()),
         through_B_(s.C_NB.transpose() * through_N_),
         angles_(s.value(Group::flow_angles, 0), s.value(Group::flow_angles, 1)) {}
 

@@ -42,6 +42,11 @@ struct AidingState {
   [[nodiscard]] Eigen::Vector3d value3(Group group) const {
     return {value(group, 0), value(group, 1), value(group, 2)};
   }
+  /// Velocity relative to water or air whose horizontal motion is the `current` state; over ground where that
+  /// is not estimated.
+  [[nodiscard]] Eigen::Vector3d velocity_through_medium_N_m_s() const {
+    return state.nav.v_N_m_s - Eigen::Vector3d(value(Group::current, 0), value(Group::current, 1), 0.0);
+  }
   /// Of the velocity relative to the Earth, along N.
   [[nodiscard]] Eigen::Vector3d acceleration_N_m_s2() const {
     const NavSolution& nav = state.nav;

@@ -34,8 +34,7 @@ class ModelVelocity {
         config_(config),
         water_(water),
         lever_B_(geo::vec(config.origin_B_m)),
-        through_N_(s.state.nav.v_N_m_s -
-                   Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0)) {}
+        through_N_(s.velocity_through_medium_N_m_s()) {}
 
   [[nodiscard]] static Usable usable(const AidingState& s, const VehicleModelConfig& config,
                                      const hydro::WaterVelocity& water, const PropulsionSample& sample,

@@ -42,8 +42,7 @@ class SpeedLog {
         unused_s_(unused_s),
         speed_m_s_(sensor.scale_m_s_per_rpm * sample.rpm),
         lever_B_(geo::vec(sensor.lever_B_m)),
-        through_N_(s.state.nav.v_N_m_s -
-                   Vector3(s.value(Group::current, 0), s.value(Group::current, 1), 0.0)) {}
+        through_N_(s.velocity_through_medium_N_m_s()) {}
 
   [[nodiscard]] static Usable usable(const AidingState& s, const SensorConfig& sensor,
                                      const PropulsionSample& sample, double surface_altitude_m) {
