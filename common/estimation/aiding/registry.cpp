@@ -1,5 +1,6 @@
 #include "estimation/aiding/registry.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "estimation/aiding/airspeed.hpp"
@@ -52,6 +53,12 @@ SensorConfig default_sensor(SourceKind kind, const std::string& name) {
     if (row.kSource == kind) set_defaults(sensor, static_cast<const Sample*>(nullptr));
   });
   return sensor;
+}
+
+bool may_place(const SensorConfig& sensor, const EventSample& sample) {
+  return std::any_of(kRegistry.begin(), kRegistry.end(), [&](const AidingEntry& entry) {
+    return entry.source == sensor.kind && entry.policy(sensor, sample).position;
+  });
 }
 
 std::span<const AidingEntry> aiding_registry() {

@@ -20,5 +20,7 @@ struct AidingEntry {
 /// Every aiding model there is. A new one is one header in this folder and one line in registry.cpp. A sample
 /// goes through all the entries of its source; their rows are judged together.
 [[nodiscard]] std::span<const AidingEntry> aiding_registry();
+/// Whether any model of the sample's kind takes a position from it.
+[[nodiscard]] bool may_place(const SensorConfig& sensor, const EventSample& sample);
 
 }  // namespace fathom::estimation

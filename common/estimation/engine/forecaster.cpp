@@ -85,9 +85,9 @@ void Forecaster::take(const Navigator& navigator) {
 
 bool Forecaster::aids(int sensor, int instrument, const Instrument& known) const {
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(sensor)];
-  if (config.kind == SourceKind::gps || config.kind == SourceKind::usbl) return false;
+  const auto at = static_cast<std::size_t>(instrument);
   // What a restored state was aided by may not have been heard here yet.
-  if (!taken_.remembered[static_cast<std::size_t>(instrument)]) return false;
+  if (!taken_.remembered[at] || may_place(config, taken_.last[at])) return false;
   return navigator_.sensor(sensor).enabled && known.used_ns != 0 &&
          to_seconds(navigator_.now_ns() - known.used_ns) <= setup_->config.velocity_timeout_s;
 }
