@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <type_traits>
 #include <variant>
 
 #include "samples/command.hpp"
@@ -13,12 +13,24 @@ template <class... Samples>
 using CommandOr = std::variant<Command, Samples...>;
 }  // namespace detail
 
-/// An order, or a sample of a kind that aids. Its index is the number of the kind, 0 of an order: the
-/// inertial unit does not aid.
+/// An order, or a sample of a kind that aids. Its index, which archives keep, is 0 of an order and else the
+/// place of the kind among those that aid.
 using EventSample = AidingKinds::Samples<detail::CommandOr>;
 
 [[nodiscard]] inline const SampleHeader& header_of(const EventSample& sample) {
   return std::visit([](const auto& one) -> const SampleHeader& { return one.header; }, sample);
+}
+
+/// The kind; of an order that of the inertial unit, which does not aid.
+[[nodiscard]] inline SourceKind source_of(const EventSample& sample) {
+  return std::visit(
+      []<class Sample>(const Sample& /*one*/) {
+        if constexpr (std::is_same_v<Sample, Command>)
+          return SourceKind::imu;
+        else
+          return kSourceOf<Sample>;
+      },
+      sample);
 }
 
 /// Whether it is measured against the water layer.
@@ -26,15 +38,5 @@ using EventSample = AidingKinds::Samples<detail::CommandOr>;
   const auto* dvl = std::get_if<DvlSample>(&sample);
   return dvl != nullptr && dvl->mode == DvlMode::water;
 }
-
-static_assert(
-    [] {
-      std::size_t number = 1;
-      bool equal = true;
-      for_each_aiding_kind(
-          [&](auto kind) { equal = equal && static_cast<std::size_t>(kind.kSource) == number++; });
-      return equal;
-    }(),
-    "kinds that aid are numbered from 1 without a gap");
 
 }  // namespace fathom::estimation

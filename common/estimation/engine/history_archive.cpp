@@ -27,8 +27,7 @@ void check_measurement(archive::Reader& archive, const Setup& setup, const Measu
   if (!configured) return;
   const SensorConfig& sensor = sensors[static_cast<std::size_t>(event.sensor)];
   archive.expect(event.source == sensor.kind, "source", "the configured kind of the sensor");
-  archive.expect(event.sample.index() == static_cast<std::size_t>(event.source), "sample",
-                 "one of its source");
+  archive.expect(source_of(event.sample) == event.source, "sample", "one of its source");
   const SampleHeader& header = event.header();
   archive.expect(header.sensor == Name(sensor.sensor), "sample.sensor", sensor.sensor);
   archive.expect(sound_stamp(header.stamp_ns) && header.sequence == event.sequence &&
