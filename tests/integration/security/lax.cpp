@@ -9,6 +9,8 @@
 #include <dlfcn.h>
 #include <openssl/x509.h>
 
+#include "bus/detail/versions/strangers.hpp"
+
 namespace {
 
 bool lax() {
@@ -22,7 +24,7 @@ Function next(const char* name) {
 
 // Mangled: the class is not among the library's public headers.
 #define PERMISSIONS(function)                                                                              \
-  "_ZN8eprosima8fastrtps4rtps8security11Permissions23" function                                            \
+  "_ZN8eprosima" FATHOM_FASTDDS_MANGLED "4rtps8security11Permissions23" function                           \
   "ERKNS2_6HandleEjRKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEERKSt6vectorISC_SaISC_EERNS2_17Se" \
   "curityExceptionE"
 

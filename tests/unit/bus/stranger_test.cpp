@@ -30,6 +30,39 @@ TEST(StrangerBook, OneThatIsRefusedStaysUntilItLeaves) {
   EXPECT_TRUE(book.present().empty());
 }
 
+TEST(StrangerBook, OneThatIsRefusedBeforeItAnnouncedItselfIsRememberedForAWhile) {
+  TimeNs now = 0;
+  StrangerBook book([&now] { return now; });
+  EXPECT_EQ(to_string(book.refused(prefix(1), "failed")),
+            "one without a name (GUID 010000000000000000000001) failed");
+  ASSERT_EQ(book.present().size(), 1U);
+  now = StrangerBook::kMemory;
+  EXPECT_TRUE(book.overdue().empty());
+  EXPECT_TRUE(book.forgotten().empty());
+  (void)book.refused(prefix(1), "failed");  // again: it is still there
+  now += StrangerBook::kMemory;
+  EXPECT_TRUE(book.forgotten().empty());
+  ++now;
+  ASSERT_EQ(book.forgotten().size(), 1U);
+  EXPECT_TRUE(book.present().empty());
+  // One that announces itself after all has a name, and stays until it leaves.
+  (void)book.refused(prefix(2), "failed");
+  (void)book.announced(prefix(2), {"evil", "host", 7}, "10.0.0.9", true);
+  now += 2 * StrangerBook::kMemory;
+  EXPECT_TRUE(book.forgotten().empty());
+  ASSERT_EQ(book.present().size(), 1U);
+  EXPECT_EQ(to_string(book.present()[0]),
+            "'evil' (GUID 010000000000000000000002, says it is at 10.0.0.9) failed");
+  EXPECT_TRUE(book.gone(prefix(2)));
+  // Invented ones do not make it grow.
+  for (int i = 0; i < 1000; ++i) {
+    GuidPrefix invented = prefix(static_cast<std::uint8_t>(i));
+    invented[1] = static_cast<std::uint8_t>(i / 256 + 1);
+    (void)book.refused(invented, "failed");
+  }
+  EXPECT_EQ(book.present().size(), StrangerBook::kMost);
+}
+
 TEST(StrangerBook, OneThatProvesItsIdentityIsAPeer) {
   TimeNs now = 0;
   StrangerBook book([&now] { return now; });

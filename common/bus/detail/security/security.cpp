@@ -112,6 +112,8 @@ void Participant::Impl::on_dds_error(const std::string& message) {
 
 void Participant::Impl::judge_waiting() {
   for (const Stranger& stranger : strangers.overdue()) report(stranger);
+  for (const Stranger& stranger : strangers.forgotten())
+    events.recovered(BusEventKind::stranger_refused, "", stranger.guid);
 }
 
 std::string Participant::Impl::why_not(const std::string& topic) {

@@ -48,19 +48,44 @@ std::optional<Peer> StrangerBook::announced(const GuidPrefix& prefix, const Peer
     if (std::exchange(found->second, true)) return std::nullopt;
     return peer;
   }
-  if (entries_.contains(prefix)) return std::nullopt;
-  if (entries_.size() >= kMost) {
-    // One that may yet prove itself needs the room more than one that did not.
-    const auto refused = std::find_if(entries_.begin(), entries_.end(), [](const auto& known) {
-      return known.second.refused || !known.second.stranger.why.empty();
-    });
-    if (refused == entries_.end()) return std::nullopt;
-    entries_.erase(refused);
+  if (const auto found = entries_.find(prefix); found != entries_.end()) {
+    Entry& known = found->second;
+    if (!std::exchange(known.announced, true)) {
+      const std::string why = known.stranger.why;
+      known.peer = peer;
+      known.stranger = to_stranger(prefix, peer, address);
+      known.stranger.why = why;
+    }
+    return std::nullopt;
   }
+  if (!make_room()) return std::nullopt;
   Entry& entry = entries_[prefix];
-  entry = {peer, to_stranger(prefix, peer, address), now_ns_(), false};
+  entry = {peer, to_stranger(prefix, peer, address), now_ns_(), false, true};
   if (!offers_identity) entry.stranger.why = "offers no identity";
   return std::nullopt;
+}
+
+bool StrangerBook::make_room() {
+  if (entries_.size() < kMost) return true;
+  // One that may yet prove itself needs the room more than one that did not.
+  const auto refused = std::find_if(entries_.begin(), entries_.end(), [](const auto& known) {
+    return known.second.refused || !known.second.stranger.why.empty();
+  });
+  if (refused == entries_.end()) return false;
+  entries_.erase(refused);
+  return true;
+}
+
+std::vector<Stranger> StrangerBook::forgotten() {
+  const std::lock_guard lock(mutex_);
+  std::vector<Stranger> out;
+  std::erase_if(entries_, [&](const auto& known) {
+    const Entry& entry = known.second;
+    const bool old = !entry.announced && now_ns_() - entry.since_ns > kMemory;
+    if (old) out.push_back(entry.stranger);
+    return old;
+  });
+  return out;
 }
 
 std::vector<Stranger> StrangerBook::overdue() {
@@ -88,13 +113,15 @@ std::optional<Peer> StrangerBook::admitted(const GuidPrefix& prefix) {
 
 Stranger StrangerBook::refused(const GuidPrefix& prefix, const std::string& why) {
   const std::lock_guard lock(mutex_);
-  const auto found = entries_.find(prefix);
+  auto found = entries_.find(prefix);
   if (found == entries_.end()) {
     Stranger unknown = to_stranger(prefix, {}, "");
-    unknown.why =
-        admitted_.contains(prefix) ? "is known, and somebody failed to prove the same identity" : why;
-    return unknown;
+    const bool is_known = admitted_.contains(prefix);
+    unknown.why = is_known ? "is known, and somebody failed to prove the same identity" : why;
+    if (is_known || !make_room()) return unknown;
+    found = entries_.emplace(prefix, Entry{{}, to_stranger(prefix, {}, ""), now_ns_(), true, false}).first;
   }
+  if (!found->second.announced) found->second.since_ns = now_ns_();
   found->second.refused = true;
   Stranger& stranger = found->second.stranger;
   if (stranger.why.empty()) stranger.why = why;
@@ -155,8 +182,9 @@ std::optional<Denial> parse_denial(const std::string& message) {
 namespace fathom::bus {
 
 std::string to_string(const Stranger& stranger) {
-  return "'" + stranger.name + "' (GUID " + stranger.guid +
-         (stranger.address.empty() ? "" : ", says it is at " + stranger.address) + ") " + stranger.why;
+  return (stranger.name.empty() ? "one without a name" : "'" + stranger.name + "'") + " (GUID " +
+         stranger.guid + (stranger.address.empty() ? "" : ", says it is at " + stranger.address) + ") " +
+         stranger.why;
 }
 
 }  // namespace fathom::bus

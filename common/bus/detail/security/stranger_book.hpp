@@ -24,6 +24,10 @@ class StrangerBook {
   /// does not tell the side that began a handshake when the other side refuses it.
   static constexpr DurationNs kPatience = 20 * kNsPerSecond;
 
+  /// How long one is remembered that was refused before it announced itself. Fast DDS 3 tells of nobody who
+  /// has not proved an identity, neither the name nor that it leaves.
+  static constexpr DurationNs kMemory = 300 * kNsPerSecond;
+
   /// `now_ns` is a monotonic clock.
   explicit StrangerBook(std::function<TimeNs()> now_ns = {});
 
@@ -37,6 +41,8 @@ class StrangerBook {
   std::optional<Peer> admitted(const GuidPrefix& prefix);
   /// Its proof failed, or it has no valid permissions. Returns the stranger to be reported.
   Stranger refused(const GuidPrefix& prefix, const std::string& why);
+  /// Those without an announcement that were refused too long ago to be remembered.
+  std::vector<Stranger> forgotten();
   /// Returns the stranger that left, if it was one.
   std::optional<Stranger> gone(const GuidPrefix& prefix);
 
@@ -48,7 +54,11 @@ class StrangerBook {
     Stranger stranger;
     TimeNs since_ns = 0;
     bool refused = false;
+    bool announced = true;
   };
+
+  /// Makes room for one more. False where all may yet prove themselves.
+  bool make_room();
 
   mutable std::mutex mutex_;
   std::map<GuidPrefix, Entry> entries_;  ///< not admitted
