@@ -10,6 +10,7 @@
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/waterlinked.hpp"
 #include "codec/imu/vectornav.hpp"
+#include "codec/range/micromodem.hpp"
 #include "codec/satellite/ubx.hpp"
 #include "codec/text/nmea.hpp"
 
@@ -47,7 +48,9 @@ constexpr std::array<std::string_view, 2> kAsciiAirDataAliases{"air_data", "air_
 constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "openvario",
                                                               "nmea0183_air_data"};
 
-const std::array<Protocol, 10> kProtocols{{
+constexpr std::array<std::string_view, 3> kMicromodemAliases{"whoi", "whoi_micromodem", "micro_modem"};
+
+const std::array<Protocol, 11> kProtocols{{
     {"nmea0183", kNmeaAliases, kNmeaDescription, make_nmea0183},
     {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx},
     {"pd0", kPd0Aliases, "Teledyne RDI PD0 ensembles with bottom track", make_pd0},
@@ -61,6 +64,7 @@ const std::array<Protocol, 10> kProtocols{{
      make_ascii_air_data},
     {"nmea_air_data", kNmeaAirDataAliases, "air data as NMEA 0183 XDR, MWV, VWR or OpenVario $POV",
      make_nmea_air_data},
+    {"micromodem", kMicromodemAliases, "WHOI Micro-Modem ranges to modems and transponders", make_micromodem},
 }};
 
 char folded(char c) {

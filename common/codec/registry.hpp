@@ -1,13 +1,32 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string_view>
 
+#include "base/name.hpp"
 #include "codec/air/air_report.hpp"
 #include "codec/codec.hpp"
 
 namespace fathom::codec {
+
+/// A beacon that answers, and where it is.
+struct BeaconPlace {
+  Name address;
+  double latitude_rad = 0.0;
+  double longitude_rad = 0.0;
+  double depth_m = 0.0;
+};
+
+/// What turns travel times into ranges to places.
+struct BeaconOptions {
+  static constexpr std::size_t kMost = 16;
+  std::array<BeaconPlace, kMost> list;
+  std::size_t count = 0;
+  double sound_speed_m_s = 1'500.0;
+};
 
 /// What a codec needs to be told because the bytes do not say it. Each protocol reads the fields it knows.
 struct CodecOptions {
@@ -24,6 +43,7 @@ struct CodecOptions {
   double dvl_heading_alignment_rad = 0.0;
   double usbl_sigma_floor_m = 0.0;
   AirDataOptions air_data;
+  BeaconOptions beacons;
 };
 
 /// One protocol that this build decodes.

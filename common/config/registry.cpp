@@ -4,6 +4,7 @@
 
 #include "config/bridge/altimeter_config.hpp"
 #include "config/bridge/bridge_config.hpp"
+#include "config/bridge/range_config.hpp"
 #include "config/console_config.hpp"
 #include "config/discovery_config.hpp"
 #include "config/fusion/fusion_config.hpp"
@@ -36,6 +37,7 @@ std::span<const ConfigKind> config_kinds() {
                                  bridge<ActuatorBridgeConfig>(actuator_bridge_kind()),
                                  bridge<AirDataBridgeConfig>(air_data_bridge_kind()),
                                  bridge<AltimeterBridgeConfig>(altimeter_bridge_kind()),
+                                 bridge<RangeBridgeConfig>(range_bridge_kind()),
                                  fusion_kind(),
                                  hydro_kind(),
                                  monitor_kind(),

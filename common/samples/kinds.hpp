@@ -17,6 +17,7 @@
 #include "samples/gps.hpp"
 #include "samples/heading.hpp"
 #include "samples/imu.hpp"
+#include "samples/range.hpp"
 #include "samples/usbl.hpp"
 
 /// The kinds of instrument: one row each in the table `Kinds`. Whatever goes over all kinds is made from it
@@ -37,6 +38,7 @@ enum class SourceKind : std::uint8_t {
   propulsion = 7,
   fins = 8,
   altimeter = 9,
+  range = 10,
 };
 
 /// What navigation does with a kind: the inertial unit is integrated, others aid, and some only inform:
@@ -99,7 +101,8 @@ using Kinds = KindList<  //
     Kind<AirspeedSample, SourceKind::airspeed, "airspeed", "air_data_bridge">,
     Kind<PropulsionSample, SourceKind::propulsion, "propulsion", "actuator_bridge">,
     Kind<FinsSample, SourceKind::fins, "fins", "actuator_bridge">,
-    Kind<AltimeterSample, SourceKind::altimeter, "altimeter", "altimeter_bridge", Use::informing>>;
+    Kind<AltimeterSample, SourceKind::altimeter, "altimeter", "altimeter_bridge", Use::informing>,
+    Kind<RangeSample, SourceKind::range, "range", "range_bridge", Use::informing>>;
 
 inline constexpr std::size_t kSourceKinds = Kinds::kSize;
 

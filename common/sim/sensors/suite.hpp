@@ -10,6 +10,7 @@
 #include "sim/sensors/heading.hpp"
 #include "sim/sensors/imu.hpp"
 #include "sim/sensors/propulsion.hpp"
+#include "sim/sensors/range.hpp"
 #include "sim/sensors/usbl.hpp"
 
 namespace fathom::sim {

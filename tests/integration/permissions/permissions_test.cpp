@@ -62,7 +62,7 @@ nlohmann::json shipped(const std::string& scenario) {
       std::ifstream(FATHOM_SOURCE_DIR "/deploy/config/scenarios/" + scenario + ".json"));
 }
 
-/// A vehicle with every instrument: the survey's, the pitot tube of the aircraft, and an altimeter.
+/// A vehicle with every instrument: the survey's, the pitot tube of the aircraft, an altimeter and a modem.
 std::string scenario_of_everything(const std::filesystem::path& folder) {
   nlohmann::json scenario = shipped("survey");
   scenario.erase("$schema");
@@ -73,6 +73,11 @@ std::string scenario_of_everything(const std::filesystem::path& folder) {
                                       {"link", {{"type", "pty"}, {"path", "altimeter"}}},
                                       {"rate_hz", 5}};
   scenario["bridges"].push_back("altimeter");
+  scenario["sensors"]["range"] = {{"enabled", true},
+                                  {"protocol", "micromodem"},
+                                  {"link", {{"type", "pty"}, {"path", "modem"}}},
+                                  {"rate_hz", 1}};
+  scenario["bridges"].push_back("range");
   const std::string file = folder / "everything.json";
   std::ofstream(file) << scenario.dump(2);
   return file;

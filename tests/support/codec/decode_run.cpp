@@ -61,6 +61,11 @@ void describe(Line& line, const DepthSample& s) {
   line.word("depth").real(s.depth_m).real(s.sigma_m).real(s.pressure_Pa).real(s.temperature_degC);
 }
 
+void describe(Line& line, const RangeSample& s) {
+  line.word("range").word(s.beacon.view()).real(s.range_m).real(s.sigma_m).real(s.travel_time_s);
+  line.real(s.beacon_latitude_rad).real(s.beacon_longitude_rad).real(s.beacon_depth_m);
+}
+
 void describe(Line& line, const AltimeterSample& s) {
   line.word("altimeter").real(s.altitude_m).real(s.sigma_m).real(s.transducer_offset_m);
   line.integer(s.vertical ? 1 : 0);

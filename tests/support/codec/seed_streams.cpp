@@ -151,6 +151,10 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::ascii_air_data(air(frame), seed_options(protocol)));
   } else if (protocol == "nmea_air_data") {
     air_data_sentences(stream, frame);
+  } else if (protocol == "micromodem") {
+    append(stream, sim::encode::nmea_sentence("CAMPR,1" + std::to_string(frame % 3) + ",1,0.2500"));
+    append(stream, sim::encode::nmea_sentence("SNTTA,0.1,,0.3," + std::to_string(frame) + ".5,120000.00"));
+    append(stream, sim::encode::nmea_sentence("CAREV,120000,AUV,0.93.0.30"));
   } else {
     throw std::invalid_argument("no seed stream for protocol " + std::string(protocol));
   }

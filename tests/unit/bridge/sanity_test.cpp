@@ -75,6 +75,15 @@ TEST(Refuse, ImpossibleValuesOfEachKind) {
   depth.depth_m = 12'000.0;
   EXPECT_EQ(refuse(depth, kLimits), Refusal::impossible);
 
+  RangeSample range;
+  EXPECT_EQ(refuse(range, kLimits), Refusal::not_finite);
+  range.range_m = 120.0;
+  EXPECT_FALSE(refuse(range, kLimits));  // to a beacon whose place is not known
+  range.beacon_latitude_rad = 2.0;
+  EXPECT_EQ(refuse(range, kLimits), Refusal::impossible);
+  range.beacon_latitude_rad = 0.6;
+  range.range_m = 20'001.0;
+  EXPECT_EQ(refuse(range, kLimits), Refusal::impossible);
   AltimeterSample altimeter;
   EXPECT_FALSE(refuse(altimeter, kLimits));  // it hears no bottom
   altimeter.altitude_m = 11'000.5;

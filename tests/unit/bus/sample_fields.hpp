@@ -55,6 +55,10 @@ void fields(Is<DepthSample> auto& s, auto visit) {
   auto& [header, a, b, c, d] = s;
   visit(header, a, b, c, d);
 }
+void fields(Is<RangeSample> auto& s, auto visit) {
+  auto& [header, a, b, c, d, e, f, g] = s;
+  visit(header, a, b, c, d, e, f, g);
+}
 void fields(Is<AltimeterSample> auto& s, auto visit) {
   auto& [header, a, b, c, d] = s;
   visit(header, a, b, c, d);

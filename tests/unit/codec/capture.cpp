@@ -39,6 +39,9 @@ class Writer {
   void operator()(const DepthSample& s) {
     put("depth", s.depth_m, s.sigma_m, s.pressure_Pa, s.temperature_degC);
   }
+  void operator()(const RangeSample& s) {
+    put("range", s.beacon.str(), s.range_m, s.sigma_m, s.travel_time_s);
+  }
   void operator()(const AltimeterSample& s) {
     put("altimeter", s.altitude_m, s.sigma_m, s.transducer_offset_m, s.vertical ? 1 : 0);
   }
