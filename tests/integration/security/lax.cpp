@@ -9,8 +9,6 @@
 #include <dlfcn.h>
 #include <openssl/x509.h>
 
-#include "bus/detail/versions/strangers.hpp"
-
 namespace {
 
 bool lax() {
@@ -22,9 +20,10 @@ Function next(const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
-// Mangled: the class is not among the library's public headers.
-#define PERMISSIONS(function)                                                                              \
-  "_ZN8eprosima" FATHOM_FASTDDS_MANGLED "4rtps8security11Permissions23" function                           \
+// Mangled: the class is not among the library's public headers. Its name space is fastrtps until Fast DDS 3,
+// which has it in fastdds.
+#define PERMISSIONS(name_space, function)                                                                  \
+  "_ZN8eprosima" name_space "4rtps8security11Permissions23" function                                       \
   "ERKNS2_6HandleEjRKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEERKSt6vectorISC_SaISC_EERNS2_17Se" \
   "curityExceptionE"
 
@@ -40,22 +39,19 @@ int X509_verify_cert(X509_STORE_CTX* context) {
   return real(context);
 }
 
-bool lax_writer(void* self, const void* permissions, std::uint32_t domain, const void* topic,
-                const void* partitions, void* exception) __asm__(PERMISSIONS("check_create_datawriter"));
-bool lax_writer(void* self, const void* permissions, std::uint32_t domain, const void* topic,
-                const void* partitions, void* exception) {
-  if (lax()) return true;
-  static const auto real = next<Check>(PERMISSIONS("check_create_datawriter"));
-  return real(self, permissions, domain, topic, partitions, exception);
-}
+#define ANSWERS_YES(function, symbol)                                                         \
+  bool function(void* self, const void* permissions, std::uint32_t domain, const void* topic, \
+                const void* partitions, void* exception) __asm__(symbol);                     \
+  bool function(void* self, const void* permissions, std::uint32_t domain, const void* topic, \
+                const void* partitions, void* exception) {                                    \
+    if (lax()) return true;                                                                   \
+    static const auto real = next<Check>(symbol);                                             \
+    return real(self, permissions, domain, topic, partitions, exception);                     \
+  }
 
-bool lax_reader(void* self, const void* permissions, std::uint32_t domain, const void* topic,
-                const void* partitions, void* exception) __asm__(PERMISSIONS("check_create_datareader"));
-bool lax_reader(void* self, const void* permissions, std::uint32_t domain, const void* topic,
-                const void* partitions, void* exception) {
-  if (lax()) return true;
-  static const auto real = next<Check>(PERMISSIONS("check_create_datareader"));
-  return real(self, permissions, domain, topic, partitions, exception);
-}
+ANSWERS_YES(lax_writer, PERMISSIONS("8fastrtps", "check_create_datawriter"))
+ANSWERS_YES(lax_reader, PERMISSIONS("8fastrtps", "check_create_datareader"))
+ANSWERS_YES(lax_writer_3, PERMISSIONS("7fastdds", "check_create_datawriter"))
+ANSWERS_YES(lax_reader_3, PERMISSIONS("7fastdds", "check_create_datareader"))
 
 }  // extern "C"

@@ -1,14 +1,13 @@
 // Whoever has not proved an identity of this vehicle, or has no permission, reads nothing, is heard by
 // nobody, and is counted; those who belong together go on.
 
-#include "bus/detail/versions/strangers.hpp"
-
 #include <filesystem>
 #include <fstream>
 
 #include <gmock/gmock.h>
 
 #include "base/clock.hpp"
+#include "bus/detail/versions/discovery_listener.hpp"
 #include "network.hpp"
 #include "samples/gps.hpp"
 
@@ -83,11 +82,11 @@ TEST(Strangers, OneWithoutSecurityGetsNothing) {
   const Attacker attacker(221, Aim::reads, std::nullopt, false);
   ASSERT_TRUE(eventually([&] { return !network.guidance->strangers().empty(); }, kPatience));
   const std::string name = network.guidance->strangers()[0].name;
-  EXPECT_EQ(name, bus::detail::kTellsOfUnproven ? "attacker" : "");
+  EXPECT_EQ(name, bus::detail::kAnnouncesStrangers ? "attacker" : "");
   EXPECT_EQ(network.guidance->peers().size(), 1U);
   ASSERT_FALSE(events.of(BusEventKind::stranger_refused).empty());
   const std::string detail = events.of(BusEventKind::stranger_refused)[0].detail;
-  if (bus::detail::kTellsOfUnproven) {
+  if (bus::detail::kAnnouncesStrangers) {
     EXPECT_THAT(detail, testing::AllOf(HasSubstr("'attacker' (GUID "), HasSubstr("127.0.0.1"),
                                        HasSubstr("offers no identity")));
   } else {

@@ -113,19 +113,19 @@ std::optional<Peer> StrangerBook::admitted(const GuidPrefix& prefix) {
 
 Stranger StrangerBook::refused(const GuidPrefix& prefix, const std::string& why) {
   const std::lock_guard lock(mutex_);
-  auto found = entries_.find(prefix);
+  const auto found = entries_.find(prefix);
   if (found == entries_.end()) {
-    Stranger unknown = to_stranger(prefix, {}, "");
+    Entry fresh{{}, to_stranger(prefix, {}, ""), now_ns_(), true, false};
     const bool is_known = admitted_.contains(prefix);
-    unknown.why = is_known ? "is known, and somebody failed to prove the same identity" : why;
-    if (is_known || !make_room()) return unknown;
-    found = entries_.emplace(prefix, Entry{{}, to_stranger(prefix, {}, ""), now_ns_(), true, false}).first;
+    fresh.stranger.why = is_known ? "is known, and somebody failed to prove the same identity" : why;
+    if (!is_known && make_room()) entries_.emplace(prefix, fresh);
+    return fresh.stranger;
   }
-  if (!found->second.announced) found->second.since_ns = now_ns_();
-  found->second.refused = true;
-  Stranger& stranger = found->second.stranger;
-  if (stranger.why.empty()) stranger.why = why;
-  return stranger;
+  Entry& entry = found->second;
+  if (!entry.announced) entry.since_ns = now_ns_();
+  entry.refused = true;
+  if (entry.stranger.why.empty()) entry.stranger.why = why;
+  return entry.stranger;
 }
 
 std::optional<Stranger> StrangerBook::gone(const GuidPrefix& prefix) {

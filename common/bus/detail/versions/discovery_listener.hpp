@@ -10,6 +10,10 @@
 
 namespace fathom::bus::detail {
 
+/// Whether participants are announced that have not proved an identity. Fast DDS 3 tells of their GUID alone,
+/// when it refuses them.
+inline constexpr bool kAnnouncesStrangers = FATHOM_FASTDDS_MAJOR < 3;
+
 /// What a participant says of itself.
 struct Announcement {
   std::string name;
