@@ -7,6 +7,7 @@
 
 #include "codec/air/air_data.hpp"
 #include "codec/text/nmea_sentence.hpp"
+#include "sim/encode/decimal.hpp"
 #include "sim/encode/nmea.hpp"
 
 namespace fathom::sim::encode {
@@ -14,14 +15,6 @@ namespace {
 
 using codec::AirQuantity;
 using codec::AirUnit;
-
-/// Blank where unknown.
-std::string decimal(double value, int decimals) {
-  if (!known(value)) return {};
-  std::array<char, 64> text{};
-  const int length = std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return {text.data(), static_cast<std::size_t>(std::clamp(length, 0, 63))};
-}
 
 double air_temperature_K(const AirspeedSample& sample) {
   const double static_Pa = codec::standard_pressure_Pa(sample.baro_altitude_m);

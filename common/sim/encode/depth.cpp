@@ -1,19 +1,10 @@
 #include "sim/encode/depth.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstdio>
-
 #include "codec/depth/pressure.hpp"
+#include "sim/encode/decimal.hpp"
 
 namespace fathom::sim::encode {
 namespace {
-
-std::string decimal(double value, int decimals) {
-  std::array<char, 64> text{};
-  const int length = std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return {text.data(), static_cast<std::size_t>(std::clamp(length, 0, 63))};
-}
 
 /// Metres of depth or pascal of absolute pressure, whichever the instrument is set to.
 double quantity(const DepthSample& sample, const codec::CodecOptions& options) {

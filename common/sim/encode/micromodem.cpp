@@ -1,16 +1,12 @@
 #include "sim/encode/micromodem.hpp"
 
-#include <array>
-#include <cstdio>
-
+#include "sim/encode/decimal.hpp"
 #include "sim/encode/nmea.hpp"
 
 namespace fathom::sim::encode {
 
 std::string micromodem(const RangeSample& sample) {
-  std::array<char, 32> text{};
-  (void)std::snprintf(text.data(), text.size(), "%.4f", sample.travel_time_s);
-  return nmea_sentence("CAMPR," + sample.beacon.str() + ",1," + text.data());
+  return nmea_sentence("CAMPR," + sample.beacon.str() + ",1," + decimal(sample.travel_time_s, 4));
 }
 
 }  // namespace fathom::sim::encode

@@ -10,6 +10,7 @@
 
 #include "codec/text/nmea_sentence.hpp"
 #include "geo/so3.hpp"
+#include "sim/encode/decimal.hpp"
 
 namespace fathom::sim::encode {
 namespace {
@@ -25,11 +26,6 @@ constexpr double kKmhPerKnot = 1.852;
   const int length = std::vsnprintf(text.data(), text.size(), pattern, arguments);
   va_end(arguments);
   return {text.data(), std::min(static_cast<std::size_t>(std::max(length, 0)), text.size() - 1)};
-}
-
-/// A number with `decimals`, or nothing for an unknown one.
-std::string number(double value, int decimals) {
-  return known(value) ? format("%.*f", decimals, value) : std::string();
 }
 
 CivilTime civil_to_millisecond(TimeNs utc_ns) {
@@ -117,7 +113,7 @@ std::string ship_pose(const UsblSample& sample, TimeNs utc_ns) {
                          angle_text(sample.station_longitude_rad, 3, "EW") + ",1,10,1.0,0.0,M,0.0,M,,");
   }
   if (known(sample.station_rpy_rad[2])) {
-    out += nmea_sentence("HEHDT," + number(turn_deg(sample.station_rpy_rad[2]), 3) + ",T");
+    out += nmea_sentence("HEHDT," + decimal(turn_deg(sample.station_rpy_rad[2]), 3) + ",T");
   }
   return out;
 }
@@ -155,39 +151,39 @@ std::string nmea_gps(const GpsSample& sample, TimeNs utc_ns, std::string_view ta
 
   const std::string satellites = sent.satellites >= 0 ? format("%02d", sent.satellites) : std::string();
   std::string out = nmea_sentence(name + "GGA," + time + "," + position + "," + quality_of(sample.fix) + "," +
-                                  satellites + "," + number(sent.hdop, 2) + "," + number(altitude_msl_m, 3) +
-                                  ",M," + number(separation_m, 3) + ",M,,");
-  out += nmea_sentence(name + "RMC," + time + (fixed ? ",A," : ",V,") + position + "," + number(speed_kn, 4) +
-                       "," + number(course_deg, 3) + "," +
+                                  satellites + "," + decimal(sent.hdop, 2) + "," +
+                                  decimal(altitude_msl_m, 3) + ",M," + decimal(separation_m, 3) + ",M,,");
+  out += nmea_sentence(name + "RMC," + time + (fixed ? ",A," : ",V,") + position + "," +
+                       decimal(speed_kn, 4) + "," + decimal(course_deg, 3) + "," +
                        format("%02d%02d%02d", civil.day, civil.month, civil.year % 100) + ",,," + mode);
-  out += nmea_sentence(name + "VTG," + number(course_deg, 3) + ",T,,M," + number(speed_kn, 4) + ",N," +
-                       number(speed_kn * kKmhPerKnot, 4) + ",K," + mode);
-  out += nmea_sentence(name + "GST," + time + ",,,,," + number(sent.position_sigma_N_m[0], 3) + "," +
-                       number(sent.position_sigma_N_m[1], 3) + "," + number(sent.position_sigma_N_m[2], 3));
+  out += nmea_sentence(name + "VTG," + decimal(course_deg, 3) + ",T,,M," + decimal(speed_kn, 4) + ",N," +
+                       decimal(speed_kn * kKmhPerKnot, 4) + ",K," + mode);
+  out += nmea_sentence(name + "GST," + time + ",,,,," + decimal(sent.position_sigma_N_m[0], 3) + "," +
+                       decimal(sent.position_sigma_N_m[1], 3) + "," + decimal(sent.position_sigma_N_m[2], 3));
   return out;
 }
 
 std::string nmea_heading(const HeadingSample& sample, std::string_view talker) {
   const std::string name(talker);
   if (sample.north == North::true_north) {
-    return nmea_sentence(name + "HDT," + number(turn_deg(sample.heading_rad), 3) + ",T");
+    return nmea_sentence(name + "HDT," + decimal(turn_deg(sample.heading_rad), 3) + ",T");
   }
   const double deviation_rad = known(sample.deviation_rad) ? sample.deviation_rad : 0.0;
-  return nmea_sentence(name + "HDG," + number(turn_deg(sample.heading_rad - deviation_rad), 3) + "," +
+  return nmea_sentence(name + "HDG," + decimal(turn_deg(sample.heading_rad - deviation_rad), 3) + "," +
                        east_west_text(sample.deviation_rad) + "," + east_west_text(sample.variation_rad));
 }
 
 std::string nmea_rpm(const PropulsionSample& sample, std::string_view talker) {
-  return nmea_sentence(std::string(talker) + "RPM,S,1," + number(sample.rpm, 2) + ",," +
+  return nmea_sentence(std::string(talker) + "RPM,S,1," + decimal(sample.rpm, 2) + ",," +
                        (known(sample.rpm) ? 'A' : 'V'));
 }
 
 std::string nmea_fins(const FinsSample& sample, std::string_view talker) {
   const std::string name(talker);
   const double bow_to_starboard_deg = -sample.rudder_rad * kDegreesPerRadian;
-  return nmea_sentence(name + "RSA," + number(bow_to_starboard_deg, 3) + "," +
+  return nmea_sentence(name + "RSA," + decimal(bow_to_starboard_deg, 3) + "," +
                        (known(sample.rudder_rad) ? 'A' : 'V') + ",,V") +
-         nmea_sentence(name + "XDR,A," + number(sample.stern_rad * kDegreesPerRadian, 3) + ",D,STERN");
+         nmea_sentence(name + "XDR,A," + decimal(sample.stern_rad * kDegreesPerRadian, 3) + ",D,STERN");
 }
 
 std::string psimssb(const UsblSample& sample, TimeNs utc_ns) {
@@ -197,19 +193,19 @@ std::string psimssb(const UsblSample& sample, TimeNs utc_ns) {
                                 : known(r[0]) && known(r[1]) && known(r[2]);
   std::string position = ",,";
   if (replied && geodetic) {
-    position = number(sample.latitude_rad, 10) + "," + number(sample.longitude_rad, 10) + "," +
-               number(sample.depth_m, 3);
+    position = decimal(sample.latitude_rad, 10) + "," + decimal(sample.longitude_rad, 10) + "," +
+               decimal(sample.depth_m, 3);
   } else if (replied) {
     const bool vessel = sample.frame == UsblFrame::vessel_frd;
     position =
-        number(vessel ? r[1] : r[0], 3) + "," + number(vessel ? r[0] : r[1], 3) + "," + number(r[2], 3);
+        decimal(vessel ? r[1] : r[0], 3) + "," + decimal(vessel ? r[0] : r[1], 3) + "," + decimal(r[2], 3);
   }
   const char* axes = geodetic ? "R,G" : sample.frame == UsblFrame::vessel_frd ? "C,H" : "C,N";
   return ship_pose(sample, utc_ns) +
          nmea_sentence("PSIMSSB," + time_text(civil_to_millisecond(utc_ns)) + "," + sample.transponder.str() +
                        (replied ? ",A,," : ",V,NRy,") + axes + ",M," + position + "," +
-                       number(replied ? sample.sigma_m : kUnknown, 3) + ",T," +
-                       number(sample.travel_time_s, 6) + ",");
+                       decimal(replied ? sample.sigma_m : kUnknown, 3) + ",T," +
+                       decimal(sample.travel_time_s, 6) + ",");
 }
 
 }  // namespace fathom::sim::encode

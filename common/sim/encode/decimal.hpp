@@ -1,0 +1,20 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <string>
+
+#include "base/unknown.hpp"
+
+namespace fathom::sim::encode {
+
+/// A number with so many decimals; blank where it is unknown.
+[[nodiscard]] inline std::string decimal(double value, int decimals) {
+  if (!known(value)) return {};
+  std::array<char, 64> text{};
+  const int length = std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return {text.data(), static_cast<std::size_t>(std::clamp(length, 0, 63))};
+}
+
+}  // namespace fathom::sim::encode
