@@ -1,7 +1,6 @@
 #include "config/bridge/bridge_config.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "config/bridge/bridge_schema.hpp"
 #include "config/bridge/byte_source_config.hpp"
@@ -10,7 +9,6 @@ namespace fathom::config {
 namespace {
 
 using Violation = std::pair<std::string, std::string>;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 bool is_rotation(const std::array<double, 9>& m) {
   constexpr double kTolerance = 1e-6;

@@ -175,7 +175,7 @@ struct SampleLimits {
   double dvl_speed_m_s = 20.0;
   double gps_speed_m_s = 300.0;
   double depth_m = 11'000.0;
-  double usbl_range_m = 20'000.0;
+  double acoustic_range_m = 20'000.0;
   double rpm = 10'000.0;
   double fin_rad = 1.6;
   double airspeed_m_s = 150.0;

@@ -117,7 +117,7 @@ SensorPlan sensor_plan(const UsblSensorConfig& config) {
   out.options.usbl_sigma_floor_m = config.sigma_floor_m;
   out.transponder = config.transponder;
   out.intermittent = true;  // out of earshot is no fault
-  out.limits.usbl_range_m = config.max_range_m;
+  out.limits.acoustic_range_m = config.max_range_m;
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 // For *_config.cpp of bridges: the file of a bridge, and what every instrument plans alike.
 
+#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "config/service_schema.hpp"
 
 namespace fathom::config {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 template <class Sensor>
 void describe(Schema<BridgeConfig<Sensor>>& s) {

@@ -3,11 +3,6 @@
 #include "config/bridge/bridge_schema.hpp"
 
 namespace fathom::config {
-namespace {
-
-constexpr double kRadPerDegree = 0.017453292519943295;
-
-}  // namespace
 
 void describe(Schema<BeaconConfig>& s) {
   using C = BeaconConfig;
@@ -17,12 +12,12 @@ void describe(Schema<BeaconConfig>& s) {
   s.field("latitude_deg", &C::latitude_rad, "where it is")
       .unit("deg")
       .range(-90, 90)
-      .scaled(kRadPerDegree)
+      .scaled(kDegree)
       .required();
   s.field("longitude_deg", &C::longitude_rad, "where it is")
       .unit("deg")
       .range(-180, 180)
-      .scaled(kRadPerDegree)
+      .scaled(kDegree)
       .required();
   s.field("depth_m", &C::depth_m, "below the surface").unit("m").range(-100, 12'000).required();
   s.check([](const C& beacon) -> std::pair<std::string, std::string> {
@@ -71,7 +66,7 @@ SensorPlan sensor_plan(const RangeSensorConfig& config) {
                                        one.depth_m};
   }
   out.intermittent = true;  // out of earshot is no fault
-  out.limits.usbl_range_m = config.max_range_m;
+  out.limits.acoustic_range_m = config.max_range_m;
   return out;
 }
 

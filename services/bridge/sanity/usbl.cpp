@@ -16,8 +16,8 @@ Judgement judge(const UsblSample& s, const Limits& limits) {
       any_infinite(s.station_rpy_rad)) {
     return Refusal::not_finite;
   }
-  if (any_beyond(s.relative_m, limits.usbl_range_m) || beyond(s.depth_m, limits.depth_m) || s.sigma_m < 0.0 ||
-      s.range_m <= 0.0 || beyond(s.range_m, limits.usbl_range_m) ||
+  if (any_beyond(s.relative_m, limits.acoustic_range_m) || beyond(s.depth_m, limits.depth_m) ||
+      s.sigma_m < 0.0 || s.range_m <= 0.0 || beyond(s.range_m, limits.acoustic_range_m) ||
       beyond(s.depression_rad, 0.5 * std::numbers::pi) || beyond(s.bearing_rad, 2.0 * std::numbers::pi)) {
     return Refusal::impossible;
   }
