@@ -104,14 +104,14 @@ std::string_view captures_of(std::string_view protocol) {
   if (protocol == "waterlinked") return "waterlinked_json";
   if (protocol == "paroscientific" || protocol == "ascii_depth") return "pressure";
   if (protocol == "psimssb") return "usbl";
+  if (protocol.ends_with("air_data")) return "air_data";
   return protocol;
 }
 
 TEST_P(EveryCodec, NorInRecordingsAndDamagedRecordings) {
   namespace fs = std::filesystem;
-  const bool is_ours = protocol().ends_with("air_data");  // in git
-  const fs::path folder =
-      is_ours ? fs::path(FATHOM_VECTORS) / "air_data" : fs::path(FATHOM_CAPTURES) / captures_of(protocol());
+  const fs::path own = fs::path(FATHOM_VECTORS) / captures_of(protocol());  // in git
+  const fs::path folder = fs::is_directory(own) ? own : fs::path(FATHOM_CAPTURES) / captures_of(protocol());
   if (!fs::is_directory(folder)) FATHOM_DATA_IS_MISSING("no recordings in " << folder);
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -1,7 +1,11 @@
 // Ranges of a WHOI Micro-Modem.
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +95,22 @@ TEST(Micromodem, WhatNoModemMeansIsRefused) {
   std::string damaged = sentence("CAMPR,12,1,0.2500");
   damaged[11] = '3';
   EXPECT_EQ(reason(damaged), RejectReason::checksum);
+}
+
+TEST(Micromodem, ALogOfItsLineGivesItsRanges) {
+  std::ifstream in(FATHOM_VECTORS "/micromodem/pings.txt", std::ios::binary);
+  const DecodeRun log = run({std::istreambuf_iterator<char>(in), {}});
+  std::vector<std::pair<std::string, double>> found;
+  for (const RangeSample& one : log.all<RangeSample>())
+    found.emplace_back(one.beacon.str(), one.travel_time_s);
+  const std::vector<std::pair<std::string, double>> expected{{"12", 0.25}, {"A", 0.1},   {"C", 0.3},
+                                                             {"7", 1.0},   {"12", 0.26}, {"A", 0.101},
+                                                             {"B", 0.2},   {"C", 0.301}, {"D", 0.4}};
+  EXPECT_EQ(found, expected);
+  std::vector<RejectReason> refused;
+  for (const Rejected& one : log.rejected) refused.push_back(one.reason);
+  EXPECT_EQ(refused,
+            (std::vector{RejectReason::checksum, RejectReason::out_of_range, RejectReason::truncated}));
 }
 
 }  // namespace
