@@ -177,7 +177,11 @@ TEST_F(FusionTest, ASecondWriterOfItsUnitIsNotMixedInAndFollowsOneThatFellSilent
   };
   auto rogue = std::make_unique<bus::Participant>(presence(175, "rogue"));
   bus::Writer<ImuSample> wrong(*rogue);
-  ASSERT_TRUE(wait_until([&] { return wrong.matched_readers() > 0; }));
+  // The unit goes on meanwhile: one that fell silent would be followed.
+  ASSERT_TRUE(wait_until([&] {
+    vehicle->run(1);
+    return wrong.matched_readers() > 0;
+  }));
   // A unit that turns on its head, between the samples of the one that lies still.
   for (int i = 0; i < 100; ++i) {
     ImuSample sample = vehicle->imu();
