@@ -289,13 +289,17 @@ struct FusionService::Impl {
     for (const Command& order : intake.log().orders()) (void)engine.apply(order);
     intake.go_on_from(state.last);
     int told_again = 0;
+    const auto leave_verdicts = [&] {
+      for (Verdict verdict; engine.next_verdict(verdict);) continue;
+    };
+    leave_verdicts();
     for (const Arrival& arrival : intake.log().arrivals()) {
       const bool known = arrival.source() == SourceKind::imu &&
                          arrival.header().stamp_ns <= engine.nav_state().header.stamp_ns;
       if (known) continue;
       give(arrival);
       ++told_again;
-      for (Verdict verdict; engine.next_verdict(verdict);) continue;
+      leave_verdicts();
     }
     for (estimation::OrderOutcome outcome; engine.next_outcome(outcome);) continue;
     verdicts.begin_anew();

@@ -135,7 +135,8 @@ class FusionEngine {
   /// the forecast remembers. False, with nothing appended, before the first inertial sample.
   [[nodiscard]] bool save(std::vector<std::byte>& out) const;
   /// The bytes may be anybody's. Empty when done; else, with nothing changed, which field is wrong, what it
-  /// is and what was expected.
+  /// is and what was expected. Nothing more is said of the measurements that this engine held before: the
+  /// state holds its own.
   [[nodiscard]] std::string restore(std::span<const std::byte> image);
 
   /// Covariance of position (m, N), velocity and attitude error phi of the point of the IMU.

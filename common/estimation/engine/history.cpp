@@ -294,6 +294,10 @@ void History::settle_past(VerdictSink& sink) {
 
 void History::forget_past(VerdictSink& sink, VerdictKind verdict) {
   settle_first(event_count_, verdict, sink);
+  forget();
+}
+
+void History::forget() {
   event_count_ = 0;
   settled_count_ = 0;
   snapshot_count_ = 0;

@@ -104,6 +104,8 @@ class History {
   void settle_past(VerdictSink& sink);
   /// Every event gets its final verdict and is forgotten; this one, when it has not acted yet.
   void forget_past(VerdictSink& sink, VerdictKind verdict);
+  /// The same without a word.
+  void forget();
   /// So far ahead of the newest inertial sample an event may be stamped.
   [[nodiscard]] DurationNs future_tolerance_ns(const Measurement& measurement) const;
   /// Goes back to before the earliest event that came late, or lets the second navigator do it.

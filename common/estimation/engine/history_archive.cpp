@@ -148,7 +148,7 @@ std::string History::read(archive::Reader& archive, TimeNs newest_ns, VerdictSin
 }
 
 void History::take_over(const Candidate& found, VerdictSink& sink) {
-  forget_past(sink, VerdictKind::not_aligned);
+  forget();  // what becomes of those events follows from the state that is taken over
   navigator_ = found.navigator;
   const std::uint64_t target = found.base_step + found.steps.size();
   for (std::uint64_t step = found.base_step; step < target; ++step)

@@ -298,6 +298,29 @@ TEST(Revision, GoesOnInAnEngineThatTakesUpTheState) {
   expect_settled(other.of(20));
 }
 
+TEST(Revision, NothingIsSaidOfThePastThatAStateReplaces) {
+  Adrift vehicle;
+  vehicle.steps(20);
+  vehicle.fix(20, 0.0);
+  vehicle.steps(2);
+  vehicle.take();
+  std::vector<std::byte> image;
+  ASSERT_TRUE(vehicle.engine.save(image));
+  // The other one has heard the same, and holds it too.
+  Adrift other;
+  other.steps(20);
+  other.fix(20, 0.0);
+  other.steps(2);
+  other.take();
+  const std::size_t said = other.of(20).size();
+  ASSERT_EQ(other.engine.restore(image), "");
+  other.take();
+  EXPECT_EQ(other.of(20).size(), said);
+  other.engine.finish();
+  other.take();
+  expect_settled(other.of(20));
+}
+
 TEST(Revision, WordsThatNobodyTakesAreCounted) {
   Adrift vehicle;
   vehicle.steps(1);
