@@ -25,8 +25,9 @@ VerdictPublisher::VerdictPublisher(host::ServiceHost& host, std::mutex& mutex,
       relay_(relayed_ns(host.clock())),
       verdicts_(host.participant()) {
   if (!speaks_) return;
-  others_.emplace(host.participant(), [this](const Verdict& verdict, const bus::SampleInfo&) {
-    if (verdict.header.vehicle.view() != host_.common().vehicle) return;
+  others_.emplace(host.participant(), [this](const Verdict& verdict, const bus::SampleInfo& info) {
+    if (verdict.header.vehicle.view() != host_.common().vehicle || info.writer_guid == verdicts_.guid())
+      return;
     const std::lock_guard lock(mutex_);
     relay_.heard(verdict, host_.clock().monotonic_ns());
   });
@@ -57,21 +58,24 @@ std::size_t VerdictPublisher::take(std::span<Verdict> batch, bool aloud) {
     Verdict& verdict = batch[taken];
     count(verdict);
     if (verdict.source == SourceKind::imu) verdict.writer = imu_writer_;
-    if (aloud) {
-      ++taken;
-    } else {
+    if (!aloud)
       relay_.own(verdict, now_ns);
-    }
+    else if (!relay_.was_heard(verdict, now_ns))
+      ++taken;
   }
   return taken;
 }
 
 void VerdictPublisher::publish(const Verdict& verdict) {
-  const bool heard = aloud();
+  bool heard = aloud();
   {
     const std::lock_guard lock(mutex_);
+    const TimeNs now_ns = host_.clock().monotonic_ns();
     count(verdict);
-    if (!heard) relay_.own(verdict, host_.clock().monotonic_ns());
+    if (!heard)
+      relay_.own(verdict, now_ns);
+    else
+      heard = !relay_.was_heard(verdict, now_ns);
   }
   if (heard) verdicts_.write(verdict);
 }

@@ -14,11 +14,15 @@ bool same(const Verdict& a, const Verdict& b) {
 }  // namespace
 
 void VerdictRelay::own(const Verdict& verdict, TimeNs now_ns) {
-  cancel(heard_, own_, verdict, now_ns);
+  if (!take_from(heard_, verdict, now_ns)) keep(own_, verdict, now_ns);
 }
 
 void VerdictRelay::heard(const Verdict& verdict, TimeNs now_ns) {
-  cancel(own_, heard_, verdict, now_ns);
+  if (!take_from(own_, verdict, now_ns)) keep(heard_, verdict, now_ns);
+}
+
+bool VerdictRelay::was_heard(const Verdict& verdict, TimeNs now_ns) {
+  return take_from(heard_, verdict, now_ns);
 }
 
 bool VerdictRelay::next_unsaid(Verdict& verdict, TimeNs now_ns) {
@@ -34,17 +38,18 @@ void VerdictRelay::clear() {
   heard_.clear();
 }
 
-void VerdictRelay::cancel(Entries& among, Entries& others, const Verdict& verdict, TimeNs now_ns) {
-  forget_old(own_, now_ns);
-  forget_old(heard_, now_ns);
+bool VerdictRelay::take_from(Entries& among, const Verdict& verdict, TimeNs now_ns) const {
+  forget_old(among, now_ns);
   const auto found = std::find_if(among.begin(), among.end(),
                                   [&](const Entry& entry) { return same(entry.verdict, verdict); });
-  if (found != among.end()) {
-    among.erase(found);
-    return;
-  }
-  if (others.size() == kMost) others.pop_front();
-  others.push_back({verdict, now_ns});
+  if (found == among.end()) return false;
+  among.erase(found);
+  return true;
+}
+
+void VerdictRelay::keep(Entries& entries, const Verdict& verdict, TimeNs now_ns) {
+  if (entries.size() == kMost) entries.pop_front();
+  entries.push_back({verdict, now_ns});
 }
 
 void VerdictRelay::forget_old(Entries& entries, TimeNs now_ns) const {

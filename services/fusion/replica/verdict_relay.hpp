@@ -24,6 +24,9 @@ class VerdictRelay {
   void own(const Verdict& verdict, TimeNs now_ns);
   /// Takes a verdict that another service published.
   void heard(const Verdict& verdict, TimeNs now_ns);
+  /// Whether another service published, lately, what this one would publish now: the one that led before may
+  /// have been further on. Each answer stands for one publication.
+  [[nodiscard]] bool was_heard(const Verdict& verdict, TimeNs now_ns);
   /// Takes out the oldest verdict that nobody has published. False when there is none.
   [[nodiscard]] bool next_unsaid(Verdict& verdict, TimeNs now_ns);
   void clear();
@@ -36,8 +39,9 @@ class VerdictRelay {
   };
   using Entries = std::deque<Entry>;
 
-  /// Removes the verdict from `among` when it is there, and adds it to `others` when it is not.
-  void cancel(Entries& among, Entries& others, const Verdict& verdict, TimeNs now_ns);
+  /// Removes the verdict from `among` when it is there.
+  [[nodiscard]] bool take_from(Entries& among, const Verdict& verdict, TimeNs now_ns) const;
+  static void keep(Entries& entries, const Verdict& verdict, TimeNs now_ns);
   void forget_old(Entries& entries, TimeNs now_ns) const;
 
   DurationNs keep_ns_;

@@ -35,6 +35,17 @@ TEST(VerdictRelay, SaysWhatTheOneThatLedHadNoTimeFor) {
   EXPECT_FALSE(relay.next_unsaid(said, 30));
 }
 
+TEST(VerdictRelay, WhatTheOneThatLedSaidAheadOfThisOneIsNotSaidAgain) {
+  VerdictRelay relay(2 * kNsPerSecond);
+  relay.heard(verdict(1, 1, true), 10);
+  relay.heard(verdict(2, 0, true), 11);
+  // It leads now, and gets there itself.
+  EXPECT_TRUE(relay.was_heard(verdict(1, 2, true), 20));
+  EXPECT_FALSE(relay.was_heard(verdict(1, 2, true), 21));  // a second of that number is another one
+  EXPECT_FALSE(relay.was_heard(verdict(3, 0, true), 22));
+  EXPECT_FALSE(relay.was_heard(verdict(2, 0, true), 12 + 2 * kNsPerSecond));  // too long ago
+}
+
 TEST(VerdictRelay, AFinalVerdictIsTheSameWhateverWasSaidBefore) {
   VerdictRelay relay(2 * kNsPerSecond);
   relay.heard(verdict(1, 2, true), 10);  // after a revision that this one did not need
