@@ -55,9 +55,9 @@ namespace {
 std::atomic<bool> stopped = false;
 }
 
-void until_stopped(milliseconds period, const std::function<void()>& step) {
+void until_stopped(milliseconds period, const std::function<void()>& step, milliseconds limit) {
   std::signal(SIGTERM, [](int) { stopped = true; });
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto end = std::chrono::steady_clock::now() + limit;
   for (auto next = std::chrono::steady_clock::now(); !stopped && next < end;) {
     step();
     next += period;

@@ -106,7 +106,8 @@ class Child {
   int pid_ = -1;
 };
 
-/// In a child: sleeps until SIGTERM or 60 s have passed, calling `step` every `period`.
-void until_stopped(milliseconds period, const std::function<void()>& step);
+/// In a child: sleeps until SIGTERM or `limit` has passed, calling `step` every `period`.
+void until_stopped(milliseconds period, const std::function<void()>& step,
+                   milliseconds limit = milliseconds(60'000));
 
 }  // namespace fathom::test
