@@ -36,7 +36,7 @@ void fields(Archive& archive, Self& self) {
   archive("settled", self.settled);
   archive("said", self.said, static_cast<VerdictKind>(kVerdictKinds - 1));
   archive("revision", self.revision, fathom::archive::kAnyWhole);
-  archive("source", self.source, SourceKind::fins);
+  archive("source", self.source, kLastKind);
   archive("sensor", self.sensor, fathom::archive::Whole{-1, kMaxSensors - 1});
   archive("sequence", self.sequence);
   archive("writer", self.writer);

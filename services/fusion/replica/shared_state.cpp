@@ -31,7 +31,7 @@ struct Head {
 struct Row {
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self) {
-    archive("source", self.source, SourceKind::fins);
+    archive("source", self.source, kLastKind);
     archive("sensor", self.sensor);
     archive("sequence", self.sequence);
   }

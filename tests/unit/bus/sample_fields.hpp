@@ -213,7 +213,7 @@ constexpr unsigned last_of<VerdictKind>() {
 }
 template <>
 constexpr unsigned last_of<SourceKind>() {
-  return static_cast<unsigned>(SourceKind::fins);
+  return static_cast<unsigned>(kLastKind);
 }
 template <>
 constexpr unsigned last_of<Severity>() {

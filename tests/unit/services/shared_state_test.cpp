@@ -15,6 +15,7 @@ SharedState shared() {
   out.imu_sensor = "imu";
   out.last[{SourceKind::imu, "imu"}] = 100;
   out.last[{SourceKind::gps, "gps"}] = 7;
+  for_each_kind([&](auto kind) { out.last.try_emplace({kind.kSource, Name(kind.kWord)}, 8); });
   out.archive.assign(1000, std::byte{5});
   return out;
 }
