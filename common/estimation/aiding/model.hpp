@@ -13,7 +13,7 @@ namespace hydro {
 class WaterVelocity;
 }
 
-/// What an aiding model may look at. Models never see the filter or its covariance.
+/// What an aiding model may look at. Models never see the filter.
 struct AidingState {
   const StateIndex& index;
   const FilterState& state;
@@ -114,6 +114,8 @@ struct AidingInput {
   const VehicleModelConfig* vehicle_model = nullptr;
   const hydro::WaterVelocity* water = nullptr;  ///< what the vehicle model predicts, where it is switched on
   double unused_s = kUnknown;                   ///< since the last measurement of this sensor that was used
+  /// Of the position of the IMU, for rows that are not straight within it.
+  Matrix3 position_covariance_N_m2 = Matrix3::Zero();
 };
 
 /// Appends the components of a model that are known to an observation. A model offers

@@ -153,7 +153,8 @@ void Forecaster::aid(int sensor, int instrument, const Instrument& known, const 
                           .surface_altitude_m = setup_->config.states.surface_altitude_m,
                           .vehicle_model = &setup_->config.vehicle_model,
                           .water = modelled ? &navigator_.water_velocity() : nullptr,
-                          .unused_s = dt_s};
+                          .unused_s = dt_s,
+                          .position_covariance_N_m2 = filter_.block3(0, 0)};
   Observation observation;
   for (const AidingEntry& entry : aiding_registry())
     if (entry.source == config.kind)

@@ -12,20 +12,13 @@ using Eigen::Vector3d;
 /// A surface known worse than this gives no depth.
 constexpr double kSurfaceSigma_m = 20.0;
 
-Matrix3d block(const ErrorFilter& filter, int row, int column) {
-  Matrix3d p;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) p(i, j) = filter(row + i, column + j);
-  return p;
-}
-
 /// Covariance of a vector at the end of a lever: its own, and what the attitude error swings.
 std::array<double, 9> with_lever(const ErrorFilter& filter, int first, const Vector3d& arm_N) {
   // (OUT-2)
   const Matrix3d swing = geo::skew(arm_N);
-  const Matrix3d cross = block(filter, first, 6) * swing.transpose();
-  const Matrix3d p = block(filter, first, first) + cross + cross.transpose() +
-                     swing * block(filter, 6, 6) * swing.transpose();
+  const Matrix3d cross = filter.block3(first, 6) * swing.transpose();
+  const Matrix3d p = filter.block3(first, first) + cross + cross.transpose() +
+                     swing * filter.block3(6, 6) * swing.transpose();
   std::array<double, 9> out{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) out[static_cast<std::size_t>(3 * i + j)] = 0.5 * (p(i, j) + p(j, i));

@@ -47,6 +47,13 @@ class ErrorFilter {
 
   [[nodiscard]] int size() const { return n_; }
   [[nodiscard]] double operator()(int row, int column) const { return p_[at(row, column)]; }
+  /// Three rows and columns from these on.
+  [[nodiscard]] Eigen::Matrix3d block3(int row, int column) const {
+    Eigen::Matrix3d p;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) p(i, j) = (*this)(row + i, column + j);
+    return p;
+  }
   void set(int row, int column, double value) {
     p_[at(row, column)] = value;
     p_[at(column, row)] = value;

@@ -133,7 +133,8 @@ bool Navigator::observe(Trial& trial) {
                           .surface_altitude_m = config.states.surface_altitude_m,
                           .vehicle_model = &config.vehicle_model,
                           .water = trial.modelled ? &model_.water_velocity() : nullptr,
-                          .unused_s = estimate_.since(trial.instrument.used_ns)};
+                          .unused_s = estimate_.since(trial.instrument.used_ns),
+                          .position_covariance_N_m2 = estimate_.filter.block3(0, 0)};
   Usable first_refusal = Usable::yes;
   for (const AidingEntry& entry : aiding_registry()) {
     if (entry.source != trial.measurement.source) continue;
