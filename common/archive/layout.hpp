@@ -46,6 +46,7 @@ class Layout : public Visitor<Layout> {
  private:
   template <class T>
   void one_of() {
+    if (!since(kSince<T>)) return;
     const T value{};
     note("", '|');
     this->visit_fields(value);

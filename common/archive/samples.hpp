@@ -8,6 +8,7 @@
 #include "archive/samples/gps.hpp"
 #include "archive/samples/header.hpp"
 #include "archive/samples/heading.hpp"
+#include "archive/samples/range.hpp"
 #include "archive/samples/usbl.hpp"
 
 /// Fields of the samples. Their numbers may be any: a sample out of an archive is judged when it acts, as one

@@ -24,6 +24,11 @@
 /// (writer.hpp), reads and checks (reader.hpp), and describes what is written (layout.hpp).
 namespace fathom::archive {
 
+/// The version since which a state can hold a T as one of several alternatives. What was written before then
+/// knows nothing of it, and stays readable.
+template <class T>
+inline constexpr std::uint32_t kSince = 1;
+
 /// What a number may be. Everything that is read is held against it; a writer does not look.
 struct Range {
   double least = 0.0;

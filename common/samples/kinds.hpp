@@ -102,9 +102,11 @@ using Kinds = KindList<  //
     Kind<PropulsionSample, SourceKind::propulsion, "propulsion", "actuator_bridge">,
     Kind<FinsSample, SourceKind::fins, "fins", "actuator_bridge">,
     Kind<AltimeterSample, SourceKind::altimeter, "altimeter", "altimeter_bridge", Use::informing>,
-    Kind<RangeSample, SourceKind::range, "range", "range_bridge", Use::informing>>;
+    Kind<RangeSample, SourceKind::range, "range", "range_bridge">>;
 
 inline constexpr std::size_t kSourceKinds = Kinds::kSize;
+/// The highest number of a kind, for checks of what comes from outside.
+inline constexpr SourceKind kLastKind = static_cast<SourceKind>(kSourceKinds - 1);
 
 namespace detail {
 

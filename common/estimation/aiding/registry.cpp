@@ -5,6 +5,7 @@
 
 #include "estimation/aiding/airspeed.hpp"
 #include "estimation/aiding/baro_altitude.hpp"
+#include "estimation/aiding/beacon_range.hpp"
 #include "estimation/aiding/depth.hpp"
 #include "estimation/aiding/dvl_beams.hpp"
 #include "estimation/aiding/dvl_velocity.hpp"
@@ -39,7 +40,7 @@ constexpr std::array kRegistry{
     entry<DvlBeams>(),      entry<Depth>(),       entry<Heading>(),
     entry<UsblPosition>(),  entry<UsblVector>(),  entry<UsblRangeBearing>(),
     entry<Airspeed>(),      entry<FlowAngles>(),  entry<BaroAltitude>(),
-    entry<ModelVelocity>(), entry<SpeedLog>(),
+    entry<ModelVelocity>(), entry<SpeedLog>(),    entry<BeaconRange>(),
 };
 
 }  // namespace

@@ -41,8 +41,8 @@ void describe(Walk<SensorConfig>& s) {
   s.field("lever_B_m", &C::lever_B_m, "from the inertial unit to the instrument, forward, right, down")
       .unit("m")
       .range(-1000, 1000)
-      .only_for(kinds(gps, dvl, depth, usbl, propulsion))
-      .required_for(kinds(gps, dvl, depth, usbl));
+      .only_for(kinds(gps, dvl, depth, usbl, propulsion, range))
+      .required_for(kinds(gps, dvl, depth, usbl, range));
   s.field(
        "mounting_rpy_deg", &C::mounting_rpy_rad,
        "roll, pitch, yaw of the instrument's axes in the body frame; of a transceiver on a ship in that ship")
@@ -52,10 +52,10 @@ void describe(Walk<SensorConfig>& s) {
       .only_for(kinds(dvl, heading, usbl))
       .required_for(kinds(dvl));
   s.field("latency_s", &C::latency_s, "subtracted from the stamp").unit("s").range(-10, 60);
-  s.field("sigma_m", &C::sigma, "noise north, east, down; of a depth and of a USBL range the first counts")
+  s.field("sigma_m", &C::sigma, "noise north, east, down; of a depth and of a range the first counts")
       .unit("m")
       .range(1e-6, 1e6)
-      .only_for(kinds(gps, depth, usbl));
+      .only_for(kinds(gps, depth, usbl, range));
   s.field("sigma_m_s", &C::sigma, "noise along x, y, z; of an airspeed the first counts")
       .unit("m/s")
       .range(1e-6, 1e6)
@@ -71,7 +71,7 @@ void describe(Walk<SensorConfig>& s) {
       .only_for(kinds(gps));
   s.field("proportional_sigma", &C::proportional_sigma, "added to the noise times the magnitude measured")
       .range(0, 10)
-      .only_for(kinds(dvl, depth, usbl, airspeed, propulsion));
+      .only_for(kinds(dvl, depth, usbl, airspeed, propulsion, range));
   s.field("use_sample_sigma", &C::use_sample_sigma, "a larger noise in the sample counts")
       .only_for(kinds_but(propulsion, fins));
   s.field("use_position", &C::use_position, "its position aids").only_for(kinds(gps));
@@ -133,24 +133,24 @@ void describe(Walk<SensorConfig>& s) {
       .scaled(kRadPerDeg)
       .only_for(kinds(usbl));
   s.field("transceiver_known", &C::transceiver_known,
-          "the transceiver, or the beacon that the vehicle's own transceiver looks at, is at the place that "
-          "follows; a place that comes with the fix goes before it")
-      .only_for(kinds(usbl));
+          "the transceiver, or the beacon that the vehicle hears, is at the place that follows; a place that "
+          "comes with the fix or range goes before it")
+      .only_for(kinds(usbl, range));
   s.field("transceiver_latitude_deg", &C::transceiver_latitude_rad, "latitude for transceiver_known")
       .unit("deg")
       .range(-90, 90)
       .scaled(kRadPerDeg)
-      .only_for(kinds(usbl));
+      .only_for(kinds(usbl, range));
   s.field("transceiver_longitude_deg", &C::transceiver_longitude_rad, "longitude for transceiver_known")
       .unit("deg")
       .range(-360, 360)
       .scaled(kRadPerDeg)
-      .only_for(kinds(usbl));
+      .only_for(kinds(usbl, range));
   s.field("transceiver_depth_m", &C::transceiver_depth_m,
           "depth for transceiver_known and for fixes that come with a place but no depth, below the surface")
       .unit("m")
       .range(-1000, 12'000)
-      .only_for(kinds(usbl));
+      .only_for(kinds(usbl, range));
   s.field("sideslip_sigma_deg", &C::sideslip_sigma_rad,
           "the aircraft flies straight into the air but for its sideslip state and this; 0: not used")
       .unit("deg")

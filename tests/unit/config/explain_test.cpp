@@ -64,7 +64,8 @@ TEST(Keys, ReachIntoSectionsAndLists) {
   EXPECT_EQ(row("engine.imu.nominal_rate_hz").default_text, "100");
   EXPECT_EQ(row("engine.imu.nominal_rate_hz").info.unit, "Hz");
   EXPECT_EQ(row("engine.sensors").default_text, "") << "a section has no default of its own";
-  EXPECT_EQ(row("engine.sensors[].kind").range, "gps, dvl, depth, heading, usbl, airspeed, propulsion, fins");
+  EXPECT_EQ(row("engine.sensors[].kind").range,
+            "gps, dvl, depth, heading, usbl, airspeed, propulsion, fins, range");
   EXPECT_EQ(row("engine.sensors[].use_beams").range, "true or false");
   EXPECT_THAT(row("engine.sensors[].use_beams").info.sentence, HasSubstr("dvl: "));
   EXPECT_EQ(row("engine.sensors[].use_position").default_text, "true");

@@ -111,6 +111,16 @@ EventSample sample_of(const AidingEntry& entry, const FilterState& state, Normal
       if (normal(1.0) > -1.0 || !known(s.bearing_rad)) s.depression_rad = normal.uniform(-1.5, 1.5);
       return s;
     }
+    case SourceKind::range: {
+      RangeSample s;
+      s.range_m = 200.0;
+      if (normal(1.0) > 0.0) return s;  // to the beacon of the configuration
+      const geo::Geodetic beacon = geo::moved_by(state.nav.position, normal.vector(200.0));
+      s.beacon_latitude_rad = beacon.latitude_rad;
+      s.beacon_longitude_rad = beacon.longitude_rad;
+      s.beacon_depth_m = 18.0 - beacon.altitude_m;
+      return s;
+    }
     case SourceKind::airspeed: {
       AirspeedSample s;
       s.airspeed_m_s = 25.0;
@@ -195,7 +205,8 @@ TEST_P(Jacobians, EqualCentralDifferencesOnTheManifold) {
     sensor.mounting_rpy_rad =
         entry.source == SourceKind::dvl ? geo::arr(normal.vector(0.5)) : std::array<double, 3>{0.0, 0.0, 0.3};
     FilterState state = random_state(normal, index);
-    if (entry.source == SourceKind::usbl) state.nav.position.altitude_m = normal.uniform(-500.0, 0.0);
+    if (entry.source == SourceKind::usbl || entry.source == SourceKind::range)
+      state.nav.position.altitude_m = normal.uniform(-500.0, 0.0);
     // Near enough for the slopes of a direction to stand out.
     const bool polar = entry.name == std::string("usbl_range_bearing");
     const geo::Geodetic transceiver = geo::moved_by(state.nav.position, normal.vector(polar ? 20.0 : 200.0));

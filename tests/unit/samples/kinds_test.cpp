@@ -23,6 +23,7 @@ TEST(Kinds, WordsAndRolesAreFoundByTheirKind) {
 TEST(Kinds, WhatOnlyInformsDoesNotAid) {
   EXPECT_TRUE(Informing<AltimeterSample>);
   EXPECT_FALSE(Aiding<AltimeterSample>);
+  EXPECT_TRUE(Aiding<RangeSample>);
   for_each_aiding_kind([](auto kind) { EXPECT_EQ(kind.kUse, Use::aiding) << kind.kWord; });
 }
 
