@@ -15,7 +15,7 @@ RangeModel::RangeModel(const RangeConfig& config, const Scenario& scenario, std:
       start_{scenario.start.latitude_rad, scenario.start.longitude_rad,
              scenario.environment.surface_altitude_m} {}
 
-std::optional<RangeSample> RangeModel::sample(const TruthPoint& point) {
+RangeSample RangeModel::sample(const TruthPoint& point) {
   const double noise_m = random_.normal(config_.sigma_m);
   const bool echo = random_.chance(config_.outlier_probability);
   const SimulatedBeacon& beacon = config_.beacons[next_];
@@ -25,9 +25,10 @@ std::optional<RangeSample> RangeModel::sample(const TruthPoint& point) {
   const double true_range_m =
       geo::difference_N(place, {modem.latitude_rad, modem.longitude_rad, modem.altitude_m}).norm();
   travel_time_s_ = true_range_m / config_.sound_speed_m_s;
-  if (modem.depth_m < config_.minimum_depth_m || true_range_m > config_.maximum_range_m) return std::nullopt;
   RangeSample out;
   out.beacon = std::string_view(beacon.address);
+  const bool answered = modem.depth_m >= config_.minimum_depth_m && true_range_m <= config_.maximum_range_m;
+  if (!answered || inside(config_.dropouts, point.t_s)) return out;
   out.range_m = std::max(true_range_m + noise_m + (echo ? config_.outlier_m : 0.0), 0.01);
   out.sigma_m = config_.sigma_m;
   out.travel_time_s = out.range_m / config_.sound_speed_m_s;

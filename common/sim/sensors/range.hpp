@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,6 +24,7 @@ struct SimulatedBeacon {
 template <>
 struct SimulatedSensor<RangeSample> : SensorCommon {
   static constexpr const char* kDescription = "acoustic modem that measures its distance to beacons";
+  static constexpr bool kTalksOn = true;                    ///< without an answer
   std::vector<SimulatedBeacon> beacons{SimulatedBeacon{}};  ///< asked in turn
   double sigma_m = 0.3;                                     ///< white, of the range
   double sound_speed_m_s = 1500.0;                          ///< what turns the range into a travel time
@@ -34,12 +34,12 @@ struct SimulatedSensor<RangeSample> : SensorCommon {
 };
 using RangeConfig = SimulatedSensor<RangeSample>;
 
-/// Slant ranges to beacons that lie still, one after the other. An echo takes a longer way.
+/// Slant ranges to beacons that lie still, one after the other. An echo takes a longer way. Of a beacon that
+/// does not answer the range is unknown.
 class RangeModel {
  public:
   RangeModel(const RangeConfig& config, const Scenario& scenario, std::uint64_t seed);
-  /// Nothing when the beacon is not heard.
-  std::optional<RangeSample> sample(const TruthPoint& point);
+  RangeSample sample(const TruthPoint& point);
   /// From validity to arrival of the sample just taken: the sound comes back, then the device sends.
   [[nodiscard]] double latency_s() const { return config_.latency_s + travel_time_s_; }
 

@@ -6,6 +6,7 @@
 #include "codec/registry.hpp"
 #include "geo/so3.hpp"
 #include "sim/device_encoder.hpp"
+#include "sim/encode/micromodem.hpp"
 #include "sim/simulation.hpp"
 #include "sim/truth_generator.hpp"
 #include "support/codec/decode_run.hpp"
@@ -49,7 +50,7 @@ TEST(RangeModel, DeviceBytesAreTheRangesOfTheBeaconsInTurn) {
   EXPECT_GE(count, 19);
 }
 
-TEST(RangeModel, IsSilentOutOfTheWaterAndOutOfEarshot) {
+TEST(RangeModel, HasNoAnswerOutOfTheWaterAndOutOfEarshot) {
   const Scenario scenario = test::auv_scenario();
   RangeConfig config;
   config.maximum_range_m = 100.0;
@@ -61,14 +62,20 @@ TEST(RangeModel, IsSilentOutOfTheWaterAndOutOfEarshot) {
   point.altitude_m = scenario.environment.surface_altitude_m - 10.0;
   point.depth_m = 10.0;
   const auto near = model.sample(point);
-  ASSERT_TRUE(near);
-  EXPECT_NEAR(near->range_m, 40.0, 5.0 * config.sigma_m);
+  EXPECT_NEAR(near.range_m, 40.0, 5.0 * config.sigma_m);
   EXPECT_NEAR(model.latency_s(), 40.0 / config.sound_speed_m_s, 1e-9);
   point.depth_m = 0.0;
-  EXPECT_FALSE(model.sample(point));
+  EXPECT_TRUE(std::isnan(model.sample(point).range_m));
   point.depth_m = 10.0;
   point.altitude_m = scenario.environment.surface_altitude_m - 500.0;
-  EXPECT_FALSE(model.sample(point));
+  const RangeSample silence = model.sample(point);
+  EXPECT_TRUE(std::isnan(silence.travel_time_s));
+  // The device says that it asked.
+  const std::string text = encode::micromodem(silence);
+  EXPECT_EQ(text.substr(0, 13), "$CAMPR,12,1,*");
+  const auto run = test::decode_whole("micromodem", std::vector<std::uint8_t>(text.begin(), text.end()), {});
+  EXPECT_TRUE(run.samples.empty());
+  EXPECT_TRUE(run.rejected.empty());
 }
 
 }  // namespace
