@@ -151,7 +151,7 @@ TEST(Headline, DvlLossWithDrawnHulls) {
 // Each scenario of the demonstration, through device bytes and codecs, keeps the limits that it ships with.
 TEST(Headline, ScenariosKeepTheirLimits) {
   const Rows rows = rows_of("scenarios");
-  for (const char* name : {"survey", "air_drop", "flight", "rotating_arm", "dvl_loss"}) {
+  for (const char* name : {"survey", "air_drop", "flight", "rotating_arm", "dvl_loss", "beacons"}) {
     std::ifstream file(std::string(FATHOM_SOURCE_DIR) + "/deploy/config/scenarios/" + name + ".json");
     const Json limits = Json::parse(file).at("limits");
     const std::string one = std::string(name) + " fusion ";

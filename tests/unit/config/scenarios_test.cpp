@@ -59,9 +59,9 @@ Timeline timeline_of(const sim::Scenario& scenario, double duration_s) {
   return out;
 }
 
-TEST(Scenarios, TheFiveAreThere) {
+TEST(Scenarios, TheSixAreThere) {
   const auto names = scenario_names(kFolder);
-  for (const char* name : {"survey", "air_drop", "flight", "rotating_arm", "dvl_loss"}) {
+  for (const char* name : {"survey", "air_drop", "flight", "rotating_arm", "dvl_loss", "beacons"}) {
     EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
   }
 }
@@ -71,8 +71,8 @@ TEST(Scenarios, EachLoadsSpeaksItsProtocolsAndNamesItsBridges) {
     const sim::Scenario scenario = shipped(name);
     EXPECT_EQ(scenario.name, name);
     EXPECT_FALSE(scenario.mission.empty()) << name;
-    for (const char* kind :
-         {"imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins", "airspeed"}) {
+    for (const char* kind : {"imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins",
+                             "airspeed", "altimeter", "range"}) {
       const auto* sensor = sim::find_sensor(scenario.sensors, kind);
       if (!sensor->enabled) continue;
       EXPECT_TRUE(sim::can_encode(kind, sensor->protocol)) << name << " " << kind;
