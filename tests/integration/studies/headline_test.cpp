@@ -148,6 +148,10 @@ TEST(Headline, DvlLossWithDrawnHulls) {
   expect_limits(rows_of("scenarios --case dvl_loss", 20), "scenarios");
 }
 
+TEST(Headline, RangesToBeacons) {
+  expect_limits(rows_of("scenarios --case beacons", 20), "scenarios");
+}
+
 // Each scenario of the demonstration, through device bytes and codecs, keeps the limits that it ships with.
 TEST(Headline, ScenariosKeepTheirLimits) {
   const Rows rows = rows_of("scenarios");
