@@ -193,15 +193,6 @@ void send_udp(int port, Bytes bytes) {
   close(out);
 }
 
-int free_port(int type) {
-  const int probe = socket(AF_INET, type, 0);
-  const sockaddr_in address = loopback(0);
-  check(bind(probe, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0, "bind");
-  const int out = bound_port(probe);
-  close(probe);
-  return out;
-}
-
 bus::ParticipantOptions test_participant(int domain) {
   return presence(static_cast<std::uint32_t>(domain), "test");
 }

@@ -18,6 +18,7 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "samples/status/health.hpp"
+#include "support/free_port.hpp"
 
 namespace fathom::test {
 
@@ -101,8 +102,6 @@ class TcpDevice {
 /// A connection to a TCP server on this host, -1 when there is none. The caller closes it.
 [[nodiscard]] int connect_to(int port);
 void send_udp(int port, Bytes bytes);
-/// A port that was free a moment ago.
-[[nodiscard]] int free_port(int type);
 
 [[nodiscard]] bus::ParticipantOptions test_participant(int domain);
 

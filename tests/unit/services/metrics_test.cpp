@@ -14,6 +14,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "support/free_port.hpp"
+
 namespace fathom::monitor {
 namespace {
 
@@ -91,19 +93,6 @@ std::string get(int port, const std::string& path) {
   return answer;
 }
 
-/// A port that nobody listens at.
-int free_port() {
-  const int probe = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  (void)bind(probe, reinterpret_cast<sockaddr*>(&address), size);
-  (void)getsockname(probe, reinterpret_cast<sockaddr*>(&address), &size);
-  close(probe);
-  return ntohs(address.sin_port);
-}
-
 TEST(Metrics, SayWhatTheMonitorKnowsInBaseUnits) {
   const std::string text = text_of(snapshot());
   for (const char* line :
@@ -140,7 +129,7 @@ TEST(Metrics, PromtoolHasNothingToSay) {
 
 TEST(MetricsServer, AnswersScrapesThatPromtoolAccepts) {
   MetricsServer server([] { return snapshot(); });
-  const int port = free_port();
+  const int port = test::free_port(SOCK_STREAM);
   ASSERT_EQ(server.start("127.0.0.1", port), "");
   EXPECT_TRUE(server.running());
   const std::string answer = get(port, "/metrics");
@@ -154,7 +143,7 @@ TEST(MetricsServer, AnswersScrapesThatPromtoolAccepts) {
 }
 
 TEST(MetricsServer, ATakenPortIsSaidAndCanBeTriedAgain) {
-  const int port = free_port();
+  const int port = test::free_port(SOCK_STREAM);
   auto first = std::make_unique<MetricsServer>([] { return snapshot(); });
   ASSERT_EQ(first->start("127.0.0.1", port), "");
   MetricsServer second([] { return snapshot(); });
