@@ -54,13 +54,11 @@ class BeaconRange {
   }
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const Sample& sample) {
-    constexpr double kRightAngle = 1.5707963267948966;
     if (!(sample.range_m >= 1e-3 && sample.range_m <= kMostRange_m)) return Usable::out_of_range;
     if (!is_placed(sample)) return sensor.transceiver_known ? Usable::yes : Usable::unknown_frame;
-    const bool on_earth = std::abs(sample.beacon_latitude_rad) <= kRightAngle &&
-                          std::abs(sample.beacon_longitude_rad) <= 4.0 * kRightAngle;
     const bool in_water = sample.beacon_depth_m > -1000.0 && sample.beacon_depth_m < 12000.0;
-    return on_earth && in_water ? Usable::yes : Usable::out_of_range;
+    const bool placed = is_on_earth(sample.beacon_latitude_rad, sample.beacon_longitude_rad);
+    return placed && in_water ? Usable::yes : Usable::out_of_range;
   }
   [[nodiscard]] int dimension() const { return 1; }
   [[nodiscard]] Vector3 measured() const { return {sample_.range_m, kUnknown, kUnknown}; }

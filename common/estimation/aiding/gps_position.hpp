@@ -63,8 +63,7 @@ class GpsPosition {
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
     if (const Usable fix = usable_fix(sensor, sample); fix != Usable::yes) return fix;
-    const bool placed = std::abs(sample.latitude_rad) <= 1.5707963267948966 &&
-                        std::abs(sample.longitude_rad) <= 6.2831853071795865;
+    const bool placed = is_on_earth(sample.latitude_rad, sample.longitude_rad);
     const bool high = !known(sample.altitude_m) || std::abs(sample.altitude_m) < 5e4;
     return placed && high ? Usable::yes : Usable::out_of_range;
   }

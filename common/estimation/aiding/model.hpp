@@ -162,6 +162,11 @@ template <class Model>
   return out.rows > before ? Usable::yes : Usable::out_of_range;
 }
 
+/// Whether a sample's place is one, as far as its angles say; unknown ones are none.
+[[nodiscard]] inline bool is_on_earth(double latitude_rad, double longitude_rad) {
+  return std::abs(latitude_rad) <= 1.5707963267948966 && std::abs(longitude_rad) <= 6.2831853071795865;
+}
+
 /// The larger of the configured sigma and the one the sample carries.
 [[nodiscard]] inline double sigma_of(double configured, double reported, bool use_reported) {
   return use_reported && std::isfinite(reported) && reported > configured ? reported : configured;

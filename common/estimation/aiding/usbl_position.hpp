@@ -60,8 +60,7 @@ class UsblPosition {
   }
 
   [[nodiscard]] static Usable usable(const UsblSample& sample) {
-    const bool placed = std::abs(sample.latitude_rad) <= 1.5707963267948966 &&
-                        std::abs(sample.longitude_rad) <= 6.2831853071795865;
+    const bool placed = is_on_earth(sample.latitude_rad, sample.longitude_rad);
     const bool deep = !known(sample.depth_m) || (sample.depth_m > -50.0 && sample.depth_m < 12000.0);
     return placed && deep ? Usable::yes : Usable::out_of_range;
   }

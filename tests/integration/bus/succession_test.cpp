@@ -14,6 +14,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "bus/participant.hpp"
@@ -23,6 +24,7 @@
 #include "samples/nav_state.hpp"
 #include "support.hpp"
 #include "support/cut_wire.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fathom::test {
 namespace {
@@ -60,37 +62,27 @@ struct Ledger {
   Account state;
 };
 
-/// The ledger in memory that processes share.
+/// The ledger in memory that processes share, as a file. A file of zeros is a new ledger.
 class SharedLedger {
  public:
-  SharedLedger() {
-    char name[] = "/tmp/fathom-ledger-XXXXXX";
-    file_ = mkstemp(name);
-    path_ = name;
-    if (file_ >= 0 && ftruncate(file_, sizeof(Ledger)) == 0) map();
+  explicit SharedLedger(const std::string& path)
+      : file_(open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, S_IRUSR | S_IWUSR)) {
+    if (file_ < 0 || ftruncate(file_, sizeof(Ledger)) != 0) return;
+    void* const start = mmap(nullptr, sizeof(Ledger), PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+    if (start != MAP_FAILED) ledger_ = static_cast<Ledger*>(start);
   }
-  explicit SharedLedger(const std::string& path) : file_(open(path.c_str(), O_RDWR | O_CLOEXEC)) { map(); }
   ~SharedLedger() {
     if (ledger_ != nullptr) munmap(ledger_, sizeof(Ledger));
     if (file_ >= 0) close(file_);
-    if (!path_.empty()) unlink(path_.c_str());
   }
   SharedLedger(const SharedLedger&) = delete;
   SharedLedger& operator=(const SharedLedger&) = delete;
 
   /// nullptr: there is none.
   [[nodiscard]] Ledger* get() const { return ledger_; }
-  [[nodiscard]] const std::string& path() const { return path_; }
 
  private:
-  // A file of zeros is a new ledger.
-  void map() {
-    void* const at = mmap(nullptr, sizeof(Ledger), PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
-    if (at != MAP_FAILED) ledger_ = static_cast<Ledger*>(at);
-  }
-
   int file_ = -1;
-  std::string path_;  ///< of the one who made it
   Ledger* ledger_ = nullptr;
 };
 
@@ -223,12 +215,14 @@ constexpr double kAtTheChange = -1.0;
 TEST(Succession, LosesNothingWhileTheNetworkIsCut) {
   const CutWire wire;
   if (!wire.trouble().empty()) GTEST_SKIP() << wire.trouble();
-  const SharedLedger shared;
+  const TemporaryFolder folder;
+  const std::string path = folder / "ledger";
+  const SharedLedger shared(path);
   Ledger* const ledger = shared.get();
   ASSERT_NE(ledger, nullptr);
   const auto machine = [&](int number, const char* body) {
     return wire.on(number, [&] {
-      return std::make_unique<Child>(body, std::vector<std::string>{"TEST_LEDGER=" + shared.path()});
+      return std::make_unique<Child>(body, std::vector<std::string>{"TEST_LEDGER=" + path});
     });
   };
   const auto writes = machine(1, "ChildProcess.DISABLED_WritesOnTheFirstMachine");
