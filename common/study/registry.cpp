@@ -1,6 +1,7 @@
 #include "study/registry.hpp"
 
 #include "study/alignment.hpp"
+#include "study/consistency/consistency.hpp"
 #include "study/gps_outage/gps_outage.hpp"
 #include "study/hydro/hydro_study.hpp"
 #include "study/rotating_arm/rotating_arm.hpp"
@@ -12,6 +13,7 @@ const std::vector<std::unique_ptr<const Study>>& study_registry() {
   static const auto all = [] {
     std::vector<std::unique_ptr<const Study>> studies;
     studies.push_back(std::make_unique<const AlignmentStudy>());
+    studies.push_back(make_consistency_study());
     studies.push_back(make_gps_outage_study());
     studies.push_back(make_rotating_arm_study());
     studies.push_back(make_survey_study());
