@@ -9,3 +9,5 @@
 #else
 #define FATHOM_WIDE
 #endif
+/// What such a function calls has to be part of it.
+#define FATHOM_WITHIN [[gnu::always_inline]] inline

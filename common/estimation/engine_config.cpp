@@ -1,6 +1,8 @@
 #include "estimation/engine_config.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -71,13 +73,19 @@ Found complaint_about_count(const std::string& key, std::size_t count, std::size
   return Complaint{key, std::to_string(count), "at most " + std::to_string(most)};
 }
 
-Found complaint_about_groups(const StateGroups& groups) {
+Found complaint_about_groups(const EngineConfig& config) {
+  const StateGroups& groups = config.groups;
   if (groups.dvl_scale && groups.dvl_scale_xyz)
     return Complaint{"groups.dvl_scale_xyz", "true", "false where dvl_scale is true"};
-  const int states = state_count(groups);
-  if (states <= kMaxStates) return {};
-  return Complaint{"groups", std::to_string(states) + " states",
-                   "at most " + std::to_string(kMaxStates) + " together"};
+  const int estimated = state_count(groups);
+  const int considered = state_count(config.considered()) - state_count({});
+  if (estimated + considered <= kMaxStates) return {};
+  if (considered == 0)
+    return Complaint{"groups", std::to_string(estimated) + " states",
+                     "at most " + std::to_string(kMaxStates) + " together"};
+  return Complaint{"groups",
+                   std::to_string(estimated) + " states and " + std::to_string(considered) + " considered",
+                   "at most " + std::to_string(kMaxStates) + " together; left_out noise considers none"};
 }
 
 Found complaint_about_sensors(const std::vector<SensorConfig>& sensors) {
@@ -147,11 +155,36 @@ EngineConfig::EngineConfig() {
   forecast_limits = {{"horizontal_10m", 10.0}, {"horizontal_100m", 100.0}, {"heading_3deg", 0.0524}};
 }
 
+double EngineConfig::aligned_tilt_sigma_rad() const {
+  return std::max(alignment.aligned_tilt_sigma_rad,
+                  2.0 * std::hypot(imu.accel_scale_sigma, imu.accel_misalignment_sigma_rad));
+}
+
+StateGroups EngineConfig::considered() const {
+  StateGroups out;
+  if (left_out == LeftOut::noise) return out;
+  const auto carries = [&](SourceKind kind) {
+    return std::any_of(sensors.begin(), sensors.end(),
+                       [&](const SensorConfig& one) { return one.kind == kind; });
+  };
+  out.accel_scale = !groups.accel_scale && imu.accel_scale_sigma > 0.0;
+  out.gyro_scale = !groups.gyro_scale && imu.gyro_scale_sigma > 0.0;
+  out.accel_misalignment = !groups.accel_misalignment && imu.accel_misalignment_sigma_rad > 0.0;
+  out.gyro_misalignment = !groups.gyro_misalignment && imu.gyro_misalignment_sigma_rad > 0.0;
+  out.dvl_scale = carries(SourceKind::dvl) && !groups.dvl_scale && !groups.dvl_scale_xyz;
+  out.dvl_misalignment = carries(SourceKind::dvl) && !groups.dvl_misalignment;
+  out.heading_bias = !groups.heading_bias && std::any_of(sensors.begin(), sensors.end(), [](const auto& one) {
+    return one.kind == SourceKind::heading && !one.two_antenna;
+  });
+  out.gps_position_bias = carries(SourceKind::gps) && !groups.gps_position_bias;
+  return out;
+}
+
 std::optional<Complaint> EngineConfig::complaint() const {
   if (auto found = field_check<EngineConfig>().complaint(*this)) return found;
   if (auto found = complaint_about_name("vehicle", vehicle)) return found;
   if (auto found = complaint_about_name("sensor", sensor)) return found;
-  if (auto found = complaint_about_groups(groups)) return found;
+  if (auto found = complaint_about_groups(*this)) return found;
   if (auto found = complaint_about_count("sensors", sensors.size(), kMostSensors)) return found;
   if (auto found = complaint_about_sensors(sensors)) return found;
   if (auto found = complaint_about_vehicle_model(vehicle_model, groups)) return found;

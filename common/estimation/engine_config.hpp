@@ -83,6 +83,13 @@ struct StateGroups {
   bool model_bias = false;
 };
 
+/// What becomes of the errors of the instruments that no state is estimated for: scale and misalignment of
+/// the inertial unit and of the DVL, the bias of a compass and the slow error of GPS.
+enum class LeftOut : std::uint8_t {
+  considered = 0,  ///< their covariance with the states is kept, their values are not found (KF-6)
+  noise = 1,       ///< those of the inertial unit enter as noise (NOISE-1), the others are taken for none
+};
+
 /// A named configuration.
 struct StateConfiguration {
   const char* name;
@@ -289,6 +296,7 @@ struct EngineConfig {
   std::string sensor = "fusion";           ///< header.sensor of what the engine says
   std::string configuration = "standard";  ///< name that goes into NavDetail
   StateGroups groups;                      ///< the default is that of "standard", see EngineConfig()
+  LeftOut left_out = LeftOut::considered;
   ImuConfig imu;
   StateModelConfig states;
   std::vector<SensorConfig> sensors;
@@ -314,6 +322,11 @@ struct EngineConfig {
   std::vector<ForecastLimitConfig> forecast_limits;
 
   EngineConfig();
+  /// How well roll and pitch have to be known to be aligned: as configured, or as well as these
+  /// accelerometers can show at all, twice what their scale and misalignment make of gravity.
+  [[nodiscard]] double aligned_tilt_sigma_rad() const;
+  /// The groups that are considered.
+  [[nodiscard]] StateGroups considered() const;
   /// The first value that is not as described, or that does not go with another. Its key is that of a file.
   [[nodiscard]] std::optional<Complaint> complaint() const;
   /// Its text; empty when there is none.

@@ -28,10 +28,10 @@ inline void set_defaults(SensorConfig& sensor, const AirspeedSample* /*kind*/) {
 }
 
 /// What a sample of air data means. A speed alone has no direction; flow angles beside it have.
-[[nodiscard]] inline AidingPolicy air_data_policy(const SensorConfig& sensor, const AirspeedSample& sample) {
+[[nodiscard]] inline AidingPolicy air_data_policy(const SensorConfig& /*sensor*/,
+                                                  const AirspeedSample& sample) {
   AidingPolicy policy;
   policy.velocity = VelocityOver::medium;
-  policy.along_vehicle = has_flow_angles(sensor);
   policy.reading = {sample.airspeed_m_s, sample.true_airspeed_m_s, 0.0};
   return policy;
 }

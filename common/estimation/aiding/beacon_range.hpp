@@ -27,7 +27,6 @@ class BeaconRange {
   [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
     AidingPolicy policy;
     policy.position = true;
-    policy.along_vehicle = false;
     policy.reading = {sample.range_m, sample.beacon_latitude_rad, sample.beacon_longitude_rad};
     return policy;
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "estimation/aiding/model.hpp"
 #include "samples/gps.hpp"
 #include "samples/gps_quality.hpp"
@@ -28,6 +30,35 @@ inline void set_defaults(SensorConfig& sensor, const GpsSample* /*kind*/) {
   return {sample.latitude_rad, sample.longitude_rad, sample.altitude_m};
 }
 
+/// What is white in the error of a fix, and how much of the state of its slow error is in it (AID-GPSP-3).
+struct GpsNoise {
+  double sigma_m = 0.0;
+  double slow_share = 1.0;
+};
+
+/// `bias_sigma_m`: of the slow error along this axis, 0 where there is no such state. A total that the
+/// receiver states holds both; so does what a fix of its kind is good for. A slow error is never more than
+/// nine tenths of it in variance.
+[[nodiscard]] inline GpsNoise gps_noise(const SensorConfig& sensor, const GpsSample& sample, std::size_t axis,
+                                        double bias_sigma_m) {
+  constexpr double kMostSlow = 0.9;
+  constexpr double kRtkFixed_m = 0.03;
+  constexpr double kRtkFloat_m = 0.5;
+  const double stated = sample.position_sigma_N_m[axis];
+  const bool told = known(stated) && (sensor.use_sample_sigma || !is_accurate(sample));
+  const double sigma = sigma_of(sensor.sigma[axis], stated, told);
+  if (bias_sigma_m <= 0.0 || !sensor.use_sample_sigma) return {sigma, 1.0};
+  double total = std::numeric_limits<double>::infinity();
+  if (told) total = stated;
+  if (sample.fix == GpsFix::rtk_fixed) total = std::min(total, kRtkFixed_m);
+  if (sample.fix == GpsFix::rtk_float) total = std::min(total, kRtkFloat_m);
+  GpsNoise out{sigma, std::min(1.0, std::sqrt(kMostSlow) * total / bias_sigma_m)};
+  const double slow = out.slow_share * bias_sigma_m;
+  if (told)
+    out.sigma_m = std::max(sensor.sigma[axis], std::sqrt(std::max(0.0, stated * stated - slow * slow)));
+  return out;
+}
+
 /// Position of the GPS antenna, NED metres relative to the estimated position of the IMU (AID-GPSP-1..2). The
 /// latency state is what remains of the fix's age after the configured latency.
 class GpsPosition {
@@ -38,7 +69,8 @@ class GpsPosition {
   [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
     if (!in.sensor.use_position) return Usable::not_estimated;
     const Usable can = usable(in.sensor, sample);
-    return can == Usable::yes ? append(GpsPosition(in.state, in.sensor, sample), in, out) : can;
+    return can == Usable::yes ? append(GpsPosition(in.state, in.sensor, sample, in.gps_bias_sigma_m), in, out)
+                              : can;
   }
   [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
     AidingPolicy policy;
@@ -46,20 +78,24 @@ class GpsPosition {
     // A fix of kilometres has its weight in the filter, but nobody navigates by it.
     if (is_accurate(sample)) policy.fix = Fix::satellite;
     policy.velocity = VelocityOver::ground;  // one fix after the other
-    policy.along_vehicle = false;
     policy.frozen_by_path = true;
     policy.reading = gps_reading(sample);
     return policy;
   }
 
-  GpsPosition(const AidingState& s, const SensorConfig& sensor, const GpsSample& sample)
+  GpsPosition(const AidingState& s, const SensorConfig& sensor, const GpsSample& sample,
+              double bias_sigma_m = 0.0)
       : s_(s),
-        sensor_(sensor),
         sample_(sample),
         lever_B_(geo::vec(sensor.lever_B_m) + s.value3(Group::gps_lever)),
         lever_N_(s.C_NB * lever_B_),
         swing_N_(s.C_NB * geo::cross(s.rate_nb_B_rad_s, lever_B_)),
-        latency_s_(s.value(Group::gps_latency, 0)) {}
+        latency_s_(s.value(Group::gps_latency, 0)) {
+    const bool slow = s.index.has(Group::gps_position_bias);
+    for (std::size_t i = 0; i < 3; ++i)
+      noise_[i] = gps_noise(sensor, sample, i, slow ? (i == 2 ? 2.0 : 1.0) * bias_sigma_m : 0.0);
+    slow_share_ = {noise_[0].slow_share, noise_[1].slow_share, noise_[2].slow_share};
+  }
 
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
     if (const Usable fix = usable_fix(sensor, sample); fix != Usable::yes) return fix;
@@ -77,7 +113,8 @@ class GpsPosition {
     return m;
   }
   [[nodiscard]] Vector3 predicted() const {
-    return lever_N_ + s_.value3(Group::gps_position_bias) - latency_s_ * (s_.state.nav.v_N_m_s + swing_N_);
+    return lever_N_ + slow_share_.cwiseProduct(s_.value3(Group::gps_position_bias)) -
+           latency_s_ * (s_.state.nav.v_N_m_s + swing_N_);
   }
   void jacobian(Jacobian& h) const {
     // (AID-GPSP-2)
@@ -85,22 +122,17 @@ class GpsPosition {
     h.block(Group::velocity, -latency_s_ * Matrix3::Identity());
     h.block(Group::attitude, geo::skew(lever_N_ - latency_s_ * swing_N_));
     h.block(Group::gyro_bias, latency_s_ * s_.C_NB * geo::skew(lever_B_));
-    h.block(Group::gps_position_bias, -Matrix3::Identity());
+    h.block(Group::gps_position_bias, Matrix3((-slow_share_).asDiagonal()));
     h.block(Group::gps_latency, s_.state.nav.v_N_m_s + swing_N_);
     h.block(Group::gps_lever, s_.C_NB * (latency_s_ * geo::skew(s_.rate_nb_B_rad_s) - Matrix3::Identity()));
   }
-  [[nodiscard]] Vector3 noise() const {
-    Vector3 sigma;
-    for (std::size_t i = 0; i < 3; ++i)
-      sigma(static_cast<int>(i)) = sigma_of(sensor_.sigma[i], sample_.position_sigma_N_m[i],
-                                            sensor_.use_sample_sigma || !is_accurate(sample_));
-    return sigma;
-  }
+  [[nodiscard]] Vector3 noise() const { return {noise_[0].sigma_m, noise_[1].sigma_m, noise_[2].sigma_m}; }
 
  private:
   const AidingState& s_;
-  const SensorConfig& sensor_;
   const GpsSample& sample_;
+  std::array<GpsNoise, 3> noise_;
+  Vector3 slow_share_;
   Vector3 lever_B_;
   Vector3 lever_N_;
   Vector3 swing_N_;

@@ -20,7 +20,6 @@ class GpsVelocity {
     AidingPolicy policy;
     policy.velocity = VelocityOver::ground;
     policy.shows_level = true;
-    policy.along_vehicle = false;
     policy.frozen_by_path = true;
     policy.reading = gps_reading(sample);
     return policy;

@@ -116,6 +116,7 @@ struct AidingInput {
   double unused_s = kUnknown;                   ///< since the last measurement of this sensor that was used
   /// Of the position of the IMU, for rows that are not straight within it.
   Matrix3 position_covariance_N_m2 = Matrix3::Zero();
+  double gps_bias_sigma_m = 0.0;  ///< of the horizontal slow error of GPS, where it is a state or considered
 };
 
 /// Appends the components of a model that are known to an observation. A model offers

@@ -30,8 +30,6 @@ struct AidingPolicy {
   bool shows_level = false;
   /// Its rows tell of the heading alone, however they look when the vehicle is pitched (GATE-3).
   bool heading_alone = false;
-  /// It is measured along the vehicle: where the heading is doubtful, its correction turns with it (KF-5).
-  bool along_vehicle = true;
   /// A frozen instrument shows itself by the path that was travelled meanwhile; else by its own innovation.
   bool frozen_by_path = false;
   /// What a frozen instrument would keep repeating; unknown where the sample has nothing to say.
@@ -49,7 +47,6 @@ inline void AidingPolicy::merge(const AidingPolicy& other) {
   doppler = doppler || other.doppler;
   shows_level = shows_level || other.shows_level;
   heading_alone = heading_alone || other.heading_alone;
-  along_vehicle = along_vehicle && other.along_vehicle;
   frozen_by_path = frozen_by_path || other.frozen_by_path;
 }
 

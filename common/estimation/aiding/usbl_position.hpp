@@ -18,7 +18,6 @@ inline void set_defaults(SensorConfig& sensor, const UsblSample* /*kind*/) {
   AidingPolicy policy;
   policy.position = true;
   if (complete) policy.fix = Fix::acoustic;
-  policy.along_vehicle = false;
   policy.frozen_by_path = true;
   policy.reading = reading;
   return policy;

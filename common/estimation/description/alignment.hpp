@@ -74,7 +74,8 @@ void describe(Walk<AlignmentConfig>& s) {
       .unit("s")
       .range(0.1, 600);
   s.field("aligned_tilt_sigma_deg", &C::aligned_tilt_sigma_rad,
-          "aligned once roll and pitch are known to this")
+          "aligned once roll and pitch are known to this, or to twice what scale and misalignment of the "
+          "accelerometers make of gravity")
       .unit("deg")
       .range(1e-4, 57)
       .scaled(kRadPerDeg);

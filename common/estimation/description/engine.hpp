@@ -39,6 +39,12 @@ void describe(Walk<EngineConfig>& s) {
   s.field("configuration", &C::configuration, "named set of estimated states")
       .words(state_configuration_words());
   s.field("groups", &C::groups, "state groups switched on or off against the named set");
+  s.field(
+       "left_out", &C::left_out,
+       "what becomes of errors that no state is estimated for: scale and misalignment of inertial unit and "
+       "DVL, the bias of a compass, the slow error of GPS; considered in the covariance, or noise of the "
+       "inertial unit and else none")
+      .words({{"considered", LeftOut::considered}, {"noise", LeftOut::noise}});
   s.field("imu", &C::imu, "error model of the inertial unit").required();
   s.field("states", &C::states, "initial uncertainty and drift of the states beyond the core");
   s.field("sensors", &C::sensors, "aiding instruments; one that is not listed is never used").required();

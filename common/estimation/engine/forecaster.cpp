@@ -68,7 +68,7 @@ double radius_50(double larger_sigma, double smaller_sigma) {
   return larger_sigma * (0.671956 + c * (0.011405 + c * (1.013712 - c * 0.523462)));
 }
 
-Forecaster::Forecaster(const Setup& setup) : setup_(&setup), navigator_(setup), filter_(setup.index.size()) {}
+Forecaster::Forecaster(const Setup& setup) : setup_(&setup), navigator_(setup), filter_(setup.index) {}
 
 void Forecaster::remember(int sensor, const EventSample& sample) {
   const int layer = setup_->water_layer[static_cast<std::size_t>(sensor)];
@@ -154,7 +154,8 @@ void Forecaster::aid(int sensor, int instrument, const Instrument& known, const 
                           .vehicle_model = &setup_->config.vehicle_model,
                           .water = modelled ? &navigator_.water_velocity() : nullptr,
                           .unused_s = dt_s,
-                          .position_covariance_N_m2 = filter_.block3(0, 0)};
+                          .position_covariance_N_m2 = filter_.block3(0, 0),
+                          .gps_bias_sigma_m = setup_->config.states.gps_bias_sigma_m};
   Observation observation;
   for (const AidingEntry& entry : aiding_registry())
     if (entry.source == config.kind)

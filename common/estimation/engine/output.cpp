@@ -15,10 +15,12 @@ constexpr double kSurfaceSigma_m = 20.0;
 /// Covariance of a vector at the end of a lever: its own, and what the attitude error swings.
 std::array<double, 9> with_lever(const ErrorFilter& filter, int first, const Vector3d& arm_N) {
   // (OUT-2)
-  const Matrix3d swing = geo::skew(arm_N);
-  const Matrix3d cross = filter.block3(first, 6) * swing.transpose();
-  const Matrix3d p = filter.block3(first, first) + cross + cross.transpose() +
-                     swing * filter.block3(6, 6) * swing.transpose();
+  Matrix3d p = filter.block3(first, first);
+  if (!arm_N.isZero(0.0)) {
+    const Matrix3d swing = geo::skew(arm_N);
+    const Matrix3d cross = filter.block3(first, 6) * swing.transpose();
+    p += cross + cross.transpose() + swing * filter.block3(6, 6) * swing.transpose();
+  }
   std::array<double, 9> out{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) out[static_cast<std::size_t>(3 * i + j)] = 0.5 * (p(i, j) + p(j, i));
@@ -90,7 +92,7 @@ void fill(const Setup& setup, const Navigator& navigator, NavDetail& out) {
   if (!navigator.navigating()) return;
   const NavSolution& nav = navigator.state().nav;
   const Vector3d rpy = geo::to_rpy(nav.q_NB);
-  for (int i = 0; i < setup.index.size() && i < static_cast<int>(NavDetail::kMaxStates); ++i) {
+  for (int i = 0; i < setup.index.estimated() && i < static_cast<int>(NavDetail::kMaxStates); ++i) {
     StateEstimate& one = out.states[out.count++];
     one.name = setup.index.name(i);
     one.sigma = std::sqrt(std::max(navigator.filter()(i, i), 0.0));

@@ -172,16 +172,17 @@ void fill_drop(const DropAlignment& drop, AlignmentStatus& out) {
 }
 
 /// Once it navigates: what is still missing from aligned.
-void fill_navigating(const Navigator& navigator, const AlignmentConfig& config, const Vector3d& sigma,
+void fill_navigating(const Navigator& navigator, const EngineConfig& engine, const Vector3d& sigma,
                      AlignmentStatus& out) {
+  const AlignmentConfig& config = engine.alignment;
   const double held = navigator.alignment().hold_since_ns == 0
                           ? 0.0
                           : to_seconds(navigator.now_ns() - navigator.alignment().hold_since_ns);
   const auto sigma_condition = [&](const char* name, double value, double limit) {
     add_condition(out, name, value, limit, value <= limit, held, config.aligned_hold_s);
   };
-  sigma_condition("roll_sigma_rad", sigma.x(), config.aligned_tilt_sigma_rad);
-  sigma_condition("pitch_sigma_rad", sigma.y(), config.aligned_tilt_sigma_rad);
+  sigma_condition("roll_sigma_rad", sigma.x(), engine.aligned_tilt_sigma_rad());
+  sigma_condition("pitch_sigma_rad", sigma.y(), engine.aligned_tilt_sigma_rad());
   sigma_condition("yaw_sigma_rad", sigma.z(), config.aligned_heading_sigma_rad);
   if (navigator.alignment().phase == AlignmentPhase::aligned) {
     out.time_to_aligned_s = 0.0;
@@ -225,7 +226,7 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
   }
   const StartConditions c = navigator.conditions();
   if (navigator.navigating()) {
-    fill_navigating(navigator, config, sigma, out);
+    fill_navigating(navigator, setup.config, sigma, out);
   } else if (!navigator.waits_for_state()) {
     fill_waiting(navigator, config, c, out);
   }

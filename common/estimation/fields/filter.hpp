@@ -23,13 +23,17 @@ void fields(Archive& archive, Self& self) {
 }
 
 /// One triangle: both halves are equal to the bit. How many states there are is the configuration's to say.
+/// Until version 3 none were considered: what is read then shares nothing with them.
 template <class Archive, class Self>
 void ErrorFilter::fields(Archive& archive, Self& self) {
   archive.left_out(self.tape_);
-  int states = self.n_;
-  archive("states", states, fathom::archive::Whole{self.n_, self.n_});
+  const int held = archive.since(4) ? self.n_ : self.estimated_;
+  int states = held;
+  archive("states", states, fathom::archive::Whole{held, held});
   archive.left_out(self.n_);
-  for (int i = 0; i < self.n_; ++i)
+  archive.left_out(self.estimated_);
+  if constexpr (Archive::kReads) self.p_.fill(0.0);
+  for (int i = 0; i < held; ++i)
     for (int j = 0; j <= i; ++j) {
       auto& here = self.p_[self.at(i, j)];
       archive.element("p", self.at(i, j), here, fathom::archive::finite());

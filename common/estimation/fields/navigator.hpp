@@ -162,6 +162,9 @@ template <class Archive, class Self>
 void Navigator::fields(Archive& archive, Self& self) {
   archive.left_out(self.setup_);
   Estimate::fields(archive, self.estimate_);
+  if constexpr (Archive::kReads) {
+    if (!archive.since(4)) self.estimate_.consider_anew(*self.setup_);
+  }
   archive("sensors", self.instruments_.sensors);
   archive.left_out(self.instruments_.count);
   archive.left_out(self.instruments_.layer_count);

@@ -14,22 +14,13 @@ using Eigen::Index;
 Transition transition(const NavTransition& step, const ProcessNoise& noise) {
   // (KF-1)
   Transition out;
-  const NavTransition::Rows rows = step.rows();
+  const NavTransition::Rows rows = step.rows(step.driven());
   out.a = rows.leftCols<kNavStates>();
   out.b = rows.rightCols(step.driven() - kNavStates);
   out.keep.fill(1.0);
   if (noise.drift != nullptr)
     for (const std::uint8_t state : noise.drift->decaying())
       out.keep[state] = noise.drift->kept(state, step.dt_s());
-  return out;
-}
-
-Transition turning(const Eigen::Vector3d& change_N_m_s) {
-  // (KF-5)
-  Transition out;
-  out.a.block<3, 3>(3, 6) = geo::skew(change_N_m_s);
-  out.b.resize(Eigen::NoChange, 0);
-  out.keep.fill(1.0);
   return out;
 }
 
@@ -139,6 +130,17 @@ void Adjoint::back_through(const DriftRecord& drift) {
   const DriftRecord::Block made = drift.stretch * drift.known;
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) curvature_(state(i), state(j)) -= 0.5 * (made(i, j) + made(j, i));
+}
+
+void Adjoint::back_through(const Carry& carry) {
+  const Eigen::Matrix<double, Carry::kStates, Carry::kStates> t = carry.matrix();
+  lambda_.segment<Carry::kStates>(Carry::kFirst) =
+      (t.transpose() * lambda_.segment<Carry::kStates>(Carry::kFirst)).eval();
+  curvature_.middleCols<Carry::kStates>(Carry::kFirst) =
+      (curvature_.middleCols<Carry::kStates>(Carry::kFirst) * t).eval();
+  curvature_.middleRows<Carry::kStates>(Carry::kFirst) =
+      (t.transpose() * curvature_.middleRows<Carry::kStates>(Carry::kFirst)).eval();
+  curvature_ = (0.5 * (curvature_ + curvature_.transpose())).eval();
 }
 
 void Adjoint::back_through_forgotten(int state) {

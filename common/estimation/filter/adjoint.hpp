@@ -16,9 +16,6 @@ struct Transition {
 /// Of what ErrorFilter::propagate() does with the same arguments.
 [[nodiscard]] Transition transition(const NavTransition& step, const ProcessNoise& noise);
 
-/// Of ErrorFilter::turn_with_attitude().
-[[nodiscard]] Transition turning(const Eigen::Vector3d& change_N_m_s);
-
 /// What an update leaves behind for the way back.
 struct UpdateRecord {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, Observation::kMaxRows,
@@ -63,6 +60,7 @@ class Adjoint {
   void back_through(const Transition& step);      // (SMOOTH-2)
   void back_through(const UpdateRecord& update);  // (SMOOTH-3)
   void back_through(const DriftRecord& drift);    // (SMOOTH-5)
+  void back_through(const Carry& carry);          // (KF-5): as a step without noise
   void back_through_forgotten(int state);         // (SMOOTH-4)
   /// Before a new start of the filter: the future knows nothing of what was before it.
   void cut();

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
+#include "base/wide.hpp"
 #include "geo/so3.hpp"
 
 namespace fathom::estimation {
@@ -37,31 +39,65 @@ bool factorise(std::array<double, kStride * kStride>& a, int n) {
   return true;
 }
 
-/// P <- P - V' V for kCount rows of V. Both halves are computed, by the same products in the same order,
-/// which costs less than copying one.
+/// P <- P - V' V for kCount rows of V, but for what the considered states share among themselves. Both halves
+/// are computed, by the same products in the same order, which costs less than copying one.
 template <int kCount>
-void subtract(const double* v, int states, double* p) {
+FATHOM_WITHIN void subtract(const double* v, int states, int estimated, double* p) {
   const int width = (states + 1) & ~1;
   for (int r = 0; r < states; ++r) {
     double* target = p + static_cast<std::size_t>(r * kRowStride);
+    const int columns = r < estimated ? width : estimated;
     if constexpr (kCount == 3) {
       const double a = v[r];
       const double b = v[r + kMaxStates];
       const double c = v[r + 2 * kMaxStates];
 #pragma GCC ivdep
-      for (int j = 0; j < width; ++j)
+      for (int j = 0; j < columns; ++j)
         target[j] -= a * v[j] + b * v[j + kMaxStates] + c * v[j + 2 * kMaxStates];
     } else if constexpr (kCount == 2) {
       const double a = v[r];
       const double b = v[r + kMaxStates];
 #pragma GCC ivdep
-      for (int j = 0; j < width; ++j) target[j] -= a * v[j] + b * v[j + kMaxStates];
+      for (int j = 0; j < columns; ++j) target[j] -= a * v[j] + b * v[j + kMaxStates];
     } else {
       const double a = v[r];
 #pragma GCC ivdep
-      for (int j = 0; j < width; ++j) target[j] -= a * v[j];
+      for (int j = 0; j < columns; ++j) target[j] -= a * v[j];
     }
   }
+}
+
+/// Three rows <- m times them.
+FATHOM_WITHIN void turn3(const Eigen::Matrix3d& m, double* rows, int columns) {
+  const double m00 = m(0, 0), m01 = m(0, 1), m02 = m(0, 2);
+  const double m10 = m(1, 0), m11 = m(1, 1), m12 = m(1, 2);
+  const double m20 = m(2, 0), m21 = m(2, 1), m22 = m(2, 2);
+#pragma GCC ivdep
+  for (int j = 0; j < columns; ++j) {
+    const double a = rows[j];
+    const double b = rows[j + kRowStride];
+    const double c = rows[j + 2 * kRowStride];
+    rows[j] = m00 * a + m01 * b + m02 * c;
+    rows[j + kRowStride] = m10 * a + m11 * b + m12 * c;
+    rows[j + 2 * kRowStride] = m20 * a + m21 * b + m22 * c;
+  }
+}
+
+/// The nine rows of a Carry, from the velocity's first one on.
+FATHOM_WITHIN void apply_carry(const Carry& carry, double* rows, int columns) {
+  double* attitude = rows + 3 * kRowStride;
+  turn3(carry.velocity_own, rows, columns);
+  for (int i = 0; i < 3; ++i) {
+    double* target = rows + i * kRowStride;
+    const double a = carry.velocity_by_attitude(i, 0);
+    const double b = carry.velocity_by_attitude(i, 1);
+    const double c = carry.velocity_by_attitude(i, 2);
+#pragma GCC ivdep
+    for (int j = 0; j < columns; ++j)
+      target[j] += a * attitude[j] + b * attitude[j + kRowStride] + c * attitude[j + 2 * kRowStride];
+  }
+  turn3(carry.attitude_own, attitude, columns);
+  turn3(carry.bias_own, rows + 6 * kRowStride, columns);
 }
 
 }  // namespace
@@ -80,23 +116,22 @@ void ErrorFilter::widen_drifted(const std::array<double, kNavStates>& variance) 
   if (tape_ != nullptr) tape_->drifted(*this, variance);
 }
 
-void ErrorFilter::turn_with_attitude(const Eigen::Vector3d& change_N_m_s) {
+FATHOM_WIDE void ErrorFilter::carry(const Carry& carry) {
   // (KF-5)
-  if (tape_ != nullptr) tape_->turned(change_N_m_s);
-  const Eigen::Matrix3d turn = geo::skew(change_N_m_s);
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxStates> rows(3, n_);
-  for (int j = 0; j < n_; ++j)
-    for (int i = 0; i < 3; ++i) {
-      rows(i, j) = (*this)(3 + i, j);
-      for (int k = 0; k < 3; ++k) rows(i, j) += turn(i, k) * (*this)(6 + k, j);
-    }
-  // Of the velocity with itself both sides turn.
-  const Eigen::Matrix3d own = rows.middleCols<3>(3) + rows.middleCols<3>(6) * turn.transpose();
-  for (int j = 0; j < n_; ++j)
-    for (int i = 0; i < 3; ++i)
-      if (j < 3 || j >= 6) set(3 + i, j, rows(i, j));
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j) set(3 + i, 3 + j, 0.5 * (own(i, j) + own(j, i)));
+  if (tape_ != nullptr) tape_->carried(carry);
+  constexpr int kFirst = Carry::kFirst;
+  constexpr int kEnd = kFirst + Carry::kStates;
+  double* rows = p_.data() + at(kFirst, 0);
+  apply_carry(carry, rows, width());
+  // The corner is turned over, so that the same map, applied to it once more, makes it T P T'.
+  for (int i = kFirst + 1; i < kEnd; ++i)
+    for (int j = kFirst; j < i; ++j) std::swap(p_[at(i, j)], p_[at(j, i)]);
+  apply_carry(carry, rows + kFirst, Carry::kStates);
+  for (int i = kFirst; i < kEnd; ++i) {
+    for (int j = 0; j < kFirst; ++j) p_[at(j, i)] = p_[at(i, j)];
+    for (int j = kEnd; j < n_; ++j) p_[at(j, i)] = p_[at(i, j)];
+    for (int j = kFirst; j < i; ++j) set(i, j, 0.5 * (p_[at(i, j)] + p_[at(j, i)]));
+  }
 }
 
 void ErrorFilter::forget(int state, double sigma) {
@@ -105,7 +140,7 @@ void ErrorFilter::forget(int state, double sigma) {
   p_[at(state, state)] = sigma * sigma;
 }
 
-void ErrorFilter::propagate(const NavTransition& transition, const ProcessNoise& noise) {
+FATHOM_WIDE void ErrorFilter::propagate(const NavTransition& transition, const ProcessNoise& noise) {
   // (KF-1)
   if (tape_ != nullptr) tape_->propagated(transition, noise);
   double* p = p_.data();
@@ -113,10 +148,16 @@ void ErrorFilter::propagate(const NavTransition& transition, const ProcessNoise&
   transition.apply(p, width());
   // What the others share with the navigation states is now in the nine rows; the columns follow. The corner
   // is turned over, so that the same map, applied to it once more, completes Phi P Phi'.
+  const int n = n_;
   for (int i = 1; i < kNavStates; ++i)
-    for (int j = 0; j < i; ++j) std::swap(p[at(i, j)], p[at(j, i)]);
-  for (int i = kNavStates; i < n_; ++i)
-    for (int j = 0; j < kNavStates; ++j) p[at(i, j)] = p[at(j, i)];
+    for (int j = 0; j < i; ++j) std::swap(p[i * kRowStride + j], p[j * kRowStride + i]);
+  for (int i = kNavStates; i < n; ++i) {
+    double* row = p + i * kRowStride;
+    const double* column = p + i;
+#pragma GCC ivdep
+#pragma GCC unroll 9
+    for (int j = 0; j < kNavStates; ++j) row[j] = column[j * kRowStride];
+  }
   transition.apply(p, kNavStates);
 
   // White noise of the acceleration reaches the position through the velocity within the step.
@@ -134,17 +175,20 @@ void ErrorFilter::propagate(const NavTransition& transition, const ProcessNoise&
   if (noise.drift == nullptr) return;
   for (const std::uint8_t state : noise.drift->decaying()) {
     const double kept = noise.drift->kept(state, dt);
-    double* row = p + at(state, 0);
-    for (int j = 0; j < n_; ++j) row[j] *= kept;
+    double* row = p + state * kRowStride;
+    double* column = p + state;
+#pragma GCC ivdep
+    for (int j = 0; j < n; ++j) row[j] *= kept;
     row[state] *= kept;
-    for (int j = 0; j < n_; ++j) p[at(j, state)] = row[j];
+#pragma GCC ivdep
+    for (int j = 0; j < n; ++j) column[j * kRowStride] = row[j];
   }
   for (const std::uint8_t state : noise.drift->walking())
     p[at(state, state)] += dt * noise.drift->walk(state);
 }
 
-void ErrorFilter::statistics(const Observation& observation, double noise_scale,
-                             InnovationStatistics& out) const {
+FATHOM_WIDE void ErrorFilter::statistics(const Observation& observation, double noise_scale,
+                                         InnovationStatistics& out) const {
   // (KF-2)
   const int m = observation.rows;
   const auto n = static_cast<std::size_t>(width());
@@ -201,8 +245,8 @@ double squared_distance(const Observation& observation, const InnovationStatisti
   return distance;
 }
 
-bool ErrorFilter::update(const Observation& observation, const InnovationStatistics& statistics,
-                         std::array<double, kMaxStates>& x) {
+FATHOM_WIDE bool ErrorFilter::update(const Observation& observation, const InnovationStatistics& statistics,
+                                     std::array<double, kMaxStates>& x) {
   // (KF-3): with S = L L', V = L^-1 (P H')' and y = L^-1 innovation: x = V' y and P <- P - V' V.
   const int m = statistics.rows;
   const auto n = static_cast<std::size_t>(width());
@@ -228,7 +272,8 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
   x.fill(0.0);
   for (int i = 0; i < m; ++i) {
     const double* row = v.data() + static_cast<std::size_t>(i) * kMaxStates;
-    for (std::size_t j = 0; j < n; ++j) x[j] += row[j] * y[static_cast<std::size_t>(i)];
+    for (std::size_t j = 0; j < static_cast<std::size_t>(estimated_); ++j)
+      x[j] += row[j] * y[static_cast<std::size_t>(i)];
   }
   // No measurement leaves less of a variance than its noise is of its innovation's, row by row.
   std::array<double, kMaxStates> least;
@@ -241,9 +286,10 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
   const bool careful = dwarfs(observation, statistics);
   // Three rows at a time: each element of P is fetched and stored once for them.
   int i = 0;
-  for (; i + 3 <= m; i += 3) subtract<3>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
-  if (m - i == 2) subtract<2>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
-  if (m - i == 1) subtract<1>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, p_.data());
+  for (; i + 3 <= m; i += 3)
+    subtract<3>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, estimated_, p_.data());
+  if (m - i == 2) subtract<2>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, estimated_, p_.data());
+  if (m - i == 1) subtract<1>(v.data() + static_cast<std::size_t>(i) * kMaxStates, n_, estimated_, p_.data());
   if (careful) {
     // K' = L'^-1 V, in place.
     for (int i = m - 1; i >= 0; --i) {
@@ -255,6 +301,7 @@ bool ErrorFilter::update(const Observation& observation, const InnovationStatist
       }
       const double inverse = 1.0 / lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
       for (std::size_t j = 0; j < n; ++j) row[j] *= inverse;
+      std::fill(row + estimated_, row + n, 0.0);
     }
     settle_rounding(observation, statistics, v.data());
   }
@@ -290,6 +337,7 @@ void ErrorFilter::settle_rounding(const Observation& observation, const Innovati
     }
     for (int j = 0; j < n_; ++j)
       row[j] -= statistics.noise[static_cast<std::size_t>(i)] * gain[row_of(i) + static_cast<std::size_t>(j)];
+    std::fill(row + estimated_, row + n_, 0.0);
   }
   for (int i = 0; i < m; ++i) {
     const auto& h = observation.h[static_cast<std::size_t>(i)];
@@ -323,7 +371,8 @@ void remove_error(const std::array<double, kMaxStates>& x, int states, FilterSta
   NavSolution& nav = state.nav;
   nav.position = geo::moved_by(nav.position, -Eigen::Vector3d(x[0], x[1], x[2]));
   nav.v_N_m_s -= Eigen::Vector3d(x[3], x[4], x[5]);
-  nav.q_NB = geo::normalized(geo::exp(Eigen::Vector3d(x[6], x[7], x[8])) * nav.q_NB);
+  nav.q_NB = geo::normalized(geo::exp(Eigen::Vector3d(0.0, 0.0, x[8])) *
+                             geo::exp(Eigen::Vector3d(x[6], x[7], 0.0)) * nav.q_NB);
   for (int i = kNavStates; i < states; ++i)
     state.x[static_cast<std::size_t>(i)] += x[static_cast<std::size_t>(i)];
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "estimation/filter/carry.hpp"
 #include "estimation/filter/nav_transition.hpp"
 #include "estimation/filter/observation.hpp"
 #include "estimation/filter/state_drift.hpp"
@@ -32,20 +33,27 @@ struct ProcessNoise {
 class FilterTape;
 
 /// Error-state covariance with the structure of an inertial navigator: only the nine navigation rows move,
-/// driven by the states up to StateIndex::imu_end(); the rest keep still or decay one by one. Fixed size,
-/// nothing allocated; a copy costs what is in use. The matrix is exactly symmetric at all times.
+/// driven by the groups of the inertial unit; the rest keep still or decay one by one. The last states may be
+/// considered (KF-6): no measurement finds their value. Fixed size, nothing allocated; a copy costs what is
+/// in use. The matrix is exactly symmetric at all times.
 class ErrorFilter {
  public:
-  explicit ErrorFilter(int states = 0) : n_(states) {}
-  ErrorFilter(const ErrorFilter& other) : n_(other.n_), tape_(other.tape_) { copy(other); }
+  explicit ErrorFilter(int states = 0) : n_(states), estimated_(states) {}
+  explicit ErrorFilter(const StateIndex& index) : n_(index.size()), estimated_(index.estimated()) {}
+  ErrorFilter(const ErrorFilter& other) : n_(other.n_), estimated_(other.estimated_), tape_(other.tape_) {
+    copy(other);
+  }
   ErrorFilter& operator=(const ErrorFilter& other) {
     n_ = other.n_;
+    estimated_ = other.estimated_;
     tape_ = other.tape_;
     if (this != &other) copy(other);
     return *this;
   }
 
   [[nodiscard]] int size() const { return n_; }
+  /// The first ones, which measurements find; the others are considered.
+  [[nodiscard]] int estimated() const { return estimated_; }
   [[nodiscard]] double operator()(int row, int column) const { return p_[at(row, column)]; }
   /// Three rows and columns from these on.
   [[nodiscard]] Eigen::Matrix3d block3(int row, int column) const {
@@ -66,9 +74,8 @@ class ErrorFilter {
   void widen(int state, double variance) { p_[at(state, state)] += variance; }
   /// Adds variance to the navigation states: they have drifted further than P knew, before now.
   void widen_drifted(const std::array<double, kNavStates>& variance);
-  /// The velocity that turns with the attitude has become longer by `change_N_m_s`: P <- T P T', T the
-  /// identity but for [change x] from the attitude to the velocity (KF-5).
-  void turn_with_attitude(const Eigen::Vector3d& change_N_m_s);
+  /// P <- T P T', T the identity but for the states that are written anew (KF-5).
+  void carry(const Carry& carry);
 
   /// Tells `tape`, which must outlive the filter's work, all that follows; nullptr for silence. Copies of the
   /// filter tell the same tape.
@@ -81,7 +88,8 @@ class ErrorFilter {
   void statistics(const Observation& observation, double noise_scale, InnovationStatistics& out) const;
 
   /// P <- P - K S K' and the estimated error x = K innovation (KF-3), positive also where the measurement
-  /// knows a billion times more than P. False, with nothing changed, when S is not positive.
+  /// knows a billion times more than P. What is considered gets none of it, and keeps its own covariance
+  /// (KF-6). False, with nothing changed, when S is not positive.
   bool update(const Observation& observation, const InnovationStatistics& statistics,
               std::array<double, kMaxStates>& x);
 
@@ -107,6 +115,7 @@ class ErrorFilter {
   }
 
   int n_;
+  int estimated_;
   FilterTape* tape_ = nullptr;
   alignas(64) std::array<double, static_cast<std::size_t>(kMaxStates) * kRowStride> p_{};
 };
@@ -122,8 +131,8 @@ class FilterTape {
   virtual void forgot(int state) = 0;
   /// ErrorFilter::widen_drifted() has been done with `variance`.
   virtual void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) = 0;
-  /// ErrorFilter::turn_with_attitude() has been done.
-  virtual void turned(const Eigen::Vector3d& change_N_m_s) = 0;
+  /// ErrorFilter::carry() has been done.
+  virtual void carried(const Carry& carry) = 0;
   virtual void restarted() = 0;
 
  protected:

@@ -12,7 +12,7 @@ constexpr int kImuRows = 6;
 constexpr int s = kRowStride;
 
 /// What the scale states of one instrument add to its bias: rows `x` of the instrument += input times states.
-void add_scale(double* x, const double* scale, const Vector3d& input, int columns) {
+FATHOM_WITHIN void add_scale(double* x, const double* scale, const Vector3d& input, int columns) {
   for (int row = 0; row < 3; ++row) {
     const double factor = input(row);
     double* to = x + row * s;
@@ -23,7 +23,7 @@ void add_scale(double* x, const double* scale, const Vector3d& input, int column
 }
 
 /// Likewise its misalignment, M = [0 m0 m1; m2 0 m3; m4 m5 0].
-void add_misalignment(double* x, const double* m, const Vector3d& input, int columns) {
+FATHOM_WITHIN void add_misalignment(double* x, const double* m, const Vector3d& input, int columns) {
   const double a = input.x();
   const double b = input.y();
   const double c = input.z();
@@ -110,6 +110,7 @@ NavTransition::NavTransition(const StateIndex& index, const ErrorRates& rates, c
       gyro_scale_(index.of(Group::gyro_scale)),
       accel_misalignment_(index.of(Group::accel_misalignment)),
       gyro_misalignment_(index.of(Group::gyro_misalignment)),
+      biases_only_(accel_scale_ < 0 && gyro_scale_ < 0 && accel_misalignment_ < 0 && gyro_misalignment_ < 0),
       rate_B_(rate_B_rad_s),
       force_B_(force_B_m_s2),
       r_r_(dt_s * rates.r_r),
@@ -128,9 +129,9 @@ NavTransition::NavTransition(const StateIndex& index, const NavSolution& nav, co
           error_rates(geo::LocalEarth(nav.position), nav.v_N_m_s, geo::to_matrix(nav.q_NB) * force_B_m_s2),
           geo::to_matrix(nav.q_NB), rate_B_rad_s, force_B_m_s2, dt_s) {}
 
-void NavTransition::apply(double* rows, int columns) const {
+FATHOM_WIDE void NavTransition::apply(double* rows, int columns) const {
   const double* bias = rows + kNavStates * s;
-  if (driven_ == kNavStates + kImuRows) {
+  if (biases_only_) {
     move(rows, bias, columns);
     return;
   }
@@ -180,13 +181,13 @@ FATHOM_WIDE void NavTransition::move(double* nav, const double* imu, int columns
   }
 }
 
-NavTransition::Rows NavTransition::rows() const {
-  std::array<double, static_cast<std::size_t>(kNavStates + 24) * kRowStride> unit{};
-  for (int i = 0; i < driven_; ++i) unit[static_cast<std::size_t>(i * kRowStride + i)] = 1.0;
-  apply(unit.data(), driven_);
-  Rows out(kNavStates, driven_);
+NavTransition::Rows NavTransition::rows(int columns) const {
+  std::array<double, static_cast<std::size_t>(kMaxStates) * kRowStride> unit{};
+  for (int i = 0; i < columns; ++i) unit[static_cast<std::size_t>(i * kRowStride + i)] = 1.0;
+  apply(unit.data(), columns);
+  Rows out(kNavStates, columns);
   for (int i = 0; i < kNavStates; ++i)
-    for (int j = 0; j < driven_; ++j) out(i, j) = unit[static_cast<std::size_t>(i * kRowStride + j)];
+    for (int j = 0; j < columns; ++j) out(i, j) = unit[static_cast<std::size_t>(i * kRowStride + j)];
   return out;
 }
 

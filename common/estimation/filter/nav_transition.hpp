@@ -22,16 +22,16 @@ class NavTransition {
                 const Eigen::Vector3d& force_B_m_s2, double dt_s);
 
   [[nodiscard]] double dt_s() const { return dt_s_; }
-  /// Navigation states and those that drive them.
+  /// Navigation states and those that drive them, as far as they are estimated.
   [[nodiscard]] int driven() const { return driven_; }
 
   /// `rows` points to row 0 of a matrix whose rows are error states, kRowStride apart; the first nine are
   /// replaced by A x_nav + B x_imu, in `columns` columns.
   void apply(double* rows, int columns) const;
 
-  /// [A B], 9 x driven(), by applying it to the identity.
-  using Rows = Eigen::Matrix<double, kNavStates, Eigen::Dynamic, 0, kNavStates, kNavStates + 24>;
-  [[nodiscard]] Rows rows() const;
+  /// The first columns of the nine rows, by applying it to the identity.
+  using Rows = Eigen::Matrix<double, kNavStates, Eigen::Dynamic, 0, kNavStates, kMaxStates>;
+  [[nodiscard]] Rows rows(int columns) const;
 
  private:
   void move(double* nav, const double* imu, int columns) const;
@@ -42,6 +42,7 @@ class NavTransition {
   int gyro_scale_;
   int accel_misalignment_;
   int gyro_misalignment_;
+  bool biases_only_;
   Eigen::Vector3d rate_B_;
   Eigen::Vector3d force_B_;
   // Blocks times the step; names as in ErrorRates.

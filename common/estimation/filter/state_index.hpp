@@ -13,7 +13,8 @@ inline constexpr int kMaxStates = 64;
 
 /// States that belong together, in the order in which they stand in the error vector. Everything from
 /// accel_bias to gyro_misalignment drives the navigation error (see error_dynamics.hpp); what follows is only
-/// seen by measurements.
+/// seen by measurements. Groups that are considered (KF-6) stand behind all that are estimated, in this order
+/// again.
 enum class Group : std::uint8_t {
   position,
   velocity,
@@ -58,12 +59,15 @@ inline constexpr int kNavStates = 9;  ///< position, velocity, attitude
 /// Where each active group begins.
 class StateIndex {
  public:
-  explicit StateIndex(const StateGroups& groups);
+  explicit StateIndex(const StateGroups& groups, const StateGroups& considered = {});
 
+  /// Estimated and considered.
   [[nodiscard]] int size() const { return size_; }
-  /// One past the last state that drives the navigation error.
+  /// The first ones, which are estimated.
+  [[nodiscard]] int estimated() const { return estimated_; }
+  /// One past the last estimated state that drives the navigation error.
   [[nodiscard]] int imu_end() const { return imu_end_; }
-  /// Index of the group's first state, -1 when it is not estimated.
+  /// Index of the group's first state, -1 when it is neither estimated nor considered.
   [[nodiscard]] int of(Group group) const { return start_[static_cast<std::size_t>(group)]; }
   [[nodiscard]] bool has(Group group) const { return of(group) >= 0; }
   /// E.g. "gyro_bias_x_rad_s" for a state index below size().
@@ -72,6 +76,7 @@ class StateIndex {
  private:
   std::array<int, kGroups> start_{};
   int size_ = 0;
+  int estimated_ = 0;
   int imu_end_ = 0;
 };
 

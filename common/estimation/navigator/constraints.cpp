@@ -23,7 +23,7 @@ void constrain(const Setup& setup, const Model& model, Estimate& estimate) {
   const GateResult result =
       gate(estimate.filter, setup.constraint_gate, setup.constraint_limits, observation, statistics);
   std::array<double, kMaxStates> x{};
-  if (result.pass) (void)estimate.update(observation, statistics, x);
+  if (result.pass) (void)estimate.update(setup, observation, statistics, VelocityOver::ground, x);
 }
 
 /// (AID-ZUPT-1)
@@ -36,7 +36,8 @@ bool apply_zero_velocity(const Setup& setup, Estimate& estimate) {
   estimate.filter.statistics(observation, 1.0, statistics);
   std::array<double, kMaxStates> x{};
   // Somebody's word is not better than the instruments: nothing is believed that is far from possible.
-  return !(statistics.squared_distance > 100.0) && estimate.update(observation, statistics, x);
+  return !(statistics.squared_distance > 100.0) &&
+         estimate.update(setup, observation, statistics, VelocityOver::ground, x);
 }
 
 }  // namespace

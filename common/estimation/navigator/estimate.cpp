@@ -7,6 +7,15 @@ namespace fathom::estimation {
 
 using Eigen::Vector3d;
 
+namespace {
+
+/// A heading known better than this turns nothing far.
+constexpr double kKnownHeading_rad = 0.01;
+/// How long tilt and accelerometer bias keep what they share (NOISE-3).
+constexpr double kDriftMemory_s = 30.0;
+
+}  // namespace
+
 void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns) {
   const double whole_s = step.increments.dt_s;
   const double fraction =
@@ -32,12 +41,34 @@ void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns)
   const Eigen::Matrix3d c = geo::to_matrix(state.nav.q_NB);
   const Vector3d v_before = state.nav.v_N_m_s;
   const ErrorRates rates = error_rates(earth, v_before, c * force_B_m_s2);
-  filter.propagate(NavTransition(index, rates, c, rate_B_rad_s, force_B_m_s2, dt),
-                   setup.process_noise(c, rate_B_rad_s, force_B_m_s2));
+  ProcessNoise noise = setup.process_noise(c, rate_B_rad_s, force_B_m_s2);
+  add_second_order(setup, c, noise);
+  filter.propagate(NavTransition(index, rates, c, rate_B_rad_s, force_B_m_s2, dt), noise);
   settle_biases(setup, filter, -dt, dt);
   state.nav = mechanise(state.nav, earth, c, correct(in, fraction));
   travelled_N_m += 0.5 * dt * (v_before + state.nav.v_N_m_s);
   for (const std::uint8_t one : setup.drift.decaying()) state.x[one] *= setup.drift.kept(one, dt);
+}
+
+void Estimate::add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB, ProcessNoise& noise) const {
+  // (NOISE-3)
+  const double heading = filter(8, 8);
+  if (heading < kKnownHeading_rad * kKnownHeading_rad) return;
+  const int accel = setup.index.of(Group::accel_bias);
+  const int gyro = setup.index.of(Group::gyro_bias);
+  Eigen::Matrix3d about_down = Eigen::Matrix3d::Zero();
+  about_down(0, 1) = -1.0;
+  about_down(1, 0) = 1.0;
+  const Eigen::Matrix3d force = geo::skew(C_NB * force_B_m_s2);
+  const Eigen::Matrix3d tilts = filter.block3(6, 6);
+  const Eigen::Matrix3d cross = force * filter.block3(6, accel) * C_NB.transpose();
+  const Eigen::Matrix3d acceleration = force * tilts * force.transpose() + cross + cross.transpose() +
+                                       C_NB * filter.block3(accel, accel) * C_NB.transpose();
+  const double time_s = setup.config.imu.equivalent_noise_time_s;
+  noise.velocity += time_s * heading * about_down * acceleration * about_down.transpose();
+  const Vector3d down_B = C_NB.row(2).transpose();
+  const double rate = down_B.dot(filter.block3(gyro, gyro) * down_B);
+  noise.attitude += kDriftMemory_s * rate * about_down * tilts * about_down.transpose();
 }
 
 void Estimate::settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {
@@ -63,11 +94,19 @@ void Estimate::widen(const GapSigma& sigma) {
   }
 }
 
-bool Estimate::update(const Observation& observation, const InnovationStatistics& statistics,
+bool Estimate::update(const Setup& setup, const Observation& observation,
+                      const InnovationStatistics& statistics, VelocityOver along,
                       std::array<double, kMaxStates>& x) {
+  const Vector3d before = velocity_N_m_s(setup, along);
   if (!filter.update(observation, statistics, x)) return false;
-  remove_error(x, filter.size(), state);
+  remove_error(x, filter.estimated(), state);
+  filter.carry(carried(filter, x, geo::to_matrix(state.nav.q_NB), before, velocity_N_m_s(setup, along)));
   return true;
+}
+
+Vector3d Estimate::velocity_N_m_s(const Setup& setup, VelocityOver reference) const {
+  const Vector3d& v_N_m_s = state.nav.v_N_m_s;
+  return reference == VelocityOver::medium ? Vector3d(v_N_m_s - current_N_m_s(setup)) : v_N_m_s;
 }
 
 void Estimate::replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance) {
@@ -86,6 +125,11 @@ void Estimate::begin(const FilterState& start, const std::array<double, kMaxStat
   filter.reset(sigma);
   navigating = levelled = true;
   began_ns = now_ns;
+}
+
+void Estimate::consider_anew(const Setup& setup) {
+  for (int i = filter.estimated(); i < filter.size(); ++i)
+    filter.forget(i, setup.initial_sigma[static_cast<std::size_t>(i)]);
 }
 
 Vector3d Estimate::current_N_m_s(const Setup& setup) const {

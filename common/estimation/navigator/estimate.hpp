@@ -4,6 +4,7 @@
 
 #include "base/unknown.hpp"
 #include "estimation/aiding/model.hpp"
+#include "estimation/aiding/policy.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/navigator/inertial_step.hpp"
 #include "estimation/navigator/setup.hpp"
@@ -13,7 +14,7 @@ namespace fathom::estimation {
 /// What is believed of the vehicle at an instant: state, covariance, rate and specific force. Every part of
 /// the navigator acts on it; what only one part needs is kept there.
 struct Estimate {
-  explicit Estimate(const Setup& setup) : filter(setup.index.size()) {}
+  explicit Estimate(const Setup& setup) : filter(setup.index) {}
 
   TimeNs now_ns = 0;
   bool navigating = false;  ///< state and filter are an estimate
@@ -35,24 +36,32 @@ struct Estimate {
   void settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const;
   /// Something may have happened while nothing was measured.
   void widen(const GapSigma& sigma);
-  /// Takes a gated measurement in and moves the state by the estimated error `x` (KF-3, KF-4). False, with
-  /// nothing changed, when the statistics are not positive.
-  bool update(const Observation& observation, const InnovationStatistics& statistics,
-              std::array<double, kMaxStates>& x);
+  /// Takes a gated measurement in and moves the state by the estimated error `x` (KF-3 to KF-5). `along`: of
+  /// what is measured along the vehicle. False, with nothing changed, when the statistics are not positive.
+  bool update(const Setup& setup, const Observation& observation, const InnovationStatistics& statistics,
+              VelocityOver along, std::array<double, kMaxStates>& x);
   /// Another estimate for the same instant, as the smoother has it.
   void replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance);
+  /// What is considered is as uncertain as at the start and shares nothing with the states.
+  void consider_anew(const Setup& setup);
   /// Begins to navigate: the filter knows nothing but `sigma`.
   void begin(const FilterState& start, const std::array<double, kMaxStates>& sigma);
 
   [[nodiscard]] AidingState aiding_state(const Setup& setup) const {
     return {setup.index, state, rate_B_rad_s, setup.magnetic_variation_rad(), force_B_m_s2};
   }
+  /// Relative to ground or medium.
+  [[nodiscard]] Eigen::Vector3d velocity_N_m_s(const Setup& setup, VelocityOver reference) const;
   /// Horizontal motion of the water or the air, along N; zero where it is not estimated.
   [[nodiscard]] Eigen::Vector3d current_N_m_s(const Setup& setup) const;
 
   /// For archives: see fields/navigator.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
+
+ private:
+  /// (NOISE-3) What the products of heading error, tilt and rate leave out of a linear step.
+  void add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB, ProcessNoise& noise) const;
 };
 
 /// The axes O that are published, B or the wheels', and how well they are known.

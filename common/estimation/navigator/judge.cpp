@@ -13,8 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMostRoom = 1e6;
-/// Beyond it a velocity along the vehicle must not be taken for a heading.
-constexpr double kDoubtfulHeading_rad = 0.1;
 
 VerdictKind verdict_of(Usable usable) {
   switch (usable) {
@@ -134,7 +132,8 @@ bool Navigator::observe(Trial& trial) {
                           .vehicle_model = &config.vehicle_model,
                           .water = trial.modelled ? &model_.water_velocity() : nullptr,
                           .unused_s = estimate_.since(trial.instrument.used_ns),
-                          .position_covariance_N_m2 = estimate_.filter.block3(0, 0)};
+                          .position_covariance_N_m2 = estimate_.filter.block3(0, 0),
+                          .gps_bias_sigma_m = config.states.gps_bias_sigma_m};
   Usable first_refusal = Usable::yes;
   for (const AidingEntry& entry : aiding_registry()) {
     if (entry.source != trial.measurement.source) continue;
@@ -202,11 +201,8 @@ void Navigator::reacquire(Trial& trial) {
 
 bool Navigator::update(Trial& trial) {
   if (trial.judgement.kind != VerdictKind::used) return false;
-  const Vector3d before = velocity_along(trial.policy);
-  if (!estimate_.update(trial.kept, trial.statistics, trial.x)) return trial.end(VerdictKind::rejected);
-  // (KF-5)
-  if (trial.policy.along_vehicle && estimate_.filter(8, 8) > kDoubtfulHeading_rad * kDoubtfulHeading_rad)
-    estimate_.filter.turn_with_attitude(velocity_along(trial.policy) - before);
+  if (!estimate_.update(*setup_, trial.kept, trial.statistics, velocity_along(trial.policy), trial.x))
+    return trial.end(VerdictKind::rejected);
   return true;
 }
 
@@ -236,11 +232,10 @@ bool Navigator::is_on_probation(const Trial& trial) const {
   return trial.fix && Reacquisition::on_probation(trial.config, trial.whole, in_outage);
 }
 
-Vector3d Navigator::velocity_along(const AidingPolicy& policy) const {
+VelocityOver Navigator::velocity_along(const AidingPolicy& policy) const {
   const bool ground = policy.doppler ? policy.velocity == VelocityOver::ground
                                      : usage_.knows_ground(setup_->config, estimate_);
-  const Vector3d& v_N_m_s = estimate_.state.nav.v_N_m_s;
-  return ground ? v_N_m_s : Vector3d(v_N_m_s - estimate_.current_N_m_s(*setup_));
+  return ground ? VelocityOver::ground : VelocityOver::medium;
 }
 
 }  // namespace fathom::estimation

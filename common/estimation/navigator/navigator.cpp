@@ -18,7 +18,7 @@ void Navigator::finish(const ImuStep& step) {
   }
   if (setup_->velocity_model) model_.predict(*setup_, step, estimate_);
   if (constraints_.apply(*setup_, step, estimate_)) usage_.velocity_used_ns = estimate_.now_ns;
-  alignment_.judge(setup_->config.alignment, rpy_sigma_rad(), estimate_.now_ns);
+  alignment_.judge(setup_->config, rpy_sigma_rad(), estimate_.now_ns);
 }
 
 void Navigator::finish_gap(double gap_s) {

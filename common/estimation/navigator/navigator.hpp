@@ -99,7 +99,7 @@ class Navigator {
   [[nodiscard]] bool is_frozen(Trial& trial) const;
   [[nodiscard]] bool is_on_probation(const Trial& trial) const;
   /// What is measured along the vehicle's own axes: over ground while a DVL does, else through the water.
-  [[nodiscard]] Eigen::Vector3d velocity_along(const AidingPolicy& policy) const;
+  [[nodiscard]] VelocityOver velocity_along(const AidingPolicy& policy) const;
 
   // navigator.cpp
   /// `used` when it is done. `rejected` when it is a position that is held until it is confirmed; innovation

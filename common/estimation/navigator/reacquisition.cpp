@@ -21,7 +21,7 @@ constexpr double kLeastSpeed_m_s = 1.0;
 constexpr double kPatience = 3.0;
 constexpr double kMostHalvings = 2.0;
 /// A fix further off than so many of the estimate's own sigmas needs longer to be believed.
-constexpr double kConceivable = 10.0;
+constexpr double kConceivable = 7.0;
 /// Steps within it are one correction, spread over several fixes.
 constexpr double kStepsTogether_s = 60.0;
 constexpr double kStepsAtOnce = 2.0;

@@ -23,11 +23,27 @@ void markov(Setup& setup, Group group, double sigma, double time_constant_s) {
   fill(setup.decay_per_s, setup.index, group, 1.0 / time_constant_s);
 }
 
+/// Every group of either.
+StateGroups both(const StateGroups& a, const StateGroups& b) {
+  StateGroups out = a;
+  out.accel_scale |= b.accel_scale;
+  out.gyro_scale |= b.gyro_scale;
+  out.accel_misalignment |= b.accel_misalignment;
+  out.gyro_misalignment |= b.gyro_misalignment;
+  out.dvl_scale |= b.dvl_scale;
+  out.dvl_misalignment |= b.dvl_misalignment;
+  out.heading_bias |= b.heading_bias;
+  out.gps_position_bias |= b.gps_position_bias;
+  return out;
+}
+
 }  // namespace
 
-Setup::Setup(const EngineConfig& engine_config)
+Setup::Setup(const EngineConfig& engine_config, Considered considered)
     : config(engine_config),
-      index(engine_config.groups),
+      index(considered == Considered::kept
+                ? StateIndex(engine_config.groups, engine_config.considered())
+                : StateIndex(both(engine_config.groups, engine_config.considered()))),
       q_B_imu(geo::from_rpy(geo::vec(engine_config.imu.mounting_rpy_rad))) {
   int layers = 0;
   water_layer.fill(-1);
@@ -101,7 +117,6 @@ ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& r
                                   const Vector3d& force_B_m_s2) const {
   // (NOISE-1): white noise, and as equivalent noise the scale and misalignment that are not estimated.
   const ImuConfig& imu = config.imu;
-  const StateGroups& groups = config.groups;
   const double arw = imu.angle_random_walk_rad_sqrt_s;
   const double vrw = imu.velocity_random_walk_m_s_sqrt_s;
   ProcessNoise noise;
@@ -118,11 +133,11 @@ ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& r
       variance += misalignment_sigma * misalignment_sigma * (Vector3d::Constant(squares.sum()) - squares);
     to += C_NB * (imu.equivalent_noise_time_s * variance).asDiagonal() * C_NB.transpose();
   };
-  add(noise.attitude, rate_B_rad_s, groups.gyro_scale, imu.gyro_scale_sigma, groups.gyro_misalignment,
-      imu.gyro_misalignment_sigma_rad);
+  add(noise.attitude, rate_B_rad_s, index.has(Group::gyro_scale), imu.gyro_scale_sigma,
+      index.has(Group::gyro_misalignment), imu.gyro_misalignment_sigma_rad);
   // Gravity is always there and looks like a bias; only the changing part of the force counts.
-  add(noise.velocity, force_B_m_s2 + 9.81 * C_NB.row(2).transpose(), groups.accel_scale,
-      imu.accel_scale_sigma, groups.accel_misalignment, imu.accel_misalignment_sigma_rad);
+  add(noise.velocity, force_B_m_s2 + 9.81 * C_NB.row(2).transpose(), index.has(Group::accel_scale),
+      imu.accel_scale_sigma, index.has(Group::accel_misalignment), imu.accel_misalignment_sigma_rad);
   return noise;
 }
 

@@ -17,7 +17,9 @@ inline constexpr int kMaxWaterLayers = 4;
 
 /// What never changes after construction: the configuration and what is made from it once.
 struct Setup {
-  explicit Setup(const EngineConfig& engine_config);
+  /// What the configuration considers is considered, or `found` like any other state.
+  enum class Considered : std::uint8_t { kept, found };
+  explicit Setup(const EngineConfig& engine_config, Considered considered = Considered::kept);
 
   EngineConfig config;
   StateIndex index;

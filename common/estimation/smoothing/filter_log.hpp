@@ -28,7 +28,7 @@ class FilterLog final : public FilterTape {
   void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) override {
     entries_.emplace_back(DriftRecord(widened, variance));
   }
-  void turned(const Eigen::Vector3d& change_N_m_s) override { entries_.emplace_back(turning(change_N_m_s)); }
+  void carried(const Carry& carry) override { entries_.emplace_back(carry); }
   void restarted() override { entries_.emplace_back(Restart{}); }
 
  private:
@@ -38,7 +38,7 @@ class FilterLog final : public FilterTape {
   struct Restart {};
 
   int states_;
-  std::vector<std::variant<Transition, UpdateRecord, DriftRecord, Forgotten, Restart>> entries_;
+  std::vector<std::variant<Transition, UpdateRecord, DriftRecord, Carry, Forgotten, Restart>> entries_;
 };
 
 }  // namespace fathom::estimation

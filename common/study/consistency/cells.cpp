@@ -44,13 +44,14 @@ Cell submersible(std::string_view name, Manoeuvres (*motion)(std::uint64_t), Cel
           .duration_s = 900.0,
           .under_water = true,
           .outage_from_s = kDive_s,
+          .forecast_at_s = 600.0,
           .gps = kMarineGps};
 }
 
 Cell boat(std::string_view name, const InertialGrade& grade, double latitude_deg) {
   Cell cell = submersible(name, motions::boat_in_swell, CellStart::under_way, grade, latitude_deg);
   cell.duration_s = 480.0;
-  cell.outage_from_s = 420.0;
+  cell.outage_from_s = cell.forecast_at_s = 420.0;
   return cell;
 }
 
@@ -63,7 +64,8 @@ Cell aircraft(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellSt
           .latitude_deg = latitude_deg,
           .height_m = height_m,
           .duration_s = 480.0,
-          .outage_from_s = 450.0,
+          .outage_from_s = 420.0,
+          .forecast_at_s = 420.0,
           .gps = kAirborneGps};
 }
 
@@ -73,12 +75,12 @@ Cell car(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellStart s
   return cell;
 }
 
-const std::array<Cell, 25>& cells() {
+const std::array<Cell, 26>& cells() {
   using namespace motions;
-  static const std::array<Cell, 25> all{
+  static const std::array<Cell, 26> all{
       submersible("auv_straight_tactical", survey_straight, CellStart::at_rest, kTacticalGrade, 36.0),
       submersible("auv_straight_industrial", survey_straight, CellStart::at_rest, kIndustrialGrade, 0.5),
-      submersible("auv_lawn_navigation", survey_lawn, CellStart::gyrocompass, kNavigationGrade, 55.0),
+      submersible("auv_lawn_navigation", survey_lawn, CellStart::given, kNavigationGrade, 55.0),
       submersible("auv_lawn_tactical", survey_lawn, CellStart::at_rest, kTacticalGrade, 36.0),
       submersible("auv_lawn_tactical_arctic", survey_lawn, CellStart::at_rest, kTacticalGrade, 78.0),
       submersible("auv_lawn_industrial", survey_lawn, CellStart::at_rest, kIndustrialGrade, -35.0),
@@ -99,16 +101,16 @@ const std::array<Cell, 25>& cells() {
       aircraft("plane_aerobatic_industrial", flight_aerobatic, CellStart::in_motion, kIndustrialGrade, 47.0),
       aircraft("plane_runway_tactical", flight_from_runway, CellStart::at_rest, kTacticalGrade, 35.0, 100.0),
       car("car_town_consumer", drive_town, CellStart::in_motion, kConsumerGrade, 30.0),
+      car("car_highway_navigation", drive_highway, CellStart::gyrocompass, kNavigationGrade, 55.0),
       car("car_highway_tactical", drive_highway, CellStart::at_rest, kTacticalGrade, 50.0),
       car("car_mountain_industrial", drive_mountain, CellStart::in_motion, kIndustrialGrade, 46.0)};
   return all;
 }
 
-estimation::SensorConfig told_gps(const Cell& cell, bool drift_is_state) {
+estimation::SensorConfig told_gps(const Cell& cell) {
   auto gps = estimation::default_sensor(SourceKind::gps, "gps");
   gps.lever_B_m = cell.gps.lever_B_m;
-  // Where the slow error is no state it is noise.
-  const double level = drift_is_state ? cell.gps.noise_m : std::hypot(cell.gps.noise_m, cell.gps.drift_m);
+  const double level = cell.gps.noise_m;
   gps.sigma = {level, level, 2.0 * level};
   gps.velocity_sigma_m_s = {cell.gps.velocity_m_s, cell.gps.velocity_m_s, 2.0 * cell.gps.velocity_m_s};
   gps.use_sample_sigma = false;
@@ -175,13 +177,11 @@ EngineConfig consistency_config(const Cell& cell, std::string_view configuration
   states.surface_altitude_m = kSurfaceHeight_m;
   states.surface_altitude_sigma_m = 5.0;
 
-  c.sensors = {told_gps(cell, c.groups.gps_position_bias)};
+  c.sensors = {told_gps(cell)};
   const bool compass = cell.under_water || cell.start == CellStart::at_rest;
   if (compass) {
     auto heading = estimation::default_sensor(SourceKind::heading, "heading");
-    const double sigma =
-        c.groups.heading_bias ? kCompass.noise_rad : std::hypot(kCompass.noise_rad, kCompass.bias_rad);
-    heading.sigma = {sigma, sigma, sigma};
+    heading.sigma = {kCompass.noise_rad, kCompass.noise_rad, kCompass.noise_rad};
     c.sensors.push_back(heading);
   }
   if (cell.under_water) {

@@ -31,6 +31,7 @@ struct Cell {
   double duration_s;
   bool under_water = false;    ///< DVL, depth and compass; GPS until the outage
   double outage_from_s = 0.0;  ///< GPS is gone from here to the end
+  double forecast_at_s = 0.0;  ///< when the next minutes are forecast
   GpsFigures gps{};
   DvlFigures dvl{};
   double imu_rate_hz = 100.0;

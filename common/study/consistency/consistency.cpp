@@ -98,7 +98,7 @@ class Contender {
     const NavState& nav = engine_.nav_state();
     if (nav.mode <= NavMode::aligning) return;
     if (!known(aligned_s_) && nav.alignment == AlignmentPhase::aligned) aligned_s_ = t_s;
-    if (!known(forecast_m_) && t_s >= cell_->outage_from_s) {
+    if (!known(forecast_m_) && t_s >= cell_->forecast_at_s) {
       forecast_until_s_ = std::min(cell_->duration_s, t_s + kLongestForecast_s) - 0.05;
       forecast_m_ = engine_.forecast_horizontal_95_m(forecast_until_s_ - t_s);
     }

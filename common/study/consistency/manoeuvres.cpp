@@ -1,5 +1,6 @@
 #include "study/consistency/manoeuvres.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -14,6 +15,14 @@ constexpr double kGravity_m_s2 = 9.81;
 
 Profile& Profile::step(double at_s, double over_s, double by) {
   steps_.push_back({at_s, over_s, by});
+  std::stable_sort(steps_.begin(), steps_.end(),
+                   [](const Step& a, const Step& b) { return a.at_s < b.at_s; });
+  double done = 0.0;
+  double end_s = 0.0;
+  for (Step& step : steps_) {
+    step.done = done += step.by;
+    step.end_s = end_s = std::max(end_s, step.at_s + step.over_s);
+  }
   return *this;
 }
 
@@ -22,49 +31,53 @@ Profile& Profile::swing(double amplitude, double period_s, double phase_rad) {
   return *this;
 }
 
-double Profile::at(double t_s) const {
-  double value = start_;
-  for (const Step& step : steps_) {
+Profile::Value Profile::at(double t_s) const {
+  Value out{start_, 0.0};
+  auto begun =
+      static_cast<std::size_t>(std::upper_bound(steps_.begin(), steps_.end(), t_s,
+                                                [](double t, const Step& step) { return t < step.at_s; }) -
+                               steps_.begin());
+  for (; begun > 0; --begun) {
+    const Step& step = steps_[begun - 1];
+    if (step.end_s <= t_s) {
+      out.value += step.done;
+      break;
+    }
     const double x = (t_s - step.at_s) / step.over_s;
-    if (x <= 0.0) continue;
+    if (x >= 1.0) {
+      out.value += step.by;
+      continue;
+    }
     const double x4 = x * x * x * x;
-    value += x >= 1.0 ? step.by : step.by * x4 * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)));
-  }
-  for (const Swing& swing : swings_)
-    value += swing.amplitude * std::sin(swing.rate_rad_s * t_s + swing.phase_rad);
-  return value;
-}
-
-double Profile::rate(double t_s) const {
-  double value = 0.0;
-  for (const Step& step : steps_) {
-    const double x = (t_s - step.at_s) / step.over_s;
-    if (x <= 0.0 || x >= 1.0) continue;
+    out.value += step.by * x4 * (35.0 + x * (-84.0 + x * (70.0 - 20.0 * x)));
     const double both = x * (1.0 - x);
-    value += step.by / step.over_s * 140.0 * both * both * both;
+    out.rate += step.by / step.over_s * 140.0 * both * both * both;
   }
-  for (const Swing& swing : swings_)
-    value += swing.amplitude * swing.rate_rad_s * std::cos(swing.rate_rad_s * t_s + swing.phase_rad);
-  return value;
+  for (const Swing& swing : swings_) {
+    const double phase = swing.rate_rad_s * t_s + swing.phase_rad;
+    out.value += swing.amplitude * std::sin(phase);
+    out.rate += swing.amplitude * swing.rate_rad_s * std::cos(phase);
+  }
+  return out;
 }
 
-Eigen::Matrix3d Manoeuvres::axes_NB(double t_s) const {
-  double bank = bank_rad.at(t_s);
-  if (coordinated) bank += std::atan(speed_m_s.at(t_s) * heading_rad.rate(t_s) / kGravity_m_s2);
-  return (Eigen::AngleAxisd(heading_rad.at(t_s), Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd(pitch_rad.at(t_s), Eigen::Vector3d::UnitY()) *
-          Eigen::AngleAxisd(bank, Eigen::Vector3d::UnitX()))
-      .toRotationMatrix();
-}
-
-Eigen::Vector3d Manoeuvres::velocity_N_m_s(double t_s) const {
-  const double speed = speed_m_s.at(t_s);
-  const Eigen::Vector3d through_B(speed * std::cos(angle_of_attack_rad),
-                                  -sway_per_turn_m * heading_rad.rate(t_s),
+Movement Manoeuvres::at(double t_s) const {
+  const Profile::Value heading = heading_rad.at(t_s);
+  const double speed = speed_m_s.at(t_s).value;
+  double bank = bank_rad.at(t_s).value;
+  if (coordinated) bank += std::atan(speed * heading.rate / kGravity_m_s2);
+  Movement out;
+  out.axes_NB = (Eigen::AngleAxisd(heading.value, Eigen::Vector3d::UnitZ()) *
+                 Eigen::AngleAxisd(pitch_rad.at(t_s).value, Eigen::Vector3d::UnitY()) *
+                 Eigen::AngleAxisd(bank, Eigen::Vector3d::UnitX()))
+                    .toRotationMatrix();
+  const Eigen::Vector3d through_B(speed * std::cos(angle_of_attack_rad), -sway_per_turn_m * heading.rate,
                                   speed * std::sin(angle_of_attack_rad));
-  const double share = medium_share.at(t_s);
-  return axes_NB(t_s) * through_B +
-         Eigen::Vector3d(share * medium_N_m_s.x(), share * medium_N_m_s.y(), heave_m_s.at(t_s));
+  const double share = medium_share.at(t_s).value;
+  out.velocity_N_m_s =
+      out.axes_NB * through_B +
+      Eigen::Vector3d(share * medium_N_m_s.x(), share * medium_N_m_s.y(), heave_m_s.at(t_s).value);
+  return out;
 }
 
 }  // namespace fathom::study

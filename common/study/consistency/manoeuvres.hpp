@@ -16,14 +16,19 @@ class Profile {
   /// Swings from the beginning on.
   Profile& swing(double amplitude, double period_s, double phase_rad);
 
-  [[nodiscard]] double at(double t_s) const;
-  [[nodiscard]] double rate(double t_s) const;
+  struct Value {
+    double value;
+    double rate;
+  };
+  [[nodiscard]] Value at(double t_s) const;
 
  private:
   struct Step {
     double at_s;
     double over_s;
     double by;
+    double done = 0.0;   ///< sum of this step and all before it
+    double end_s = 0.0;  ///< when they are over
   };
   struct Swing {
     double amplitude;
@@ -33,6 +38,12 @@ class Profile {
   double start_;
   std::vector<Step> steps_;
   std::vector<Swing> swings_;
+};
+
+/// A vehicle's attitude and velocity over ground.
+struct Movement {
+  Eigen::Matrix3d axes_NB;
+  Eigen::Vector3d velocity_N_m_s;
 };
 
 /// How a vehicle moves: attitude and velocity over ground as functions of time alone.
@@ -48,8 +59,7 @@ struct Manoeuvres {
   Profile medium_share{1.0};               ///< how much of it acts
   Profile heave_m_s;                       ///< vertical velocity of the water that carries it
 
-  [[nodiscard]] Eigen::Matrix3d axes_NB(double t_s) const;
-  [[nodiscard]] Eigen::Vector3d velocity_N_m_s(double t_s) const;
+  [[nodiscard]] Movement at(double t_s) const;
 };
 
 }  // namespace fathom::study

@@ -33,12 +33,16 @@ class TruthPath {
 
  private:
   struct Felt {
+    Eigen::Vector3d rate_EB_B_rad_s;
     Eigen::Vector3d rate_IB_B_rad_s;
     Eigen::Vector3d force_B_m_s2;
   };
-  [[nodiscard]] Eigen::Vector3d velocity_E_m_s(double t_s, const Eigen::Vector3d& r_E_m) const;
-  [[nodiscard]] Eigen::Matrix3d axes_EB(double t_s, const Eigen::Vector3d& r_E_m) const;
-  [[nodiscard]] Eigen::Vector3d turn_EB_B_rad_s(double t_s, const Eigen::Vector3d& r_E_m) const;
+  /// Attitude and velocity along E.
+  struct Moving {
+    Eigen::Matrix3d axes_EB;
+    Eigen::Vector3d velocity_E_m_s;
+  };
+  [[nodiscard]] Moving moving(double t_s, const Eigen::Vector3d& r_E_m) const;
   [[nodiscard]] Felt felt(double t_s, const Eigen::Vector3d& r_E_m) const;
 
   const Manoeuvres* manoeuvres_;

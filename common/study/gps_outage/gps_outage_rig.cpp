@@ -205,6 +205,8 @@ estimation::EngineConfig flight_config(FlightFilter filter, double gps_latency_s
                     : filter == FlightFilter::ekf24 ? "gps_ins24"
                                                     : "gps_ins36";
   (void)estimation::named_state_groups(c.configuration, c.groups);
+  // The published filters consider nothing beyond their states.
+  if (filter == FlightFilter::ekf15 || filter == FlightFilter::ekf24) c.left_out = estimation::LeftOut::noise;
   estimation::ImuConfig& imu = c.imu;
   imu.rate_convention = estimation::RateConvention::point;
   imu.nominal_rate_hz = kFlightImu_hz;

@@ -16,6 +16,7 @@ estimation::EngineConfig config_of(const Run& run, EngineMethod method) {
   estimation::EngineConfig c;
   c.groups = {};
   c.configuration = "hydro";
+  c.left_out = estimation::LeftOut::noise;  // the simulated instruments have no other errors than these
   c.alignment.mode = estimation::StartMode::given;
   // The data sheet of the instruments.
   c.imu.angle_random_walk_rad_sqrt_s = 0.05 * kDegree / 60.0;

@@ -126,6 +126,8 @@ estimation::EngineConfig arm_config(const ArmCase& one, ArmFilter filter, const 
   const bool states25 = published || filter == ArmFilter::hybrid25_equal;
   c.configuration = filter == ArmFilter::imu_only ? "gps_ins15" : states25 ? "hybrid25" : "full";
   (void)estimation::named_state_groups(c.configuration, c.groups);
+  // The published filter considers nothing beyond its states.
+  if (states25) c.left_out = estimation::LeftOut::noise;
   if (filter == ArmFilter::full || filter == ArmFilter::bound) {
     // A basin has neither current nor GPS; the Doppler log's own offset is in its data sheet.
     c.groups.current = c.groups.gps_position_bias = c.groups.usbl_bias = false;

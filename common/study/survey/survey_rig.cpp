@@ -201,6 +201,8 @@ estimation::EngineConfig survey_config(const SurveyCase& one, SurveyFilter filte
   estimation::EngineConfig c;
   c.configuration = states25 ? "hybrid25" : "full";
   (void)estimation::named_state_groups(c.configuration, c.groups);
+  // The published filter considers nothing beyond its states.
+  if (states25) c.left_out = estimation::LeftOut::noise;
   if (!states25) {
     c.groups.dvl_bias = true;
     c.groups.current = one.water_track;

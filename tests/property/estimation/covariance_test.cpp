@@ -136,7 +136,7 @@ TEST(Covariance, PropagationEqualsTheDenseProduct) {
     filter.propagate(transition, noise);
 
     Eigen::MatrixXd phi = Eigen::MatrixXd::Identity(n, n);
-    phi.topLeftCorner(9, transition.driven()) = transition.rows();
+    phi.topRows<9>() = transition.rows(n);
     for (int i = 9; i < n; ++i) phi(i, i) = std::exp(-dt * setup.decay_per_s[static_cast<std::size_t>(i)]);
     Eigen::MatrixXd expected = phi * p0 * phi.transpose();
     for (int i = 9; i < n; ++i) expected(i, i) += dt * setup.walk[static_cast<std::size_t>(i)];
@@ -169,7 +169,7 @@ TEST(Covariance, TransitionEqualsTheSecondOrderExponentialOfF) {
     f.topRightCorner(9, n - 9) = imu_error_columns(index, c, at.rate_B, at.force_B);
     const Eigen::MatrixXd second = 0.5 * dt * dt * f * f;
     const Eigen::MatrixXd expected = (Eigen::MatrixXd::Identity(n, n) + dt * f + second).topRows(9);
-    const Eigen::MatrixXd own = transition.rows();
+    const Eigen::MatrixXd own = transition.rows(n);
     for (int i = 0; i < 9; ++i)
       for (int j = 0; j < n; ++j)
         ASSERT_NEAR(own(i, j), expected(i, j), 1e-12 * std::max(std::abs(expected(i, j)), 1e-6))

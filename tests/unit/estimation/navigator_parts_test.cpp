@@ -47,10 +47,10 @@ Observation fix_off_by(double north_m, double east_m, double sigma_m = 1.0) {
 }
 
 TEST(AlignmentWatch, IsAlignedAfterTheHoldAndFallsOutAtTwiceTheLimit) {
-  AlignmentConfig config;
-  config.aligned_tilt_sigma_rad = 1.0 * kDegree;
-  config.aligned_heading_sigma_rad = 2.0 * kDegree;
-  config.aligned_hold_s = 5.0;
+  EngineConfig config;
+  config.alignment.aligned_tilt_sigma_rad = 1.0 * kDegree;
+  config.alignment.aligned_heading_sigma_rad = 2.0 * kDegree;
+  config.alignment.aligned_hold_s = 5.0;
   AlignmentWatch watch;
   const auto at = [&](double t_s, double tilt_deg, double heading_deg) {
     const Vector3d sigma = kDegree * Vector3d(tilt_deg, tilt_deg, heading_deg);
@@ -65,6 +65,16 @@ TEST(AlignmentWatch, IsAlignedAfterTheHoldAndFallsOutAtTwiceTheLimit) {
   EXPECT_EQ(at(7.0, 1.9, 3.9), AlignmentPhase::aligned);
   EXPECT_EQ(at(8.0, 1.0, 4.1), AlignmentPhase::fine);
   EXPECT_EQ(watch.hold_since_ns, 0);
+}
+
+TEST(AlignmentWatch, AsksForNoMoreThanTheAccelerometersCanShow) {
+  EngineConfig config;
+  config.alignment.aligned_tilt_sigma_rad = 0.1 * kDegree;
+  config.imu.accel_scale_sigma = 0.003;
+  config.imu.accel_misalignment_sigma_rad = 0.004;
+  EXPECT_NEAR(config.aligned_tilt_sigma_rad(), 0.01, 1e-12);
+  config.alignment.aligned_tilt_sigma_rad = 1.0 * kDegree;
+  EXPECT_EQ(config.aligned_tilt_sigma_rad(), 1.0 * kDegree);
 }
 
 TEST(Usage, ModeFollowsWhatWasUsedLast) {
@@ -248,7 +258,6 @@ TEST(AidingPolicies, EachModelSaysWhatItBrings) {
     const AidingPolicy policy = entry.policy(sensor, sample);
     fixes += policy.position ? 1 : 0;
     velocities += policy.velocity != VelocityOver::none ? 1 : 0;
-    EXPECT_TRUE(!policy.position || !policy.along_vehicle) << entry.name;
     EXPECT_TRUE(!policy.follows_motion || policy.position) << entry.name;
     for (const double value : policy.reading)
       EXPECT_TRUE(std::isnan(value) || value == 0.0) << entry.name << " repeats what nobody said";

@@ -58,7 +58,7 @@ TEST(TruthPath, AtRestItFeelsGravityAndTheEarthsTurn) {
     sum.velocity_m_s += one.velocity_m_s;
   }
   const Eigen::Vector3d rate =
-      still.axes_NB(0.0).transpose() * Eigen::Vector3d(geo::earth_rate_N(place.latitude_rad));
+      still.at(0.0).axes_NB.transpose() * Eigen::Vector3d(geo::earth_rate_N(place.latitude_rad));
   EXPECT_NEAR((sum.angle_rad - rate).norm(), 0.0, 1e-11);
   EXPECT_NEAR(sum.velocity_m_s.z(), -geo::gravity(place.latitude_rad, place.height_m), 1e-6);
 }

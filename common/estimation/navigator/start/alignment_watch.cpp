@@ -10,12 +10,11 @@ void AlignmentWatch::enter(AlignmentPhase next, TimeNs now_ns) {
   phase_since_ns = now_ns;
 }
 
-void AlignmentWatch::judge(const AlignmentConfig& config, const Eigen::Vector3d& rpy_sigma_rad,
-                           TimeNs now_ns) {
+void AlignmentWatch::judge(const EngineConfig& config, const Eigen::Vector3d& rpy_sigma_rad, TimeNs now_ns) {
   const Eigen::Vector3d& sigma = rpy_sigma_rad;
-  const double worst =
-      std::max({sigma.x() / config.aligned_tilt_sigma_rad, sigma.y() / config.aligned_tilt_sigma_rad,
-                sigma.z() / config.aligned_heading_sigma_rad});
+  const double tilt_rad = config.aligned_tilt_sigma_rad();
+  const double worst = std::max(
+      {sigma.x() / tilt_rad, sigma.y() / tilt_rad, sigma.z() / config.alignment.aligned_heading_sigma_rad});
   // Twice as wide to fall out of as to come in, so that the phase does not flap.
   if (worst > (phase == AlignmentPhase::aligned ? 2.0 : 1.0)) {
     hold_since_ns = 0;
@@ -23,7 +22,8 @@ void AlignmentWatch::judge(const AlignmentConfig& config, const Eigen::Vector3d&
     return;
   }
   if (hold_since_ns == 0) hold_since_ns = now_ns;
-  if (to_seconds(now_ns - hold_since_ns) >= config.aligned_hold_s) enter(AlignmentPhase::aligned, now_ns);
+  if (to_seconds(now_ns - hold_since_ns) >= config.alignment.aligned_hold_s)
+    enter(AlignmentPhase::aligned, now_ns);
 }
 
 }  // namespace fathom::estimation

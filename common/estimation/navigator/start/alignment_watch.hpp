@@ -15,7 +15,7 @@ struct AlignmentWatch {
 
   void enter(AlignmentPhase next, TimeNs now_ns);
   /// Fine or aligned, by the sigmas of roll, pitch and yaw.
-  void judge(const AlignmentConfig& config, const Eigen::Vector3d& rpy_sigma_rad, TimeNs now_ns);
+  void judge(const EngineConfig& config, const Eigen::Vector3d& rpy_sigma_rad, TimeNs now_ns);
 
   template <class Self, class Visit>
   static void for_each_instant(Self& self, Visit&& visit) {
