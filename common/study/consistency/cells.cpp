@@ -174,6 +174,7 @@ EngineConfig consistency_config(const Cell& cell, std::string_view configuration
   states.dvl_misalignment_sigma_rad = cell.dvl.misalignment_rad;
   states.heading_bias_sigma_rad = kCompass.bias_rad;
   states.heading_bias_time_constant_s = 0.0;
+  states.depth_bias_sigma_m = kDepthGauge.bias_m;
   states.surface_altitude_m = kSurfaceHeight_m;
   states.surface_altitude_sigma_m = 5.0;
 

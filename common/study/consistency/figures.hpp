@@ -52,6 +52,7 @@ struct DvlFigures {
 struct DepthFigures {
   double rate_hz = 5.0;
   double noise_m = 0.02;
+  double bias_m = 0.05;
 };
 
 struct CompassFigures {

@@ -112,11 +112,14 @@ DvlSample DopplerLog::read(const Pose& pose) {
 }
 
 DepthGauge::DepthGauge(const DepthFigures& figures, double surface_height_m, std::uint64_t seed)
-    : figures_(figures), surface_height_m_(surface_height_m), random_(seed, "depth gauge") {}
+    : figures_(figures),
+      surface_height_m_(surface_height_m),
+      random_(seed, "depth gauge"),
+      bias_m_(random_.normal(figures.bias_m)) {}
 
 DepthSample DepthGauge::read(const Pose& pose) {
   DepthSample out;
-  out.depth_m = surface_height_m_ - pose.place.height_m + random_.normal(figures_.noise_m);
+  out.depth_m = surface_height_m_ - pose.place.height_m + bias_m_ + random_.normal(figures_.noise_m);
   return out;
 }
 

@@ -65,6 +65,7 @@ class DepthGauge {
   DepthFigures figures_;
   double surface_height_m_;
   sim::Random random_;
+  double bias_m_;
 };
 
 class Compass {

@@ -136,6 +136,29 @@ TEST(Headline, Hydro) {
                 "hydro");
 }
 
+/// The NEES of every named configuration in some cells, within the limits of all cells as far as these runs
+/// can tell.
+TEST(Headline, Consistency) {
+  const Rows rows = rows_of(
+      "consistency --case auv_lawn_tactical --case auv_under_way_industrial --case boat_swell_consumer "
+      "--case plane_straight_consumer --case plane_banks_consumer --case plane_aerobatic_industrial "
+      "--case car_highway_tactical");
+  const std::map<std::string, double> expected{
+      {"nees_tilt", 2.0}, {"nees_heading", 1.0}, {"nees_velocity", 3.0}, {"nees_position", 3.0}};
+  int compared = 0;
+  for (const auto& [name, row] : rows) {
+    const auto found = expected.find(row.at("metric").get<std::string>());
+    if (found == expected.end()) continue;
+    ++compared;
+    const double mean = row.at("mean").get<double>();
+    const double doubt = 3.29 * row.at("std").get<double>() / std::sqrt(row.at("n").get<double>());
+    EXPECT_GT(mean, 0.7 * found->second - doubt) << name;
+    EXPECT_LT(mean, 1.5 * found->second + doubt) << name;
+    EXPECT_LT(mean, 3.0 * found->second) << name;
+  }
+  EXPECT_EQ(compared, 7 * 3 * 4);
+}
+
 // The handover of an air drop is drawn at its sigmas, its hull at 10 %.
 TEST(Headline, AirDropFromDrawnHandovers) {
   const Rows rows = rows_of("scenarios --case air_drop", 50);
