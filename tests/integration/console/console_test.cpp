@@ -103,7 +103,14 @@ TEST_F(ConsoleTest, APositionFarAwayAsksForItsConfirmation) {
     EXPECT_EQ(answer.status, 200) << answer.body;
     return json::parse(answer.body)["confirm"].get<bool>();
   };
-  ASSERT_TRUE(wait_until(asks, kPatienceS)) << "as soon as the console knows where the vehicle is";
+  // That the reader knows the writer does not say that the writer knows the reader.
+  const auto asks_and_is_heard = [&] {
+    if (!asks()) return false;
+    const std::lock_guard lock(mutex);
+    return !heard.empty();
+  };
+  ASSERT_TRUE(wait_until(asks_and_is_heard, kPatienceS))
+      << "as soon as the console knows where the vehicle is";
   far["confirmed"] = true;
   EXPECT_FALSE(asks()) << "it is confirmed";
   ASSERT_TRUE(wait_until(
