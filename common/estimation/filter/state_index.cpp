@@ -101,15 +101,16 @@ int state_count(const StateGroups& groups) {
   return count;
 }
 
-StateIndex::StateIndex(const StateGroups& groups, const StateGroups& considered) {
-  const auto on = active(groups);
+StateIndex::StateIndex(const StateGroups& groups, const StateGroups& considered, Considered as) {
+  const auto also = active(considered);
+  auto on = active(groups);
+  for (std::size_t i = 0; i < on.size(); ++i) on[i] = on[i] || (as == Considered::found && also[i]);
   for (std::size_t i = 0; i < on.size(); ++i) {
     start_[i] = on[i] ? size_ : -1;
     if (on[i]) size_ += kRows[i].size;
     if (i == static_cast<std::size_t>(Group::gyro_misalignment)) imu_end_ = size_;
   }
   estimated_ = size_;
-  const auto also = active(considered);
   for (std::size_t i = 0; i < also.size(); ++i) {
     if (on[i] || !also[i]) continue;
     start_[i] = size_;

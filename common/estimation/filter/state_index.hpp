@@ -59,7 +59,10 @@ inline constexpr int kNavStates = 9;  ///< position, velocity, attitude
 /// Where each active group begins.
 class StateIndex {
  public:
-  explicit StateIndex(const StateGroups& groups, const StateGroups& considered = {});
+  /// What is considered, or `found` like what is estimated.
+  enum class Considered : std::uint8_t { kept, found };
+  explicit StateIndex(const StateGroups& groups, const StateGroups& considered = {},
+                      Considered as = Considered::kept);
 
   /// Estimated and considered.
   [[nodiscard]] int size() const { return size_; }

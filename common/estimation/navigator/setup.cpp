@@ -23,27 +23,11 @@ void markov(Setup& setup, Group group, double sigma, double time_constant_s) {
   fill(setup.decay_per_s, setup.index, group, 1.0 / time_constant_s);
 }
 
-/// Every group of either.
-StateGroups both(const StateGroups& a, const StateGroups& b) {
-  StateGroups out = a;
-  out.accel_scale |= b.accel_scale;
-  out.gyro_scale |= b.gyro_scale;
-  out.accel_misalignment |= b.accel_misalignment;
-  out.gyro_misalignment |= b.gyro_misalignment;
-  out.dvl_scale |= b.dvl_scale;
-  out.dvl_misalignment |= b.dvl_misalignment;
-  out.heading_bias |= b.heading_bias;
-  out.gps_position_bias |= b.gps_position_bias;
-  return out;
-}
-
 }  // namespace
 
-Setup::Setup(const EngineConfig& engine_config, Considered considered)
+Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considered)
     : config(engine_config),
-      index(considered == Considered::kept
-                ? StateIndex(engine_config.groups, engine_config.considered())
-                : StateIndex(both(engine_config.groups, engine_config.considered()))),
+      index(engine_config.groups, engine_config.considered(), considered),
       q_B_imu(geo::from_rpy(geo::vec(engine_config.imu.mounting_rpy_rad))) {
   int layers = 0;
   water_layer.fill(-1);

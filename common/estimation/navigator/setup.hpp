@@ -17,9 +17,8 @@ inline constexpr int kMaxWaterLayers = 4;
 
 /// What never changes after construction: the configuration and what is made from it once.
 struct Setup {
-  /// What the configuration considers is considered, or `found` like any other state.
-  enum class Considered : std::uint8_t { kept, found };
-  explicit Setup(const EngineConfig& engine_config, Considered considered = Considered::kept);
+  explicit Setup(const EngineConfig& engine_config,
+                 StateIndex::Considered considered = StateIndex::Considered::kept);
 
   EngineConfig config;
   StateIndex index;

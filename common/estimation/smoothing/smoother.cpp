@@ -40,7 +40,7 @@ struct Smoother::Segment {
 
 // What the filter only considers the way back may as well find: it rests on gains that are optimal.
 Smoother::Smoother(const EngineConfig& config)
-    : setup_(checked(config), Setup::Considered::found), intake_(setup_) {
+    : setup_(checked(config), StateIndex::Considered::found), intake_(setup_) {
   for (int i = 0; i < kNavStates; ++i) shown_states_.push_back(i);
   if (const int surface = setup_.index.of(Group::surface_altitude); surface >= 0)
     shown_states_.push_back(surface);

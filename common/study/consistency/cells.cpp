@@ -34,7 +34,7 @@ constexpr std::array<double, 3> kGivenVelocity_m_s{0.2, 0.2, 0.2};
 constexpr std::array<double, 3> kGivenAttitude_rad{1.0 * kDegree, 1.0 * kDegree, 3.0 * kDegree};
 
 Cell submersible(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellStart start,
-                 const InertialGrade& grade, double latitude_deg) {
+                 const ImuGrade& grade, double latitude_deg) {
   return {.name = name,
           .motion = motion,
           .start = start,
@@ -48,7 +48,7 @@ Cell submersible(std::string_view name, Manoeuvres (*motion)(std::uint64_t), Cel
           .gps = kMarineGps};
 }
 
-Cell boat(std::string_view name, const InertialGrade& grade, double latitude_deg) {
+Cell boat(std::string_view name, const ImuGrade& grade, double latitude_deg) {
   Cell cell = submersible(name, motions::boat_in_swell, CellStart::under_way, grade, latitude_deg);
   cell.duration_s = 480.0;
   cell.outage_from_s = cell.forecast_at_s = 420.0;
@@ -56,7 +56,7 @@ Cell boat(std::string_view name, const InertialGrade& grade, double latitude_deg
 }
 
 Cell aircraft(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellStart start,
-              const InertialGrade& grade, double latitude_deg, double height_m = 800.0) {
+              const ImuGrade& grade, double latitude_deg, double height_m = 800.0) {
   return {.name = name,
           .motion = motion,
           .start = start,
@@ -69,8 +69,8 @@ Cell aircraft(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellSt
           .gps = kAirborneGps};
 }
 
-Cell car(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellStart start,
-         const InertialGrade& grade, double latitude_deg) {
+Cell car(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellStart start, const ImuGrade& grade,
+         double latitude_deg) {
   Cell cell = aircraft(name, motion, start, grade, latitude_deg, 300.0);
   return cell;
 }
@@ -80,7 +80,7 @@ const std::array<Cell, 26>& cells() {
   static const std::array<Cell, 26> all{
       submersible("auv_straight_tactical", survey_straight, CellStart::at_rest, kTacticalGrade, 36.0),
       submersible("auv_straight_industrial", survey_straight, CellStart::at_rest, kIndustrialGrade, 0.5),
-      submersible("auv_lawn_navigation", survey_lawn, CellStart::given, kNavigationGrade, 55.0),
+      submersible("auv_lawn_navigation", survey_lawn, CellStart::given, kNavigation, 55.0),
       submersible("auv_lawn_tactical", survey_lawn, CellStart::at_rest, kTacticalGrade, 36.0),
       submersible("auv_lawn_tactical_arctic", survey_lawn, CellStart::at_rest, kTacticalGrade, 78.0),
       submersible("auv_lawn_industrial", survey_lawn, CellStart::at_rest, kIndustrialGrade, -35.0),
@@ -92,7 +92,7 @@ const std::array<Cell, 26>& cells() {
       boat("boat_swell_consumer", kConsumerGrade, -10.0),
       aircraft("plane_straight_tactical", flight_straight, CellStart::in_motion, kTacticalGrade, 48.0),
       aircraft("plane_straight_consumer", flight_straight, CellStart::in_motion, kConsumerGrade, -20.0),
-      aircraft("plane_circuit_navigation", flight_circuit, CellStart::given, kNavigationGrade, 70.0, 8000.0),
+      aircraft("plane_circuit_navigation", flight_circuit, CellStart::given, kNavigation, 70.0, 8000.0),
       aircraft("plane_circuit_tactical", flight_circuit, CellStart::in_motion, kTacticalGrade, 40.0, 3000.0),
       aircraft("plane_circuit_industrial", flight_circuit, CellStart::in_motion, kIndustrialGrade, -45.0),
       aircraft("plane_circuit_consumer", flight_circuit, CellStart::in_motion, kConsumerGrade, 5.0),
@@ -101,7 +101,7 @@ const std::array<Cell, 26>& cells() {
       aircraft("plane_aerobatic_industrial", flight_aerobatic, CellStart::in_motion, kIndustrialGrade, 47.0),
       aircraft("plane_runway_tactical", flight_from_runway, CellStart::at_rest, kTacticalGrade, 35.0, 100.0),
       car("car_town_consumer", drive_town, CellStart::in_motion, kConsumerGrade, 30.0),
-      car("car_highway_navigation", drive_highway, CellStart::gyrocompass, kNavigationGrade, 55.0),
+      car("car_highway_navigation", drive_highway, CellStart::gyrocompass, kNavigation, 55.0),
       car("car_highway_tactical", drive_highway, CellStart::at_rest, kTacticalGrade, 50.0),
       car("car_mountain_industrial", drive_mountain, CellStart::in_motion, kIndustrialGrade, 46.0)};
   return all;
@@ -163,7 +163,8 @@ EngineConfig consistency_config(const Cell& cell, std::string_view configuration
   EngineConfig c;
   c.configuration = configuration;
   (void)estimation::named_state_groups(c.configuration, c.groups);
-  tell(c.imu, *cell.inertial, cell.imu_rate_hz);
+  tell(c.imu, *cell.inertial, ImuModelling::everything);
+  c.imu.nominal_rate_hz = cell.imu_rate_hz;
   tell_start(cell, c.alignment);
   c.forecast_limits.clear();
 

@@ -25,7 +25,7 @@ struct Cell {
   std::string_view name;
   Manoeuvres (*motion)(std::uint64_t seed);
   CellStart start;
-  const InertialGrade* inertial;
+  const ImuGrade* inertial;
   double latitude_deg;
   double height_m;
   double duration_s;

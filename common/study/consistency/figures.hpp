@@ -2,34 +2,46 @@
 
 #include <array>
 
-#include "estimation/engine_config.hpp"
+#include "study/instruments.hpp"
 
 /// Instruments of the consistency study, by grade: from one set of figures the errors are drawn and the
 /// filters are told. SI units, one standard deviation of one axis.
 namespace fathom::study {
 
-struct InertialGrade {
-  double gyro_bias_rad_s;
-  double gyro_in_run_rad_s;
-  double angle_walk_rad_sqrt_s;
-  double gyro_scale;
-  double gyro_misalignment_rad;
-  double accel_bias_m_s2;
-  double accel_in_run_m_s2;
-  double velocity_walk_m_s_sqrt_s;
-  double accel_scale;
-  double accel_misalignment_rad;
-  double in_run_s;  ///< correlation time of what changes in the run
-};
-
-/// Ring laser or fibre-optic unit that finds north by itself.
-extern const InertialGrade kNavigationGrade;
-/// HG1700 class.
-extern const InertialGrade kTacticalGrade;
+// Inertial units beside kNavigation (study/instruments.hpp).
+/// A tactical unit with the in-run drift of its data sheet.
+inline constexpr ImuGrade kTacticalGrade{.gyro_bias_rad_s = 1.0 * kDegreePerHour,
+                                         .gyro_in_run_rad_s = 0.3 * kDegreePerHour,
+                                         .angle_walk_rad_sqrt_s = 0.1 * kDegree / 60.0,
+                                         .gyro_scale = 150e-6,
+                                         .accel_bias_m_s2 = 1.0 * kMilliG,
+                                         .accel_in_run_m_s2 = 0.1 * kMilliG,
+                                         .velocity_walk_m_s_sqrt_s = 0.02 / 60.0,
+                                         .accel_scale = 300e-6,
+                                         .misalignment_rad = 0.3e-3,
+                                         .in_run_s = 1800.0};
 /// A good MEMS unit, calibrated over temperature (ADIS16490 class).
-extern const InertialGrade kIndustrialGrade;
+inline constexpr ImuGrade kIndustrialGrade{.gyro_bias_rad_s = 20.0 * kDegreePerHour,
+                                           .gyro_in_run_rad_s = 3.0 * kDegreePerHour,
+                                           .angle_walk_rad_sqrt_s = 0.15 * kDegree / 60.0,
+                                           .gyro_scale = 1e-3,
+                                           .accel_bias_m_s2 = 4.0 * kMilliG,
+                                           .accel_in_run_m_s2 = 0.3 * kMilliG,
+                                           .velocity_walk_m_s_sqrt_s = 0.03 / 60.0,
+                                           .accel_scale = 1e-3,
+                                           .misalignment_rad = 1e-3,
+                                           .in_run_s = 900.0};
 /// A MEMS chip as it comes (consumer parts on autopilots).
-extern const InertialGrade kConsumerGrade;
+inline constexpr ImuGrade kConsumerGrade{.gyro_bias_rad_s = 0.2 * kDegree,
+                                         .gyro_in_run_rad_s = 30.0 * kDegreePerHour,
+                                         .angle_walk_rad_sqrt_s = 0.4 * kDegree / 60.0,
+                                         .gyro_scale = 1e-2,
+                                         .accel_bias_m_s2 = 30.0 * kMilliG,
+                                         .accel_in_run_m_s2 = 1.0 * kMilliG,
+                                         .velocity_walk_m_s_sqrt_s = 0.1 / 60.0,
+                                         .accel_scale = 5e-3,
+                                         .misalignment_rad = 5e-3,
+                                         .in_run_s = 600.0};
 
 struct GpsFigures {
   double rate_hz = 5.0;
@@ -60,8 +72,5 @@ struct CompassFigures {
   double noise_rad = 0.009;
   double bias_rad = 0.0175;
 };
-
-/// Tells the filter, as a user would from the data sheet.
-void tell(estimation::ImuConfig& imu, const InertialGrade& grade, double rate_hz);
 
 }  // namespace fathom::study

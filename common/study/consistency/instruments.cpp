@@ -28,12 +28,12 @@ Vector3d draw3(sim::Random& random, double sigma) {
 
 }  // namespace
 
-InertialUnit::InertialUnit(const InertialGrade& grade, std::uint64_t seed)
+InertialUnit::InertialUnit(const ImuGrade& grade, std::uint64_t seed)
     : random_(seed, "inertial unit"),
-      gyro_(draw(grade.gyro_bias_rad_s, grade.gyro_in_run_rad_s, grade.gyro_scale,
-                 grade.gyro_misalignment_rad, grade.angle_walk_rad_sqrt_s, grade.in_run_s)),
+      gyro_(draw(grade.gyro_bias_rad_s, grade.gyro_in_run_rad_s, grade.gyro_scale, grade.misalignment_rad,
+                 grade.angle_walk_rad_sqrt_s, grade.in_run_s)),
       accelerometer_(draw(grade.accel_bias_m_s2, grade.accel_in_run_m_s2, grade.accel_scale,
-                          grade.accel_misalignment_rad, grade.velocity_walk_m_s_sqrt_s, grade.in_run_s)) {}
+                          grade.misalignment_rad, grade.velocity_walk_m_s_sqrt_s, grade.in_run_s)) {}
 
 InertialUnit::Triad InertialUnit::draw(double bias, double in_run, double scale, double misalignment,
                                        double walk, double in_run_s) {

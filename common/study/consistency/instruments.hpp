@@ -14,7 +14,7 @@ namespace fathom::study {
 
 class InertialUnit {
  public:
-  InertialUnit(const InertialGrade& grade, std::uint64_t seed);
+  InertialUnit(const ImuGrade& grade, std::uint64_t seed);
   [[nodiscard]] ImuSample read(const PerfectIncrements& truth, double dt_s);
 
  private:

@@ -94,7 +94,7 @@ class SteadyFlight {
 
   Manoeuvres flight_;
   TruthPath path_;
-  InertialGrade grade_{};
+  ImuGrade grade_{};
   std::optional<InertialUnit> imu_;
   GpsReceiver gps_{{.noise_m = 0.5, .drift_m = 1e-6, .velocity_m_s = 0.1, .lever_B_m = {0.0, 0.0, 0.0}}, 7};
   estimation::FusionEngine engine_;
