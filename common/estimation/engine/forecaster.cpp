@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/Geometry>
+
 namespace fathom::estimation {
 namespace {
 
@@ -81,6 +83,7 @@ void Forecaster::take(const Navigator& navigator) {
   navigator_ = navigator;
   navigator_.record_to(nullptr);
   taken_ = past_;
+  first_ = -1;
 }
 
 bool Forecaster::aids(int sensor, int instrument, const Instrument& known) const {
@@ -104,29 +107,38 @@ void Forecaster::begin() {
   filter_ = navigator_.filter();
   state_ = navigator_.state();
   const NavSolution& nav = state_.nav;
-  const Vector3d rpy = geo::to_rpy(nav.q_NB);
-  yaw_rad_ = rpy.z();
-  second_ = 0;
   ahead_s_ = 0.0;
+  turned_rad_ = turn_of_pattern_rad_ = 0.0;
+  const MotionMemory& memory = taken_.motion;
+  if (memory.size() >= kLeastMemory) {
+    // (FC-2)
+    if (first_ < 0) first_ = memory.likely_next();
+    second_ = first_;
+    turned_rad_ = turn_of_pattern_rad_ =
+        turn_about_down_rad(memory.at(std::max(first_ - 1, 0)).q_NB, memory.at(memory.size() - 1).q_NB);
+  }
   still_ = {};
-  still_.roll_rad = rpy.x();
-  still_.pitch_rad = rpy.y();
-  still_.speed_m_s = std::hypot(nav.v_N_m_s.x(), nav.v_N_m_s.y());
-  still_.sink_m_s = nav.v_N_m_s.z();
-  still_.slip_rad = std::atan2(nav.v_N_m_s.y(), nav.v_N_m_s.x()) - rpy.z();
+  still_.q_NB = nav.q_NB;
+  still_.v_N_m_s = nav.v_N_m_s;
   const double gravity = geo::gravity(nav.position.latitude_rad, nav.position.altitude_m);
   still_.force_B_m_s2 = geo::to_matrix(nav.q_NB).transpose() * Vector3d(0.0, 0.0, -gravity);
 }
 
-void Forecaster::step(int lost, double dt_s) {
+const MotionMemory::Second& Forecaster::next_second() {
   const MotionMemory& memory = taken_.motion;
-  const MotionMemory::Second& motion =
-      memory.size() >= kLeastMemory ? memory.at(memory.size() - 1 - second_++ % memory.size()) : still_;
+  if (memory.size() < kLeastMemory) return still_;
+  if (second_ == memory.size()) {
+    second_ = first_;
+    turned_rad_ += turn_of_pattern_rad_;
+  }
+  return memory.at(second_++);
+}
+
+void Forecaster::step(int lost, double dt_s) {
+  const MotionMemory::Second& motion = next_second();
   NavSolution& nav = state_.nav;
-  const double course = yaw_rad_ + 0.5 * dt_s * motion.turned_rad + motion.slip_rad;
-  nav.q_NB = geo::from_rpy({motion.roll_rad, motion.pitch_rad, yaw_rad_ + 0.5 * dt_s * motion.turned_rad});
-  nav.v_N_m_s = {motion.speed_m_s * std::cos(course), motion.speed_m_s * std::sin(course), motion.sink_m_s};
-  yaw_rad_ += dt_s * motion.turned_rad;
+  nav.q_NB = geo::exp({0.0, 0.0, turned_rad_}) * motion.q_NB;
+  nav.v_N_m_s = Eigen::AngleAxisd(turned_rad_, Vector3d::UnitZ()) * motion.v_N_m_s;
   const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
   filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s),
                     setup_->process_noise(c, motion.rate_B_rad_s, motion.force_B_m_s2));

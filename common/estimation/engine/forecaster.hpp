@@ -11,8 +11,9 @@ namespace fathom::estimation {
 /// Likewise of the one that holds half; exact to 0.7 %.
 [[nodiscard]] double radius_50(double larger_sigma, double smaller_sigma);
 
-/// Propagates the covariance on without position fixes, along the motion of the last two minutes over again,
-/// with the other aiding that was in use a moment ago or without it (FC-1).
+/// Propagates the covariance on without position fixes, along the motion as it went on when it
+/// last was like now (FC-2), with the other aiding that was in use a moment ago or without it
+/// (FC-1).
 ///
 /// The work is done on a copy of the present, so that another thread may do it while the navigator goes on:
 /// take() by the one that steps the navigator, then what looks ahead by any one thread, until the next
@@ -44,6 +45,7 @@ class Forecaster {
   };
 
   void begin();
+  const MotionMemory::Second& next_second();
   void step(int lost, double dt_s);
   /// A measurement of that instrument of a sensor, as far as it aids, at the instant that is looked at.
   void aid(int sensor, int instrument, const Instrument& known, const AidingState& state, double dt_s);
@@ -59,10 +61,13 @@ class Forecaster {
   Past taken_;
   // The instant that is looked at.
   ErrorFilter filter_;
-  FilterState state_;  ///< as it may be then
-  int second_ = 0;
+  FilterState state_;     ///< as it may be then
   double ahead_s_ = 0.0;  ///< of the present
-  double yaw_rad_ = 0.0;
+  // The motion that goes on: remembered seconds from the first on and over again, turned about the vertical.
+  int first_ = -1;  ///< looked for once for each present
+  int second_ = 0;
+  double turned_rad_ = 0.0;
+  double turn_of_pattern_rad_ = 0.0;
   MotionMemory::Second still_;  ///< where nothing is remembered yet: straight ahead
 };
 
