@@ -53,6 +53,22 @@ json verdicts(const VerdictCounts& counts) {
   return out;
 }
 
+json innovations(const std::map<std::string, InnovationFigures>& all) {
+  json out = json::object();
+  for (const auto& [name, one] : all)
+    out[name] = {{"count", one.count},
+                 {"mean_normalised_squared", number(one.mean())},
+                 {"within_95", number(one.share_within_95())}};
+  return out;
+}
+
+json placement(const Placement& p) {
+  return {{"reference_late_s", number(p.reference_late_s)},
+          {"offset_B_m", {number(p.offset_B_m[0]), number(p.offset_B_m[1])}},
+          {"horizontal_error_m", {{"rms", number(p.rms_m)}}},
+          {"nees_horizontal", number(p.nees_horizontal)}};
+}
+
 json outage(const OutageFigures& f) {
   json list = json::array();
   for (const OutageWindow& window : f.windows) {
@@ -147,6 +163,7 @@ std::string to_json(const SolveReport& report) {
   out["wall_time_s"] = report.result.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.result));
   out["verdicts"] = verdicts(report.result.verdicts);
+  out["innovations"] = innovations(report.result.innovations);
   if (!report.smoothed) out["heading"] = heading(report.heading);
   const dataset::Score& score = report.score;
   out["scored"] = score.count;
@@ -154,6 +171,7 @@ std::string to_json(const SolveReport& report) {
     out["scored_s"] = to_seconds(score.last_ns - score.first_ns);
     out["distance_m"] = number(report.distance_m);
     out.update(errors(score, report.distance_m));
+    if (known(report.placement.reference_late_s)) out["reference_placement"] = placement(report.placement);
   }
   if (report.filtered.count > 0) out["filtered"] = errors(report.filtered, report.distance_m);
   if (report.at_fixes.count > 0) {
@@ -197,7 +215,16 @@ std::string to_text(const SolveReport& report) {
                score.rpy_rad[1].rms * kDegPerRad, score.rpy_rad[2].rms * kDegPerRad);
     out += line("horizontal NEES %.2f, consistent from %.2f to %.2f", score.nees_horizontal.mean,
                 score.nees_horizontal.band_95[0], score.nees_horizontal.band_95[1]);
+    if (const Placement& p = report.placement; known(p.reference_late_s))
+      out += line(
+          "  of which by the reference's clock %+.3f s and its point %+.2f m forward, %+.2f m right; "
+          "without them rms %.2f m, NEES %.2f",
+          p.reference_late_s, p.offset_B_m[0], p.offset_B_m[1], p.rms_m, p.nees_horizontal);
   }
+  for (const auto& [name, one] : report.result.innovations)
+    if (one.components > 0)
+      out += line("innovations of %s: mean square %.2f sigma^2 (1 where sigmas hold), %.1f %% within 95 %%",
+                  name.c_str(), one.mean(), 100.0 * one.share_within_95());
   if (known(report.heading.aligned_after_s))
     out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
   if (const HeadingErrors& course = report.heading.course; course.count() > 0)

@@ -6,6 +6,7 @@
 
 #include "cli/solve/course.hpp"
 #include "cli/solve/outage.hpp"
+#include "cli/solve/reference_placement.hpp"
 #include "cli/solve/run.hpp"
 #include "dataset/score.hpp"
 
@@ -22,6 +23,7 @@ struct SolveReport {
   std::uint64_t positions = 0;                      ///< navigation states with a position
   AlignmentPhase alignment = AlignmentPhase::none;  ///< at the end
   dataset::Score score;                             ///< against the reference; count 0 without one
+  Placement placement;                              ///< of the reference
   dataset::Score filtered;                          ///< of the forward pass where smoothed
   FixErrors at_fixes;            ///< of the antenna at the fixes it was given, each at its own instant
   FixErrors filtered_at_fixes;   ///< likewise the forward pass where smoothed

@@ -1,6 +1,7 @@
 #include "cli/solve/run.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/clock.hpp"
 #include "base/unknown.hpp"
@@ -21,6 +22,34 @@ void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig&
 }
 
 }  // namespace
+
+void InnovationFigures::add(const Verdict& verdict) {
+  constexpr double kDeviation95 = 1.959963984540054;
+  if (verdict.kind != VerdictKind::used && verdict.kind != VerdictKind::rejected) return;
+  ++count;
+  for (std::uint32_t i = 0; i < verdict.dimensions; ++i) {
+    const double ratio = verdict.innovation[i] / verdict.innovation_sigma[i];
+    if (!known(ratio)) continue;
+    ++components;
+    squared_sum += ratio * ratio;
+    if (std::abs(ratio) <= kDeviation95) ++within_95;
+  }
+}
+
+double InnovationFigures::mean() const {
+  return components > 0 ? squared_sum / static_cast<double>(components) : kUnknown;
+}
+
+double InnovationFigures::share_within_95() const {
+  return components > 0 ? static_cast<double>(within_95) / static_cast<double>(components) : kUnknown;
+}
+
+void SolveResult::add(const Verdict& verdict) {
+  if (!verdict.is_final) return;
+  ++verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+  if (verdict.dimensions > 0)
+    innovations[verdict.header.sensor.str() + "." + verdict.model.str()].add(verdict);
+}
 
 bool SolveRun::removes(const GpsSample& fix) const {
   return std::any_of(gps_removed.begin(), gps_removed.end(),
@@ -43,8 +72,7 @@ SolveResult run(const SolveRun& solve_run) {
   const TimeNs begin_ns = clock.monotonic_ns();
   const auto take_verdicts = [&] {
     Verdict verdict;
-    while (engine.next_verdict(verdict))
-      if (verdict.is_final) ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+    while (engine.next_verdict(verdict)) result.add(verdict);
   };
   std::uint64_t done = 0;
   for_each_sample(solve_run, [&](const auto& sample) {

@@ -24,9 +24,7 @@ SolveResult run_smoothed(const SolveRun& solve_run, const SmoothedStates& states
   std::vector<NavState> smoothed;
   smoothed.reserve(solve_run.data->of<ImuSample>().size());
   estimation::Smoother::Output output;
-  output.verdict = [&](const Verdict& verdict) {
-    ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
-  };
+  output.verdict = [&](const Verdict& verdict) { result.add(verdict); };
   output.filtered = states.filtered;
   output.smoothed = [&](const NavState& state) { smoothed.push_back(state); };
   output.detail = [&](const NavDetail& detail) { result.gps_latency_s = gps_latency_s(detail); };

@@ -107,9 +107,14 @@ SolveReport solve(const SolveOptions& options) {
   }
 
   const dataset::TruthTrack truth(data.reference);
-  const auto score = [&truth](const NavState& state, dataset::Scorer& scorer) {
+  ReferencePlacement placement;
+  const auto score = [&truth](const NavState& state, dataset::Scorer& scorer, ReferencePlacement* place) {
     if (state.mode == NavMode::none || state.mode == NavMode::aligning) return;
-    if (const auto at = truth.at(state.header.stamp_ns)) scorer.add(dataset::error_of(state, *at));
+    const auto at = truth.at(state.header.stamp_ns);
+    if (!at) return;
+    const dataset::NavError error = dataset::error_of(state, *at);
+    scorer.add(error);
+    if (place != nullptr) place->add(state, error);
   };
   dataset::Scorer scorer;
   dataset::NavCsv csv(options.out, dataset::kDefaultEpochNs);
@@ -123,7 +128,7 @@ SolveReport solve(const SolveOptions& options) {
     if (!known(state.latitude_rad)) return;
     ++report.positions;
     if (rows.pass(state.header.stamp_ns)) csv.add(state);
-    score(state, scorer);
+    score(state, scorer, &placement);
     if (!data.of<GpsSample>().empty()) path.add(state);
   };
 
@@ -135,7 +140,7 @@ SolveReport solve(const SolveOptions& options) {
   if (options.smooth) {
     dataset::Scorer filtered;
     const auto take_filtered = [&](const NavState& state) {
-      score(state, filtered);
+      score(state, filtered, nullptr);
       if (!data.of<GpsSample>().empty()) filtered_path.add(state);
     };
     report.result = run_smoothed(solve_run, {take_filtered, take});
@@ -154,6 +159,7 @@ SolveReport solve(const SolveOptions& options) {
   }
   csv.close();
   report.score = scorer.score();
+  report.placement = placement.figures();
   if (report.score.count > 0)
     report.distance_m = truth.distance_m(report.score.first_ns, report.score.last_ns);
   const Antenna antenna = antenna_of(loaded.value, report.result.gps_latency_s);
