@@ -43,6 +43,8 @@ struct ImuConfig {
   double accel_scale_sigma = 300e-6;
   double gyro_misalignment_sigma_rad = 3e-4;
   double accel_misalignment_sigma_rad = 3e-4;
+  double gyro_g_sensitivity_rad_s_per_m_s2 = 0.0;
+  double accel_nonlinearity_sigma = 0.0;
   double equivalent_noise_time_s = 1.0;
   double max_rate_rad_s = 35.0;
   double max_specific_force_m_s2 = 400.0;

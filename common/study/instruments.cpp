@@ -37,6 +37,7 @@ void tell(estimation::ImuConfig& imu, const ImuGrade& grade, ImuModelling modell
   imu.accel_scale_sigma = told * grade.accel_scale;
   imu.gyro_misalignment_sigma_rad = told * grade.misalignment_rad;
   imu.accel_misalignment_sigma_rad = told * grade.misalignment_rad;
+  imu.gyro_g_sensitivity_rad_s_per_m_s2 = told * grade.gyro_g_sensitivity_rad_s_per_m_s2;
 }
 
 sim::DvlConfig simulated(const DvlNoise& noise, double real) {

@@ -26,6 +26,9 @@ struct ImuGrade {
   double accel_scale;
   double misalignment_rad;  ///< of gyros and accelerometers
   double in_run_s;          ///< correlation time of the in-run biases
+  /// Of each gyro to each axis of specific force; the bias is that at rest and level. Published filters do
+  /// not know of it, nor does the simulator: only the consistency study draws it.
+  double gyro_g_sensitivity_rad_s_per_m_s2 = 0.0;
 };
 
 /// HG1700 class.

@@ -114,6 +114,10 @@ void SchemaCore::load(const nlohmann::json& json, void* whole, const Place& plac
   const std::string choice = load_choice(json, whole, place);
   for (const auto& [key, value] : json.items()) {
     if (key == "$schema" && place.key.empty()) continue;
+    if (key == "$comment") {
+      if (!value.is_string()) place.child(key).fail(value, "a text");
+      continue;
+    }
     const Entry* entry = find(key);
     if (entry == nullptr) place.child(key).fail(value, "no such key; known keys: " + known_keys());
     if (!choice.empty() && !entry->info.known_to(choice)) {
@@ -192,6 +196,8 @@ nlohmann::json SchemaCore::json_schema(const void* defaults, void* spare) const 
     }
     properties[entry->info.key] = std::move(property);
   }
+  properties["$comment"] = {{"type", "string"},
+                            {"description", "where the values come from; it has no effect"}};
   nlohmann::json out = {{"type", "object"}, {"additionalProperties", false}, {"properties", properties}};
   if (!required.empty()) out["required"] = required;
   const Entry* decider = deciding();

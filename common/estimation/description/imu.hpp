@@ -81,8 +81,17 @@ void describe(Walk<ImuConfig>& s) {
       .unit("deg")
       .range(0, 5)
       .scaled(kRadPerDeg);
+  s.field("gyro_g_sensitivity_deg_h_g", &C::gyro_g_sensitivity_rad_s_per_m_s2,
+          "what a gyro turns by for a specific force, per axis; it counts as noise")
+      .unit("deg/h/g")
+      .range(0, 5000)
+      .scaled(kRadPerSecond_per_degPerHour / kStandardGravity_m_s2);
+  s.field("accel_nonlinearity_sigma", &C::accel_nonlinearity_sigma,
+          "accelerometer error that grows with the acceleration but is no constant scale, a ratio; it counts as "
+          "noise")
+      .range(0, 0.1);
   s.field("equivalent_noise_time_s", &C::equivalent_noise_time_s,
-          "correlation time of scale and misalignment errors that are not estimated")
+          "correlation time of the errors above that count as noise")
       .unit("s")
       .range(0, 100);
   s.field("max_rate_deg_s", &C::max_rate_rad_s, "larger rates are out of range")

@@ -1,5 +1,7 @@
 #include "estimation/navigator/setup.hpp"
 
+#include "estimation/description/units.hpp"
+
 #include <algorithm>
 
 namespace fathom::estimation {
@@ -122,6 +124,12 @@ ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& r
   // Gravity is always there and looks like a bias; only the changing part of the force counts.
   add(noise.velocity, force_B_m_s2 + 9.81 * C_NB.row(2).transpose(), index.has(Group::accel_scale),
       imu.accel_scale_sigma, index.has(Group::accel_misalignment), imu.accel_misalignment_sigma_rad);
+  // What is felt at rest and level is part of the biases.
+  const double felt2 = (force_B_m_s2 + Vector3d(0.0, 0.0, kStandardGravity_m_s2)).squaredNorm();
+  const double g_sensitivity = imu.gyro_g_sensitivity_rad_s_per_m_s2;
+  noise.attitude.diagonal().array() += imu.equivalent_noise_time_s * g_sensitivity * g_sensitivity * felt2;
+  const double nonlinearity = imu.accel_nonlinearity_sigma;
+  noise.velocity.diagonal().array() += imu.equivalent_noise_time_s * nonlinearity * nonlinearity * felt2;
   return noise;
 }
 

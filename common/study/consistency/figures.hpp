@@ -30,7 +30,8 @@ inline constexpr ImuGrade kIndustrialGrade{.gyro_bias_rad_s = 20.0 * kDegreePerH
                                            .velocity_walk_m_s_sqrt_s = 0.03 / 60.0,
                                            .accel_scale = 1e-3,
                                            .misalignment_rad = 1e-3,
-                                           .in_run_s = 900.0};
+                                           .in_run_s = 900.0,
+                                           .gyro_g_sensitivity_rad_s_per_m_s2 = 0.005 * kDegree / 9.80665};
 /// A MEMS chip as it comes (consumer parts on autopilots).
 inline constexpr ImuGrade kConsumerGrade{.gyro_bias_rad_s = 0.2 * kDegree,
                                          .gyro_in_run_rad_s = 30.0 * kDegreePerHour,
@@ -41,7 +42,8 @@ inline constexpr ImuGrade kConsumerGrade{.gyro_bias_rad_s = 0.2 * kDegree,
                                          .velocity_walk_m_s_sqrt_s = 0.1 / 60.0,
                                          .accel_scale = 5e-3,
                                          .misalignment_rad = 5e-3,
-                                         .in_run_s = 600.0};
+                                         .in_run_s = 600.0,
+                                         .gyro_g_sensitivity_rad_s_per_m_s2 = 0.1 * kDegree / 9.80665};
 
 struct GpsFigures {
   double rate_hz = 5.0;

@@ -11,6 +11,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+constexpr double kStandardGravity_m_s2 = 9.80665;
+
 Vector3d vector(const std::array<double, 3>& a) {
   return {a[0], a[1], a[2]};
 }
@@ -33,7 +35,10 @@ InertialUnit::InertialUnit(const ImuGrade& grade, std::uint64_t seed)
       gyro_(draw(grade.gyro_bias_rad_s, grade.gyro_in_run_rad_s, grade.gyro_scale, grade.misalignment_rad,
                  grade.angle_walk_rad_sqrt_s, grade.in_run_s)),
       accelerometer_(draw(grade.accel_bias_m_s2, grade.accel_in_run_m_s2, grade.accel_scale,
-                          grade.misalignment_rad, grade.velocity_walk_m_s_sqrt_s, grade.in_run_s)) {}
+                          grade.misalignment_rad, grade.velocity_walk_m_s_sqrt_s, grade.in_run_s)) {
+  for (int i = 0; i < 3; ++i)
+    g_sensitivity_.col(i) = draw3(random_, grade.gyro_g_sensitivity_rad_s_per_m_s2);
+}
 
 InertialUnit::Triad InertialUnit::draw(double bias, double in_run, double scale, double misalignment,
                                        double walk, double in_run_s) {
@@ -55,7 +60,8 @@ Vector3d InertialUnit::distort(Triad& triad, const Vector3d& increment, double d
 }
 
 ImuSample InertialUnit::read(const PerfectIncrements& truth, double dt_s) {
-  const Vector3d angle = distort(gyro_, truth.angle_rad, dt_s);
+  const Vector3d felt = truth.velocity_m_s + dt_s * Vector3d(0.0, 0.0, kStandardGravity_m_s2);
+  const Vector3d angle = distort(gyro_, truth.angle_rad, dt_s) + g_sensitivity_ * felt;
   const Vector3d velocity = distort(accelerometer_, truth.velocity_m_s, dt_s);
   ImuSample out;
   out.angular_rate_B_rad_s = array(angle / dt_s);

@@ -31,6 +31,7 @@ class InertialUnit {
   sim::Random random_;
   Triad gyro_;
   Triad accelerometer_;
+  Eigen::Matrix3d g_sensitivity_;
 };
 
 class GpsReceiver {

@@ -1,5 +1,6 @@
 // `fathom solve` over real vehicles.
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -52,6 +53,53 @@ TEST_F(SolveRecordings, RealVehicleStaysWithinOnePercentOfItsReference) {
   ASSERT_GT(count, 0);
   const double mean_limit = kSanitized ? 0.45 : 0.25;  // of one, of them all
   EXPECT_LT(sum / count, mean_limit);
+}
+
+// Nothing in a class comes from a recording: only where the instruments sit is told.
+TEST_F(SolveRecordings, AClassOfVehiclesServesAVehicleThatItWasNotFittedTo) {
+  if (!fs::exists(fs::path(FATHOM_DATASETS) / "rtkx_drive"))
+    FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
+  if (kSanitized) GTEST_SKIP() << "many runs of whole recordings; the others run through the same code";
+  struct Vehicle {
+    const char* recording;
+    const char* kind;
+    const char* start_s;
+    std::array<double, 3> limits_m;
+  };
+  for (const Vehicle& vehicle : {Vehicle{"rtkx_drive", "mems_car", "110.2", {3.0, 9.0, 35.0}},
+                                 Vehicle{"thor75", "mems_fixed_wing", "252", {8.0, 18.0, 62.0}}}) {
+    Process process(
+        "fathom", {"solve", recording(vehicle.recording, 0.0), "--config",
+                   std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/" + vehicle.kind + ".json", "--out",
+                   path("nav.csv"), "--rate", "1", "--gps-outage", std::string("10,20,60@") + vehicle.start_s,
+                   "--json"});
+    ASSERT_EQ(process.wait(), 0) << process.err();
+    const auto metrics = nlohmann::json::parse(process.out());
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto& outage = metrics["gps_outages"][i];
+      EXPECT_LT(outage["horizontal_error_m"]["rms"].get<double>(), vehicle.limits_m[i]) << vehicle.kind;
+      EXPECT_GT(outage["forecast_coverage"].get<double>(), 0.85) << vehicle.kind;
+    }
+    EXPECT_LT(metrics["innovations"]["gps.gps_position"]["mean_normalised_squared"].get<double>(), 1.5);
+  }
+  double sum = 0.0;
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(FATHOM_DATASETS) / "akit")) {
+    if (!entry.is_directory()) continue;
+    Process process("fathom", {"solve", entry.path().string(), "--config",
+                               std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/tactical_auv.json",
+                               "--set", "engine.sensors.0.lever_B_m=[-0.07,-0.02,0.28]", "--set",
+                               "engine.output_lever_B_m=[1.779,0.013,0.115]", "--start", "reference", "--out",
+                               path("nav.csv"), "--rate", "1", "--json"});
+    ASSERT_EQ(process.wait(), 0) << process.err();
+    const double percent =
+        nlohmann::json::parse(process.out())["horizontal_error_percent"]["end"].get<double>();
+    EXPECT_LT(percent, 0.45) << entry.path();
+    sum += percent;
+    ++count;
+  }
+  ASSERT_GT(count, 0);
+  EXPECT_LT(sum / count, 0.25);
 }
 
 // The fixes of these recordings are stamped some hundredths of a second off their instant, and the reference

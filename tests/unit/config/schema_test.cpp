@@ -112,6 +112,14 @@ TEST_F(SchemaTest, LoadsEveryKindOfValue) {
   EXPECT_EQ(out.small, 65535);
 }
 
+TEST_F(SchemaTest, TakesACommentAnywhereAndNothingElseThatItDoesNotKnow) {
+  const auto commented = write(R"({"$comment":"from the data sheet","vehicle":"a"})");
+  const auto plain = write(R"({"vehicle":"a"})");
+  EXPECT_EQ(canonical(load<Outer>({commented, {}})), canonical(load<Outer>({plain, {}})));
+  EXPECT_NE(error_of(R"({"$comment":5,"vehicle":"a"})").find("expected a text"), std::string::npos);
+  EXPECT_NE(error_of(R"({"$remark":"x","vehicle":"a"})").find("no such key"), std::string::npos);
+}
+
 TEST_F(SchemaTest, NamesFileKeyValueAndExpectation) {
   struct Case {
     std::string json, expected;
