@@ -136,6 +136,8 @@ struct StateModelConfig {
   double model_scale_sigma = 0.2;
   double model_bias_sigma_m_s = 0.01;
   double model_bias_time_constant_s = 120.0;
+  double vertical_deflection_sigma_rad = 34e-6;  ///< 7 arcsec: rms of a global gravity model (EGM2008)
+  double mounting_sigma_rad = 0.0;               ///< the configured mounting is where the axes are
 };
 
 enum class GateMode : std::uint8_t { whole = 0, per_component = 1 };

@@ -86,9 +86,10 @@ void describe(Walk<ImuConfig>& s) {
       .unit("deg/h/g")
       .range(0, 5000)
       .scaled(kRadPerSecond_per_degPerHour / kStandardGravity_m_s2);
-  s.field("accel_nonlinearity_sigma", &C::accel_nonlinearity_sigma,
-          "accelerometer error that grows with the acceleration but is no constant scale, a ratio; it counts as "
-          "noise")
+  s.field(
+       "accel_nonlinearity_sigma", &C::accel_nonlinearity_sigma,
+       "accelerometer error that grows with the acceleration but is no constant scale, a ratio; it counts as "
+       "noise")
       .range(0, 0.1);
   s.field("equivalent_noise_time_s", &C::equivalent_noise_time_s,
           "correlation time of the errors above that count as noise")

@@ -47,6 +47,22 @@ void describe(Walk<StateGroups>& s) {
 template <template <class> class Walk>
 void describe(Walk<StateModelConfig>& s) {
   using C = StateModelConfig;
+  s.field("vertical_deflection_sigma_deg", &C::vertical_deflection_sigma_rad,
+          "deflection of the vertical along each axis: what is published as the sigma of roll and pitch "
+          "includes "
+          "it; the default is the 7 arcsec of a global gravity model, mountains and trenches have 30")
+      .unit("deg")
+      .range(0, 0.1)
+      .scaled(kRadPerDeg);
+  s.field(
+       "mounting_sigma_deg", &C::mounting_sigma_rad,
+       "how well the unit's axes in the vehicle are known: what is published as the sigma of roll and pitch "
+       "includes it; 0: the vehicle's axes are the unit's, as configured. A plate bolted true to a "
+       "millimetre in "
+       "a metre is 0.05, a board in a box by hand 0.5")
+      .unit("deg")
+      .range(0, 10)
+      .scaled(kRadPerDeg);
   s.field("dvl_scale_sigma", &C::dvl_scale_sigma, "DVL scale error, a ratio").range(1e-6, 1);
   s.field("dvl_misalignment_sigma_deg", &C::dvl_misalignment_sigma_rad, "DVL misalignment about each axis")
       .unit("deg")

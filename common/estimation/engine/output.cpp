@@ -34,6 +34,15 @@ void fill_attitude(const geo::Quaternion& q, NavState& out) {
   out.rpy_rad = geo::arr(geo::to_rpy(q));
 }
 
+/// The filter knows the attitude of the unit against the plumb line (OUT-4).
+std::array<double, 3> published_sigma_rad(const Setup& setup, const Navigator& navigator) {
+  std::array<double, 3> out = geo::arr(navigator.rpy_sigma_rad());
+  const StateModelConfig& states = setup.config.states;
+  for (std::size_t i = 0; i < 2; ++i)
+    out[i] = std::hypot(out[i], states.vertical_deflection_sigma_rad, states.mounting_sigma_rad);
+  return out;
+}
+
 }  // namespace
 
 void fill(const Setup& setup, const Navigator& navigator, NavState& out) {
@@ -83,7 +92,7 @@ void fill(const Setup& setup, const Navigator& navigator, NavState& out) {
   fill_attitude(attitude.q_NO, out);
   out.position_covariance_N_m2 = with_lever(navigator.filter(), 0, arm);
   out.velocity_covariance_N_m2_s2 = with_lever(navigator.filter(), 3, swing);
-  out.rpy_sigma_rad = geo::arr(navigator.rpy_sigma_rad());
+  out.rpy_sigma_rad = published_sigma_rad(setup, navigator);
 }
 
 void fill(const Setup& setup, const Navigator& navigator, NavDetail& out) {
