@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "dataset/csv_writer.hpp"
+#include "logs/dataflash/reader.hpp"
 #include "logs/ulog/reader.hpp"
 
 namespace fathom::logs {
@@ -80,11 +81,12 @@ void prepare(const std::filesystem::path& directory) {
 
 Log read(const std::filesystem::path& path) {
   if (ulog::looks_like(path)) return ulog::read(path, px4_topics());
+  if (dataflash::looks_like(path)) return dataflash::read(path, ardupilot_topics());
   throw LogError(path.string() + ": offset 0: neither a PX4 ULog nor an ArduPilot DataFlash log");
 }
 
 Vehicle convert(const Log& log, const ConvertOptions& options) {
-  return px4(log, options);
+  return log.format == dataflash::kFormatName ? ardupilot(log, options) : px4(log, options);
 }
 
 std::string to_json(const std::string& source, const Log& log, const Vehicle& vehicle) {

@@ -67,7 +67,9 @@ std::string to_text(const ImportOptions& options, const logs::Log& log, const lo
   for (const logs::Table& table : vehicle.tables) row(table.name, table.stamps_ns.size());
   if (vehicle.utc_of_start_ns)
     text += "  the autopilot started at " + to_iso8601(*vehicle.utc_of_start_ns, 3) + " (GPS)\n";
-  if (log.dropouts > 0) {
+  if (log.dropouts > 0 && log.dropout_ms == 0) {
+    text += "  the logger dropped " + std::to_string(log.dropouts) + " messages\n";
+  } else if (log.dropouts > 0) {
     text += "  the logger lost " + std::to_string(log.dropout_ms) + " ms in " + std::to_string(log.dropouts) +
             " dropouts\n";
   }
