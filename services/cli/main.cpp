@@ -39,6 +39,8 @@ int main(int argc, char** argv) {
   fathom::cli::add_keygen(app, exit_code);
   fathom::cli::add_import(app, exit_code);
   fathom::cli::add_export(app, exit_code);
+  fathom::cli::add_report(app, exit_code);
+  fathom::cli::add_plot(app, exit_code);
   fathom::cli::add_missing(app);
 
   try {

@@ -43,8 +43,11 @@ SolveResult run(const SolveRun& solve_run) {
   const TimeNs begin_ns = clock.monotonic_ns();
   const auto take_verdicts = [&] {
     Verdict verdict;
-    while (engine.next_verdict(verdict))
-      if (verdict.is_final) ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+    while (engine.next_verdict(verdict)) {
+      if (!verdict.is_final) continue;
+      ++result.verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
+      if (solve_run.on_verdict) solve_run.on_verdict(verdict);
+    }
   };
   std::uint64_t done = 0;
   for_each_sample(solve_run, [&](const auto& sample) {
