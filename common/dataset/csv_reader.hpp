@@ -36,6 +36,7 @@ class CsvReader {
   [[nodiscard]] double number(const std::optional<Column>& column) const;
   [[nodiscard]] std::string_view text(Column column) const { return fields_[column]; }
   [[nodiscard]] std::string_view name(Column column) const { return names_[column]; }
+  [[nodiscard]] std::size_t columns() const { return names_.size(); }
 
   /// Throws DatasetError about the present line.
   [[noreturn]] void fail(const std::string& message) const;

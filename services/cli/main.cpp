@@ -37,6 +37,10 @@ int main(int argc, char** argv) {
   fathom::cli::add_bench(app, exit_code);
   fathom::cli::add_doctor(app, exit_code);
   fathom::cli::add_keygen(app, exit_code);
+  fathom::cli::add_import(app, exit_code);
+  fathom::cli::add_export(app, exit_code);
+  fathom::cli::add_report(app, exit_code);
+  fathom::cli::add_plot(app, exit_code);
   fathom::cli::add_missing(app);
 
   try {

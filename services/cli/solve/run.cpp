@@ -72,7 +72,10 @@ SolveResult run(const SolveRun& solve_run) {
   const TimeNs begin_ns = clock.monotonic_ns();
   const auto take_verdicts = [&] {
     Verdict verdict;
-    while (engine.next_verdict(verdict)) result.add(verdict);
+    while (engine.next_verdict(verdict)) {
+      result.add(verdict);
+      if (verdict.is_final && solve_run.on_verdict) solve_run.on_verdict(verdict);
+    }
   };
   std::uint64_t done = 0;
   for_each_sample(solve_run, [&](const auto& sample) {

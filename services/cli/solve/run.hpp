@@ -45,6 +45,9 @@ struct SolveRun {
   /// Called with each navigation state. The engine may be asked for more.
   std::function<void(const NavState&, estimation::FusionEngine&)> on_state;
 
+  /// Called with each final verdict, where somebody wants them.
+  std::function<void(const Verdict&)> on_verdict;
+
   [[nodiscard]] bool removes(const GpsSample& fix) const;
 };
 

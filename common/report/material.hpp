@@ -1,0 +1,131 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "dataset/score.hpp"
+#include "samples/nav_state.hpp"
+#include "samples/verdict.hpp"
+
+/// What a report is made of, wherever it came from: a run over a data set, or a recording.
+namespace fathom::report {
+
+/// A navigation state as the page shows it. Times are seconds of the data set, angles radians.
+struct StateRow {
+  double t_s = 0.0;
+  double latitude_rad = kUnknown;
+  double longitude_rad = kUnknown;
+  double altitude_m = kUnknown;
+  std::array<double, 3> velocity_N_m_s{kUnknown, kUnknown, kUnknown};
+  std::array<double, 3> rpy_rad{kUnknown, kUnknown, kUnknown};
+  std::array<double, 4> covariance_NE_m2{kUnknown, kUnknown, kUnknown, kUnknown};  ///< row-major
+  std::array<double, 3> position_sigma_N_m{kUnknown, kUnknown, kUnknown};
+  std::array<double, 3> velocity_sigma_N_m_s{kUnknown, kUnknown, kUnknown};
+  std::array<double, 3> rpy_sigma_rad{kUnknown, kUnknown, kUnknown};
+  NavMode mode = NavMode::none;
+  double gps_outage_s = kUnknown;
+  std::uint32_t resets = 0;
+};
+[[nodiscard]] StateRow row_of(const NavState& state, double t_s);
+
+/// The error of a state against the reference, at a row of the states.
+struct ErrorRow {
+  double t_s = 0.0;
+  dataset::NavError error;
+  std::array<double, 3> position_sigma_N_m{kUnknown, kUnknown, kUnknown};
+};
+
+/// A final verdict, by what its plot needs. Innovations are divided by their sigmas.
+struct Judged {
+  double t_s = 0.0;
+  VerdictKind kind = VerdictKind::used;
+  std::uint8_t dimensions = 0;
+  std::array<float, 3> normalised{};
+  float test_ratio = 0.0F;
+};
+/// All verdicts of one aiding model on one source.
+struct Source {
+  SourceKind kind = SourceKind::gps;
+  std::string sensor;
+  std::string model;
+  std::array<std::uint64_t, kVerdictKinds> counts{};
+  std::vector<Judged> judged;  ///< at most kMostJudged, evenly thinned beyond
+  std::uint64_t stride = 1;
+  static constexpr std::size_t kMostJudged = 400'000;
+
+  void add(const Verdict& verdict, double t_s);
+  [[nodiscard]] std::uint64_t total() const;
+  [[nodiscard]] std::uint64_t of(VerdictKind what) const { return counts[static_cast<std::size_t>(what)]; }
+};
+
+/// A stretch without fixes of GPS, and what was forecast of its end when it began.
+struct Outage {
+  double begin_s = 0.0;
+  double end_s = 0.0;
+  double sigma_before_m = kUnknown;  ///< horizontal
+  double sigma_after_m = kUnknown;   ///< before the fix that ended it
+  double forecast_95_m = kUnknown;
+  double error_m = kUnknown;  ///< horizontal, against the reference
+};
+
+struct PhaseChange {
+  double t_s = 0.0;
+  AlignmentPhase phase = AlignmentPhase::none;
+};
+
+struct Place {
+  double t_s = 0.0;
+  double latitude_rad = kUnknown;
+  double longitude_rad = kUnknown;
+};
+
+struct Material {
+  std::string title;
+  std::string source;
+  std::string config;
+  std::string config_hash;
+  std::string version;
+  double begin_s = kUnknown;  ///< of the inertial samples
+  double end_s = kUnknown;
+  std::uint64_t imu_samples = 0;
+  double imu_step_s = kUnknown;                 ///< the middle one
+  std::vector<std::array<double, 2>> imu_gaps;  ///< begin and length, s
+  std::vector<StateRow> states;
+  std::vector<ErrorRow> errors;
+  dataset::Score score;
+  std::vector<Place> reference;
+  std::vector<Place> fixes;
+  std::vector<Source> sources;
+  std::vector<Outage> outages;
+  std::vector<PhaseChange> phases;
+  /// Rows of each sensor in the data.
+  std::map<std::string, std::uint64_t> samples;
+};
+
+/// What a person should look at, the worst first.
+struct Finding {
+  enum class Weight : std::uint8_t { bad, caution, good };
+  Weight weight = Weight::good;
+  std::string text;    ///< one or two sentences
+  std::string anchor;  ///< the section that shows it
+};
+[[nodiscard]] std::vector<Finding> findings(const Material& material);
+
+/// A whole page, without anything from elsewhere.
+[[nodiscard]] std::string page(const Material& material);
+
+/// Share of the components of used and rejected measurements within two sigmas; mean and root mean square of
+/// the components of those that were used.
+struct InnovationFigures {
+  std::uint64_t count = 0;
+  double inside = kUnknown;
+  double rms = kUnknown;
+  std::array<double, 3> mean{kUnknown, kUnknown, kUnknown};
+};
+[[nodiscard]] InnovationFigures figures_of(const Source& source);
+
+}  // namespace fathom::report

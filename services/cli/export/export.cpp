@@ -1,0 +1,124 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.hpp"
+#include "cli/export/tracks.hpp"
+#include "dataset/dataset.hpp"
+#include "exchange/track.hpp"
+
+namespace fathom::cli {
+namespace {
+
+struct ExportOptions {
+  std::string source;
+  std::string format;
+  std::string out;
+  std::string epoch;
+  std::string track;
+  double rate_hz = -1.0;
+};
+
+std::ofstream open(const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written: " + std::strerror(errno));
+  return file;
+}
+
+void close(std::ofstream& file, const std::string& path) {
+  file.close();
+  if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written: " + std::strerror(errno));
+}
+
+void write_csv(const ExportOptions& options, TimeNs epoch_ns) {
+  if (std::filesystem::is_directory(options.source)) {
+    if (std::filesystem::exists(options.out) && std::filesystem::equivalent(options.source, options.out)) {
+      throw Failure(ExitCode::bad_configuration,
+                    options.out + ": is the data set itself, expected another folder");
+    }
+    dataset::write(options.out, dataset::read(options.source));
+    return;
+  }
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (error)
+    throw Failure(ExitCode::runtime_failure, options.out + ": cannot be created: " + error.message());
+  const std::string path = (std::filesystem::path(options.out) / "nav.csv").string();
+  copy_with_utc(options.source, path, epoch_ns);
+}
+
+void export_tracks(const ExportOptions& options) {
+  const TimeNs epoch_ns = epoch_of(options.source, options.epoch);
+  if (options.format == "csv") {
+    write_csv(options, epoch_ns);
+    std::printf("%s: csv\n", options.out.c_str());
+    return;
+  }
+  std::vector<exchange::Track> tracks =
+      read_tracks(options.source, epoch_ns, options.rate_hz < 0.0 ? 1.0 : options.rate_hz);
+  if (!options.track.empty()) {
+    std::string have;
+    for (const exchange::Track& track : tracks) have += (have.empty() ? "" : ", ") + track.name;
+    std::erase_if(tracks, [&](const exchange::Track& track) { return track.name != options.track; });
+    if (tracks.empty()) {
+      throw Failure(ExitCode::bad_input, options.source + ": no track " + options.track +
+                                             ", expected one of " + (have.empty() ? "none" : have));
+    }
+  }
+  if (tracks.empty())
+    throw Failure(ExitCode::bad_input,
+                  options.source + ": no positions, expected nav.csv or a data set with gps or reference");
+  std::ofstream file = open(options.out);
+  const std::string title = std::filesystem::path(options.source).filename().string();
+  if (options.format == "kml") exchange::write_kml(file, title, tracks);
+  if (options.format == "gpx") exchange::write_gpx(file, title, tracks);
+  if (options.format == "geojson") exchange::write_geojson(file, tracks);
+  // A stream of sentences is one receiver's: the first track, the solution or the GPS fixes.
+  if (options.format == "nmea") exchange::write_nmea(file, tracks.front());
+  close(file, options.out);
+  for (const exchange::Track& track : tracks) {
+    std::printf("%s: %s, %zu points\n", options.out.c_str(), track.name.c_str(), track.points.size());
+    if (options.format == "nmea") break;
+  }
+}
+
+}  // namespace
+
+void add_export(CLI::App& app, ExitCode&) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command =
+      app.add_subcommand("export", "Writes a solution or a data set for the programs of others.");
+  command->footer(
+      "SOURCE is nav.csv of fathom solve, or the folder of a data set (tracks gps, usbl, reference).\n"
+      "kml, gpx, geojson and nmea have one point a second unless --rate says otherwise; their altitudes are\n"
+      "above the WGS-84 ellipsoid. nmea is of one track: the first, or --track. csv writes a folder: the\n"
+      "data set again, or nav.csv with a column utc.");
+  command->add_option("source", options->source, "nav.csv (or .gz), or a data set")->required();
+  command->add_option("--format", options->format, "csv, kml, gpx, geojson or nmea")
+      ->required()
+      ->check(CLI::IsMember({"csv", "kml", "gpx", "geojson", "nmea"}));
+  command->add_option("--out", options->out, "file to write; with csv a folder")->required();
+  command->add_option("--epoch", options->epoch,
+                      "UTC of t_s = 0, e.g. 2026-01-31T12:00:00Z; default: that of import.json beside the "
+                      "data, else 2020-01-01T00:00:00Z");
+  command->add_option("--track", options->track, "only this track: nav, gps, usbl or reference");
+  command->add_option("--rate", options->rate_hz, "points a second; 0: every one; default 1")
+      ->check(CLI::Range(0.0, 1e5));
+  command->callback([options] {
+    try {
+      export_tracks(*options);
+    } catch (const dataset::DatasetError& error) {
+      throw Failure(ExitCode::bad_input, error.what());
+    }
+  });
+}
+
+}  // namespace fathom::cli

@@ -1,0 +1,191 @@
+#include "cli/export/tracks.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "dataset/csv_reader.hpp"
+#include "dataset/csv_writer.hpp"
+#include "dataset/dataset.hpp"
+#include "dataset/nav_rows.hpp"
+
+namespace fathom::cli {
+namespace {
+
+using exchange::Point;
+using exchange::Quality;
+using exchange::Track;
+
+constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+std::optional<TimeNs> parse_utc(const std::string& text) {
+  CivilTime civil;
+  double seconds = 0.0;
+  int end = 0;
+  const int read = std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d:%lf%n", &civil.year, &civil.month,
+                               &civil.day, &civil.hour, &civil.minute, &seconds, &end);
+  if (read != 6 || text.substr(static_cast<std::size_t>(end)) != "Z" || !(seconds >= 0.0 && seconds < 61.0))
+    return std::nullopt;
+  civil.second = static_cast<int>(seconds);
+  civil.nanosecond = from_seconds(seconds - civil.second);
+  return from_civil(civil);
+}
+
+Quality quality_of(GpsFix fix) {
+  switch (fix) {
+    case GpsFix::fix_2d:
+      return Quality::fix_2d;
+    case GpsFix::fix_3d:
+      return Quality::fix_3d;
+    case GpsFix::differential:
+      return Quality::differential;
+    case GpsFix::rtk_float:
+      return Quality::rtk_float;
+    case GpsFix::rtk_fixed:
+      return Quality::rtk_fixed;
+    case GpsFix::none:
+    case GpsFix::time_only:
+      return Quality::none;
+    case GpsFix::dead_reckoning:
+      return Quality::estimated;
+  }
+  return Quality::none;
+}
+
+class Adder {
+ public:
+  Adder(Track& track, double rate_hz)
+      : track_(track), period_ns_(rate_hz > 0.0 ? from_seconds(1.0 / rate_hz) : 0) {}
+
+  void add(Point point, double latitude_rad, double longitude_rad) {
+    if (!known(latitude_rad) || !known(longitude_rad)) return;
+    // A grid: what comes a little early is not left out.
+    if (started_ && point.utc_ns + period_ns_ / 10 < next_ns_) return;
+    if (!started_ || point.utc_ns - next_ns_ > period_ns_) next_ns_ = point.utc_ns;
+    started_ = true;
+    next_ns_ += period_ns_;
+    point.latitude_deg = latitude_rad * kDegPerRad;
+    point.longitude_deg = exchange::wrapped_longitude_deg(longitude_rad * kDegPerRad);
+    track_.points.push_back(point);
+  }
+
+ private:
+  Track& track_;
+  DurationNs period_ns_;
+  TimeNs next_ns_ = 0;
+  bool started_ = false;
+};
+
+double heading_deg(double yaw_rad) {
+  const double degrees = std::fmod(yaw_rad * kDegPerRad, 360.0);
+  return degrees < 0.0 ? degrees + 360.0 : degrees;
+}
+
+Track nav_track(const std::string& source, TimeNs epoch_ns, double rate_hz) {
+  Track track{"nav", {}};
+  Adder adder(track, rate_hz);
+  dataset::read_nav_rows(source, [&](const dataset::NavRow& row) {
+    Point point;
+    point.utc_ns = epoch_ns + row.t_ns;
+    point.altitude_m = row.altitude_m;
+    point.velocity_N_m_s = row.velocity_N_m_s;
+    point.heading_deg = heading_deg(row.rpy_rad[2]);
+    point.sigma_N_m = row.position_sigma_N_m;
+    point.quality = row.mode == "gps_aided"                        ? Quality::fix_3d
+                    : row.mode == "none" || row.mode == "aligning" ? Quality::none
+                                                                   : Quality::estimated;
+    adder.add(point, row.latitude_rad, row.longitude_rad);
+  });
+  return track;
+}
+
+std::vector<Track> dataset_tracks(const std::string& source, TimeNs epoch_ns, double rate_hz) {
+  const dataset::Dataset data = dataset::read(source, {epoch_ns, "auv"});
+  Track gps{"gps", {}};
+  Adder fixes(gps, rate_hz);
+  for (const GpsSample& fix : data.of<GpsSample>()) {
+    if (quality_of(fix.fix) == Quality::none) continue;
+    Point point;
+    point.utc_ns = fix.header.stamp_ns;
+    point.altitude_m = fix.altitude_m;
+    point.velocity_N_m_s = fix.velocity_N_m_s;
+    point.sigma_N_m = fix.position_sigma_N_m;
+    point.quality = quality_of(fix.fix);
+    point.satellites = fix.satellites;
+    fixes.add(point, fix.latitude_rad, fix.longitude_rad);
+  }
+  Track usbl{"usbl", {}};
+  Adder acoustic(usbl, rate_hz);
+  for (const UsblSample& fix : data.of<UsblSample>()) {
+    Point point;
+    point.utc_ns = fix.header.stamp_ns;
+    point.altitude_m = -fix.depth_m;
+    acoustic.add(point, fix.latitude_rad, fix.longitude_rad);
+  }
+  Track reference{"reference", {}};
+  Adder truth(reference, rate_hz);
+  for (const Truth& row : data.reference) {
+    Point point;
+    point.utc_ns = row.header.stamp_ns;
+    point.altitude_m = row.altitude_m;
+    point.velocity_N_m_s = row.velocity_N_m_s;
+    point.heading_deg = heading_deg(row.rpy_rad[2]);
+    truth.add(point, row.latitude_rad, row.longitude_rad);
+  }
+  std::vector<Track> tracks;
+  for (Track* track : {&gps, &usbl, &reference})
+    if (!track->points.empty()) tracks.push_back(std::move(*track));
+  return tracks;
+}
+
+}  // namespace
+
+TimeNs epoch_of(const std::string& source, const std::string& asked) {
+  if (!asked.empty()) {
+    if (const auto epoch_ns = parse_utc(asked)) return *epoch_ns;
+    throw Failure(ExitCode::bad_configuration,
+                  "--epoch " + asked + ": is no instant, expected one like 2026-01-31T12:00:00Z");
+  }
+  std::ifstream file(std::filesystem::path(source) / "import.json");
+  if (file) {
+    const auto json = nlohmann::json::parse(file, nullptr, false);
+    if (json.is_object() && json.contains("utc_of_start") && json["utc_of_start"].is_string())
+      if (const auto epoch_ns = parse_utc(json["utc_of_start"].get<std::string>())) return *epoch_ns;
+  }
+  return dataset::kDefaultEpochNs;
+}
+
+std::vector<Track> read_tracks(const std::string& source, TimeNs epoch_ns, double rate_hz) {
+  if (std::filesystem::is_directory(source)) return dataset_tracks(source, epoch_ns, rate_hz);
+  std::vector<Track> tracks{nav_track(source, epoch_ns, rate_hz)};
+  if (tracks.front().points.empty()) tracks.clear();
+  return tracks;
+}
+
+void copy_with_utc(const std::string& source, const std::string& out, TimeNs epoch_ns) {
+  if (std::filesystem::exists(out) && std::filesystem::equivalent(source, out))
+    throw dataset::DatasetError(out + ": is the source itself, expected another folder");
+  dataset::CsvReader csv(source);
+  const auto t = csv.column("t_s");
+  std::string header = "utc";
+  const std::size_t columns = csv.columns();
+  for (std::size_t i = 0; i < columns; ++i) header += "," + std::string(csv.name(i));
+  dataset::CsvWriter copy(out);
+  copy.line(header);
+  while (csv.next()) {
+    const double t_s = csv.number(t);
+    if (!(std::abs(t_s) < 4e9)) csv.fail("column t_s: '" + std::string(csv.text(t)) + "', expected seconds");
+    copy.text(to_iso8601(epoch_ns + from_seconds(t_s), 6));
+    for (std::size_t i = 0; i < columns; ++i) copy.text(csv.text(i));
+    copy.end_row();
+  }
+  copy.close();
+}
+
+}  // namespace fathom::cli

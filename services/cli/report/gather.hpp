@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "cli/solve/run.hpp"
+#include "report/material.hpp"
+
+namespace fathom::cli {
+
+/// Runs the engine over the data and keeps what a report shows. `solve_run.on_state` and `on_verdict` are not
+/// used.
+[[nodiscard]] report::Material gather(const SolveRun& solve_run);
+
+}  // namespace fathom::cli

@@ -1,0 +1,106 @@
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "cli/command.hpp"
+#include "cli/report/gather.hpp"
+#include "cli/solve/outage.hpp"
+#include "cli/solve/run.hpp"
+#include "config/fusion/fusion_config.hpp"
+#include "dataset/dataset.hpp"
+#include "report/material.hpp"
+#include "runtime/build_info.hpp"
+
+namespace fathom::cli {
+namespace {
+
+struct ReportOptions {
+  std::string directory;
+  std::string config;
+  std::vector<std::string> sets;
+  std::string out;
+  std::string outages;
+  std::string start;
+};
+
+report::Material make(const ReportOptions& options) {
+  config::LoadedConfig<config::FusionConfig> loaded =
+      config::load_service_config<config::FusionConfig>({options.config, options.sets});
+  dataset::Dataset data;
+  try {
+    data = dataset::read(options.directory, {dataset::kDefaultEpochNs, Name(loaded.value.common.vehicle)});
+  } catch (const dataset::DatasetError& error) {
+    throw Failure(ExitCode::bad_input, error.what());
+  }
+  if (data.of<ImuSample>().empty()) {
+    throw Failure(ExitCode::bad_input,
+                  options.directory + "/imu.csv: no inertial samples, expected at least one row");
+  }
+  adopt_sensor_names(data, loaded.value);
+  const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
+  SolveRun solve_run;
+  solve_run.config = &loaded.value;
+  solve_run.data = &data;
+  solve_run.arrivals = &arrivals;
+  solve_run.label = "report";
+  if (options.start == "reference")
+    solve_run.start = start_from_reference(data, loaded.value, options.directory);
+  if (!options.outages.empty()) {
+    solve_run.gps_removed =
+        first_windows(data, parse_outages(options.outages), dataset::kDefaultEpochNs, options.directory);
+  }
+  report::Material material = gather(solve_run);
+  const std::filesystem::path folder = std::filesystem::path(options.directory).lexically_normal();
+  material.title =
+      "Navigation of " + (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+  material.source = options.directory;
+  material.config = options.config;
+  material.config_hash = loaded.hash;
+  material.version = "fathom " + std::string(runtime::version());
+  return material;
+}
+
+}  // namespace
+
+void add_report(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<ReportOptions>();
+  CLI::App* command = app.add_subcommand(
+      "report", "Runs a data set through the fusion engine and writes one HTML page about the run.");
+  command->footer(
+      "The page says first what to look at, then shows the track, errors against reference.csv where there "
+      "is\n"
+      "one, sigmas, innovations, outages with their forecasts, and alignment. It needs nothing from "
+      "elsewhere,\n"
+      "and is readable by day, by night and on paper.");
+  command->add_option("directory", options->directory, "data set, as of fathom solve")->required();
+  command->add_option("--config", options->config, "configuration of the fusion service")->required();
+  command->add_option("--set", options->sets, "override: key.sub=value, may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--out", options->out, "the page (HTML)")->required();
+  command->add_option("--gps-outage", options->outages,
+                      "remove GPS as fathom solve does, to see forecasts against what came");
+  command->add_option("--start", options->start, "\"reference\": from the first row of reference.csv")
+      ->check(CLI::IsMember({"reference"}));
+  command->callback([options, &exit_code] {
+    const report::Material material = make(*options);
+    std::ofstream file(options->out, std::ios::binary);
+    file << report::page(material);
+    file.close();
+    if (!file) {
+      throw Failure(ExitCode::runtime_failure, options->out + ": cannot be written: " + std::strerror(errno));
+    }
+    bool any = false;
+    for (const report::StateRow& row : material.states) any = any || known(row.latitude_rad);
+    for (const report::Finding& one : report::findings(material)) std::printf("%s\n", one.text.c_str());
+    if (!any) exit_code = ExitCode::no;
+  });
+}
+
+}  // namespace fathom::cli
