@@ -25,7 +25,7 @@ struct Options {
   DurationNs before_ns = 30 * kNsPerSecond;   ///< of an event
   DurationNs after_ns = 60 * kNsPerSecond;    ///< of the last event
   std::uint64_t before_bytes = 64U << 20U;    ///< most memory for what is before an event
-  std::vector<std::string> topics{};          ///< empty: all
+  std::vector<std::string> topics{};          ///< empty: all but the engine's state
   std::string library = "fathom";             ///< who records, with version
 };
 

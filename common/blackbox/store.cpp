@@ -35,8 +35,9 @@ void Store::add(Origin origin) {
 void Store::add(Sample sample) {
   Known& known = known_.at(sample.origin);
   const std::uint32_t sequence = ++known.sequence;
-  if (known.origin.latched) keep_latched(sample, sequence);
+  const bool latched = known.origin.latched;
   if (options_.around_events && (!keep_until_ns_ || sample.log_ns > *keep_until_ns_)) {
+    if (latched) keep_latched(sample, sequence);
     ring_bytes_ += sample.bytes.size();
     ring_.emplace_back(std::move(sample), sequence);
     const TimeNs newest_ns = ring_.back().first.log_ns;
@@ -47,8 +48,10 @@ void Store::add(Sample sample) {
     }
     return;
   }
-  if (!ready(sample.log_ns)) return lose(1, {});
-  write(sample, sequence);
+  const bool is_ready = ready(sample.log_ns);
+  if (latched) keep_latched(sample, sequence);  // after a new file began, which repeats those before it
+  if (is_ready) return write(sample, sequence);
+  note_lost(known.origin.topic, {1, sample.log_ns, sample.log_ns});
 }
 
 void Store::write(Sample& sample, std::uint32_t sequence) {
@@ -65,10 +68,9 @@ void Store::write(Sample& sample, std::uint32_t sequence) {
                                           {"writer_guid", origin.writer_guid},
                                           {"latched", origin.latched ? "true" : "false"}});
   }
-  const std::uint64_t lost = writer_->lost();
   const std::string why =
       writer_->write({known.channel, sequence, sample.log_ns, sample.publish_ns, sample.bytes});
-  if (!why.empty()) lose(writer_->lost() - lost, why);
+  if (!why.empty()) fail(why);
 }
 
 void Store::keep_latched(const Sample& sample, std::uint32_t sequence) {
@@ -93,13 +95,12 @@ void Store::add(const Event& event) {
   const bool wanted = !options_.around_events || keep_until_ns_;
   if (!wanted || marks_ >= kMostMarks || !ready(event.time_ns)) return;
   ++marks_;
-  const std::uint64_t lost = writer_->lost();
   const std::string why = writer_->add({"event",
                                         {{"kind", event.kind},
                                          {"text", event.text},
                                          {"time_ns", std::to_string(event.time_ns)},
                                          {"time", to_iso8601(event.time_ns)}}});
-  if (!why.empty()) lose(writer_->lost() - lost, why);
+  if (!why.empty()) fail(why);
 }
 
 void Store::add(Enclosure enclosure) {
@@ -109,24 +110,26 @@ void Store::add(Enclosure enclosure) {
 }
 
 void Store::enclose(const Enclosure& one) {
-  const std::uint64_t lost = writer_->lost();
   const std::string why =
       writer_->attach({one.created_ns, one.created_ns, one.name, one.media_type, one.data, 0});
-  if (!why.empty()) lose(writer_->lost() - lost, why);
+  if (!why.empty()) fail(why);
 }
 
 void Store::add_dropped(const std::map<std::string, Dropped>& dropped) {
   std::uint64_t total = 0;
   for (const auto& [topic, one] : dropped) {
-    Dropped& sum = dropped_[topic];
-    if (sum.count == 0) sum.first_ns = one.first_ns;
-    sum.count += one.count;
-    sum.last_ns = one.last_ns;
+    note_lost(topic, one);
     total += one.count;
   }
-  if (total == 0) return;
-  counts_.lost += total;
-  say_(std::to_string(total) + " samples were dropped: the disk does not keep up");
+  if (total > 0) say_(std::to_string(total) + " samples were dropped: the disk does not keep up");
+}
+
+void Store::note_lost(const std::string& topic, const Dropped& one) {
+  Dropped& sum = dropped_[topic];
+  if (sum.count == 0) sum.first_ns = one.first_ns;
+  sum.count += one.count;
+  sum.last_ns = one.last_ns;
+  counts_.lost += one.count;
 }
 
 bool Store::ready(TimeNs now_ns) {
@@ -142,7 +145,7 @@ void Store::begin(TimeNs now_ns) {
   auto sink = create_(path_);
   if (!sink) {
     retry_ns_ = now_ns + kRetryNs;
-    return lose(0, sink.error().message);
+    return fail(sink.error().message);
   }
   record::WriterOptions options;
   options.compression = options_.compression;
@@ -157,7 +160,7 @@ void Store::begin(TimeNs now_ns) {
     writer_.reset();
     std::error_code ignored;
     fs::remove(path_, ignored);
-    return lose(0, why);
+    return fail(why);
   }
   ++counts_.files;
   counts_.file = path_.string();
@@ -172,7 +175,6 @@ void Store::begin(TimeNs now_ns) {
 
 void Store::settle(TimeNs now_ns) {
   if (!writer_) return;
-  const std::uint64_t lost = writer_->lost();
   std::string why = writer_->flush();
   if (why.empty() && !dropped_.empty()) {
     record::TextMap told;
@@ -185,7 +187,7 @@ void Store::settle(TimeNs now_ns) {
   }
   if (why.empty()) why = writer_->sync();
   if (why.empty()) well();
-  if (!why.empty()) lose(writer_->lost() - lost, why);
+  if (!why.empty()) fail(why);
   counts_.bytes = bytes_before_ + writer_->size();
   counts_.samples = samples_before_ + writer_->messages();
   const bool large = options_.split_bytes > 0 && writer_->size() >= options_.split_bytes;
@@ -200,8 +202,7 @@ void Store::settle(TimeNs now_ns) {
 }
 
 void Store::end_file() {
-  const std::uint64_t lost = writer_->lost();
-  if (const std::string why = writer_->finish(); !why.empty()) lose(writer_->lost() - lost, why);
+  if (const std::string why = writer_->finish(); !why.empty()) fail(why);
   bytes_before_ += writer_->size();
   samples_before_ += writer_->messages();
   counts_.bytes = bytes_before_;
@@ -216,9 +217,17 @@ void Store::finish() {
   if (writer_) end_file();
 }
 
-void Store::lose(std::uint64_t samples, const std::string& why) {
-  counts_.lost += samples;
-  if (why.empty()) return;
+/// The file cannot be written now. What was on its way there is lost.
+void Store::fail(const std::string& why) {
+  if (writer_) {
+    for (const auto& [channel, one] : writer_->take_lost()) {
+      for (const Known& known : known_) {
+        if (known.channel != channel) continue;
+        note_lost(known.origin.topic, {one.count, one.first_time, one.last_time});
+        break;
+      }
+    }
+  }
   if (counts_.trouble.empty()) say_(path_.string() + ": cannot be written: " + why);
   counts_.trouble = why;
   // Where it is the room that is missing, the oldest makes it.

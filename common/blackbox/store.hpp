@@ -67,7 +67,8 @@ class Store {
   void keep_latched(const Sample& sample, std::uint32_t sequence);
   void enclose(const Enclosure& one);
   void end_file();
-  void lose(std::uint64_t samples, const std::string& why);
+  void note_lost(const std::string& topic, const Dropped& one);
+  void fail(const std::string& why);
   void well();
   void keep_quota();
   bool remove_oldest();

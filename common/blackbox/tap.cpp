@@ -44,8 +44,10 @@ struct Tap::Impl {
        const std::vector<std::string>& topics, std::string host_in)
       : participant(participant_in), queue(queue_in), clock(clock_in), host(std::move(host_in)) {
     for (const bus::TopicInfo& topic : bus::all_topics()) {
-      if (topics.empty() || std::find(topics.begin(), topics.end(), topic.topic) != topics.end())
-        listen(topic);
+      const bool named = std::find(topics.begin(), topics.end(), topic.topic) != topics.end();
+      // The engine's state is for those who may take over, unless it is asked for.
+      const bool usual = topics.empty() && topic.topic != std::string_view("fathom/v1/engine_state");
+      if (named || usual) listen(topic);
     }
   }
 

@@ -16,8 +16,9 @@ namespace fathom::blackbox {
 /// and fusion's checkpoint.
 class Tap {
  public:
-  /// `topics`: empty: all. A topic that cannot be listened to is left out; refused() says why. `clock` is the
-  /// vehicle's. All outlive this. `host`: name of this host.
+  /// `topics`: empty: all but the engine's state, which permissions keep to fusion. A topic that cannot be
+  /// listened to is left out; refused() says why. `clock` is the vehicle's. All outlive this. `host`: name of
+  /// this host.
   Tap(bus::Participant& participant, Queue& queue, const Clock& clock, const std::vector<std::string>& topics,
       std::string host);
   ~Tap();

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -24,6 +25,7 @@ Error because(const std::filesystem::path& path, const std::string& what) {
 Result<std::unique_ptr<FileSink>> FileSink::create(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0640);
   if (descriptor < 0) return because(path, "cannot be created");
+  (void)::flock(descriptor, LOCK_EX | LOCK_NB);  // for go_on() of others; some file systems have none
   return std::unique_ptr<FileSink>(new FileSink(descriptor, 0));
 }
 
@@ -31,6 +33,9 @@ Result<std::unique_ptr<FileSink>> FileSink::go_on(const std::filesystem::path& p
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor < 0) return because(path, "cannot be written");
   std::unique_ptr<FileSink> sink(new FileSink(descriptor, size));
+  if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    return Error{path.string() + ": somebody is writing it now"};
+  }
   if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) return because(path, "cannot be cut");
   if (::lseek(descriptor, static_cast<off_t>(size), SEEK_SET) < 0) return because(path, "cannot be written");
   return sink;

@@ -35,7 +35,7 @@ class Source {
 class FileSink final : public Sink {
  public:
   [[nodiscard]] static Result<std::unique_ptr<FileSink>> create(const std::filesystem::path& path);
-  /// Cuts the file to `size` bytes and goes on behind them.
+  /// Cuts the file to `size` bytes and goes on behind them. An error while another process writes it.
   [[nodiscard]] static Result<std::unique_ptr<FileSink>> go_on(const std::filesystem::path& path,
                                                                std::uint64_t size);
   ~FileSink() override;

@@ -95,7 +95,11 @@ std::string Writer::flush() {
       }
     }
   } else {
-    lost_ += open_.size();
+    for (const auto& [channel, log_time] : open_) {
+      Lost& lost = lost_[channel];
+      if (lost.count++ == 0) lost.first_time = log_time;
+      lost.last_time = log_time;
+    }
     // Whatever was described in this chunk alone has to be described again.
     std::erase_if(described_, [&](std::uint16_t id) { return !contents_.channels.contains(id); });
   }

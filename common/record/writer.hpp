@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "record/compression.hpp"
@@ -21,9 +22,16 @@ struct WriterOptions {
   std::string library = "fathom";
 };
 
+/// Messages of a channel that did not come into the file.
+struct Lost {
+  std::uint64_t count = 0;
+  TimeNs first_time = 0;
+  TimeNs last_time = 0;
+};
+
 /// Writes an MCAP file. Messages are gathered in a chunk; what was flushed can be read by anybody whatever
 /// happens to this process afterwards. Functions that touch the file return why they failed, or nothing.
-/// After a failure the messages of the open chunk are dropped (lost() counts them), the file stands as it
+/// After a failure the messages of the open chunk are dropped (take_lost() says which), the file stands as it
 /// was, and writing may go on. Not thread-safe.
 class Writer {
  public:
@@ -54,7 +62,8 @@ class Writer {
 
   [[nodiscard]] std::uint64_t size() const { return sink_->size() + chunk_.size(); }
   [[nodiscard]] std::uint64_t messages() const { return contents_.statistics.message_count; }  ///< flushed
-  [[nodiscard]] std::uint64_t lost() const { return lost_; }
+  /// What was dropped since the last call, by channel.
+  [[nodiscard]] std::map<std::uint16_t, Lost> take_lost() { return std::exchange(lost_, {}); }
 
  private:
   [[nodiscard]] std::string put(View bytes);
@@ -75,7 +84,7 @@ class Writer {
   std::vector<std::pair<std::uint16_t, TimeNs>> open_;  // messages of the open chunk
   Bytes packed_;
   Bytes out_;
-  std::uint64_t lost_ = 0;
+  std::map<std::uint16_t, Lost> lost_;
 };
 
 }  // namespace fathom::record

@@ -38,8 +38,6 @@ void add_study(CLI::App& app, ExitCode& exit_code);
 void add_bench(CLI::App& app, ExitCode& exit_code);
 void add_doctor(CLI::App& app, ExitCode& exit_code);
 void add_keygen(CLI::App& app, ExitCode& exit_code);
-
-/// Sub-commands that have a name and that this build does not have: they say so and end with code 2.
-void add_missing(CLI::App& app);
+void add_record(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli

@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
   fathom::cli::add_bench(app, exit_code);
   fathom::cli::add_doctor(app, exit_code);
   fathom::cli::add_keygen(app, exit_code);
-  fathom::cli::add_missing(app);
+  fathom::cli::add_record(app, exit_code);
 
   try {
     app.parse(argc, argv);

@@ -49,7 +49,7 @@ function unlz4(frame, size) {
   }
   return out;
 }
-const decompressHandlers = { zstd: (bytes) => unzstd(bytes), lz4: unlz4 };
+const decompressHandlers = { zstd: (bytes, size) => unzstd(bytes, new Uint8Array(Number(size))), lz4: unlz4 };
 
 const bits = new DataView(new ArrayBuffer(8));
 function leaves(value, field, definitions, out) {

@@ -102,7 +102,7 @@ TEST(Recovery, KeepsALongRest) {
   auto reader = test::reader_of(bytes);
   const auto& chunk = reader.value().contents().chunks[1];
   bytes[chunk.chunk_start_offset + 5] = 0x70;  // its length: beyond the end of any file
-  bytes.pop_back();  // and it was not closed
+  bytes.pop_back();                            // and it was not closed
   save(folder / "torn.mcap", bytes);
   const auto recovery = record::recover(folder / "torn.mcap", {}, 100);
   ASSERT_TRUE(recovery) << recovery.error().message;

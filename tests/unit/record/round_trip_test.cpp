@@ -149,7 +149,11 @@ TEST(Writer, AFailedAppendLosesItsChunkAndNothingElse) {
   ASSERT_EQ(writer.write({a, 2, 20, 20, {}}), "");
   ASSERT_EQ(writer.write({b, 3, 21, 21, {}}), "");
   EXPECT_EQ(writer.flush(), "No space left on device");
-  EXPECT_EQ(writer.lost(), 2U);
+  auto lost = writer.take_lost();
+  EXPECT_EQ(lost.size(), 2U);
+  EXPECT_EQ(lost[a].count, 1U);
+  EXPECT_EQ(lost[b].last_time, 21);
+  EXPECT_TRUE(writer.take_lost().empty());
   disk.full = false;
   ASSERT_EQ(writer.write({b, 4, 30, 30, {}}), "");
   ASSERT_EQ(writer.finish(), "");
