@@ -32,6 +32,16 @@ std::optional<std::string> key_of(std::string_view topic, std::span<const std::u
   return ops.key_text(sample.get());
 }
 
+std::optional<std::vector<std::uint8_t>> with_header(std::string_view topic,
+                                                     std::span<const std::uint8_t> bytes,
+                                                     const std::function<void(SampleHeader&)>& change) {
+  const detail::TopicOps& ops = ops_of(topic);
+  const std::unique_ptr<void, void (*)(void*)> sample(ops.create(), ops.destroy);
+  if (!detail::decode(ops, bytes, sample.get())) return std::nullopt;
+  change(ops.header(sample.get()));
+  return detail::encode(ops, sample.get());
+}
+
 struct RawReader::Impl {
   detail::ReaderCore core;
 };

@@ -12,6 +12,7 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
+#include "samples/header.hpp"
 
 namespace fathom::bus {
 
@@ -20,6 +21,11 @@ namespace fathom::bus {
 
 /// The key of a sample in words, e.g. "auv/gps0"; nothing when the bytes are no sample of the topic's type.
 [[nodiscard]] std::optional<std::string> key_of(std::string_view topic, std::span<const std::uint8_t> bytes);
+
+/// The bytes of a sample whose header `change` has changed; nothing when they are none.
+[[nodiscard]] std::optional<std::vector<std::uint8_t>> with_header(
+    std::string_view topic, std::span<const std::uint8_t> bytes,
+    const std::function<void(SampleHeader&)>& change);
 
 /// Receives the samples of any topic of all_topics() as the bytes that travelled: CDR with its encapsulation
 /// header, in the byte order of the writer's host, not decoded and not checked. It meets the same writers as

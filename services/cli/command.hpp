@@ -39,5 +39,6 @@ void add_bench(CLI::App& app, ExitCode& exit_code);
 void add_doctor(CLI::App& app, ExitCode& exit_code);
 void add_keygen(CLI::App& app, ExitCode& exit_code);
 void add_record(CLI::App& app, ExitCode& exit_code);
+void add_replay(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli

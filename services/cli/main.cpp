@@ -38,6 +38,7 @@ int main(int argc, char** argv) {
   fathom::cli::add_doctor(app, exit_code);
   fathom::cli::add_keygen(app, exit_code);
   fathom::cli::add_record(app, exit_code);
+  fathom::cli::add_replay(app, exit_code);
 
   try {
     app.parse(argc, argv);

@@ -13,9 +13,9 @@
 #include "base/clock.hpp"
 #include "blackbox/recorder.hpp"
 #include "blackbox/tap.hpp"
-#include "bus/topics.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
+#include "cli/record/open.hpp"
 #include "record/recover.hpp"
 #include "runtime/build_info.hpp"
 
@@ -45,18 +45,6 @@ void recover(const std::string& path) {
               path.c_str(), static_cast<unsigned long long>(one.messages),
               static_cast<unsigned long long>(one.cut), one.ending.c_str(),
               one.rest.empty() ? "" : ", kept in ", one.rest.c_str());
-}
-
-std::vector<std::string> topics_of(const std::vector<std::string>& words) {
-  std::vector<std::string> out;
-  for (const std::string& word : words) {
-    const std::string full = word.find('/') == std::string::npos ? "fathom/v1/" + word : word;
-    const auto all = bus::all_topics();
-    if (std::none_of(all.begin(), all.end(), [&](const auto& topic) { return full == topic.topic; }))
-      throw Failure(ExitCode::bad_configuration, "--topic " + word + ": there is no such topic");
-    out.push_back(full);
-  }
-  return out;
 }
 
 std::string default_name(TimeNs now_ns) {
