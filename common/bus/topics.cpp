@@ -11,6 +11,7 @@
 #include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
+#include "samples/status/intake.hpp"
 #include "samples/status/replication.hpp"
 #include "samples/status/route.hpp"
 #include "samples/truth.hpp"
@@ -32,7 +33,7 @@ std::vector<const detail::TopicOps*> instruments_and() {
 const std::vector<const detail::TopicOps*>& detail::all_topic_ops() {
   static const auto topics =
       instruments_and<NavState, NavDetail, Verdict, AlignmentStatus, Forecast, Alarm, MonitorStatus,
-                      ServiceStatus, Command, ReplicaStatus, EngineStatePart, Route, Truth>();
+                      ServiceStatus, Command, ReplicaStatus, EngineStatePart, Route, Truth, IntakeRecord>();
   return topics;
 }
 

@@ -15,7 +15,7 @@
 #include "blackbox/tap.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
-#include "cli/record/open.hpp"
+#include "cli/recording.hpp"
 #include "record/recover.hpp"
 #include "runtime/build_info.hpp"
 

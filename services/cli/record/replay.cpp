@@ -11,7 +11,8 @@
 #include "blackbox/player.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
-#include "cli/record/open.hpp"
+#include "cli/record/verify.hpp"
+#include "cli/recording.hpp"
 #include "record/reader.hpp"
 #include "samples/kinds.hpp"
 
@@ -26,6 +27,7 @@ struct ReplayOptions {
   bool sensors_only = false;
   bool loop = false;
   bool now = false;
+  bool verify = false;
   std::vector<std::string> topics;
   std::vector<std::string> renames;
   bus::ParticipantOptions bus;
@@ -96,8 +98,12 @@ void add_replay(CLI::App& app, ExitCode& exit_code) {
       ->allow_extra_args(false);
   command->add_flag("--now", options->now, "move all stamps, so that it happens now");
   command->add_flag("--loop", options->loop, "begin again at the end, until Ctrl-C");
+  command->add_flag(
+      "--verify", options->verify,
+      "publish nothing: prove that states and verdicts follow from the samples, to the last bit");
   add_bus_options(*command, options->bus, "cli");
-  command->callback([options, &exit_code] { exit_code = replay(*options); });
+  command->callback(
+      [options, &exit_code] { exit_code = options->verify ? verify(options->file) : replay(*options); });
 }
 
 }  // namespace fathom::cli

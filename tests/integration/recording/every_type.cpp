@@ -116,6 +116,7 @@ int run(const char* path, std::string_view compression) {
   recording.add<EngineStatePart>();
   recording.add<Route>();
   recording.add<Truth>();
+  recording.add<IntakeRecord>();
   const record::Bytes note{'x'};
   recording.failure += writer.attach({recording.now, recording.now, "note", "text/plain", note, 0});
   recording.failure += writer.finish();
