@@ -27,10 +27,10 @@ struct Recorder::Impl {
     for (const auto& path : recordings_in(options.out)) {
       const auto recovery = record::recover(path);
       if (!recovery) {
-        say(recovery.error().message);
+        say(true, recovery.error().message);
       } else if (!recovery.value().was_whole) {
-        say(path.string() + ": was not closed (" + recovery.value().ending + "); closed with " +
-            std::to_string(recovery.value().messages) + " messages");
+        say(false, path.string() + ": was not closed (" + recovery.value().ending + "); closed with " +
+                       std::to_string(recovery.value().messages) + " messages");
       }
     }
   }

@@ -121,7 +121,7 @@ void Store::add_dropped(const std::map<std::string, Dropped>& dropped) {
     note_lost(topic, one);
     total += one.count;
   }
-  if (total > 0) say_(std::to_string(total) + " samples were dropped: the disk does not keep up");
+  if (total > 0) say_(true, std::to_string(total) + " samples were dropped: the disk does not keep up");
 }
 
 void Store::note_lost(const std::string& topic, const Dropped& one) {
@@ -164,7 +164,7 @@ void Store::begin(TimeNs now_ns) {
   }
   ++counts_.files;
   counts_.file = path_.string();
-  say_("recording to " + path_.string());
+  say_(false, "recording to " + path_.string());
   for (const auto& [name, one] : enclosures_) enclose(one);
   for (auto& [key, entry] : latched_) {
     Sample again = entry.first;
@@ -228,7 +228,7 @@ void Store::fail(const std::string& why) {
       }
     }
   }
-  if (counts_.trouble.empty()) say_(path_.string() + ": cannot be written: " + why);
+  if (counts_.trouble.empty()) say_(true, path_.string() + ": cannot be written: " + why);
   counts_.trouble = why;
   // Where it is the room that is missing, the oldest makes it.
   if (options_.quota_bytes > 0 && why == std::generic_category().message(ENOSPC)) remove_oldest();
@@ -236,7 +236,7 @@ void Store::fail(const std::string& why) {
 
 void Store::well() {
   if (counts_.trouble.empty()) return;
-  say_(path_.string() + ": is written again, " + std::to_string(counts_.lost) + " samples were lost");
+  say_(false, path_.string() + ": is written again, " + std::to_string(counts_.lost) + " samples were lost");
   counts_.trouble.clear();
 }
 
@@ -248,7 +248,7 @@ bool Store::remove_oldest() {
     fs::remove(one, failed);
     if (failed) continue;
     ++counts_.removed;
-    say_(one.string() + ": removed, to make room");
+    say_(false, one.string() + ": removed, to make room");
     return true;
   }
   return false;

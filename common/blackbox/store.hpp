@@ -35,9 +35,9 @@ class Store {
  public:
   /// Makes the file of this path. The error says why it cannot be made.
   using Create = std::function<Result<std::unique_ptr<record::Sink>>(const std::filesystem::path& path)>;
-  using Say = std::function<void(const std::string& line)>;
+  /// What people should read, as a line of the log.
+  using Say = std::function<void(bool is_trouble, const std::string& line)>;
 
-  /// `say`: what people should read, as a line of the log.
   Store(Options options, Create create, Say say);
 
   void add(Origin origin);

@@ -81,13 +81,14 @@ struct Tap::Impl {
     if (latched) sample.key = bus::key_of(topic.topic, bytes).value_or("");
     {
       const std::lock_guard lock(mutex);
-      const auto found = origins.find({topic.topic, info.writer_guid});
+      const std::pair<const char*, WriterGuid> key(topic.topic, info.writer_guid);  // a text of the program
+      const auto found = origins.find(key);
       if (found != origins.end()) {
         sample.origin = found->second;
       } else if (origins.size() < kMostOrigins) {
         sample.origin = queue.add({topic.topic, topic.type, participant.writer_name(info.writer_guid),
                                    hexadecimal(info.writer_guid), latched});
-        origins.emplace(std::pair(std::string(topic.topic), info.writer_guid), sample.origin);
+        origins.emplace(key, sample.origin);
       } else {
         return;
       }
@@ -139,7 +140,7 @@ struct Tap::Impl {
   std::vector<std::string> refused;
 
   std::mutex mutex;
-  std::map<std::pair<std::string, WriterGuid>, std::uint32_t> origins;
+  std::map<std::pair<const char*, WriterGuid>, std::uint32_t> origins;
   std::map<Name, bool> alarms;
   std::map<Name, std::pair<std::uint32_t, TimeNs>> services;
 

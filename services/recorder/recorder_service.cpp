@@ -49,7 +49,9 @@ struct RecorderService::Impl {
   Impl(host::ServiceHost& the_host, const config::RecorderConfig& config)
       : host(the_host),
         recorder(options_of(config, the_host), the_host.clock(),
-                 [log = &the_host.log()](const std::string& line) { log->warning(line); }),
+                 [log = &the_host.log()](bool is_trouble, const std::string& line) {
+                   log->write(is_trouble ? runtime::LogLevel::warning : runtime::LogLevel::info, line);
+                 }),
         tap(the_host.participant(), recorder.queue(), the_host.clock(), config.topics, runtime::host_name()) {
     for (const std::string& topic : tap.refused()) host.log().warning("not recorded: " + topic);
     host.on_status([this](ServiceStatus& status) { fill(status); });

@@ -75,7 +75,7 @@ ExitCode record(const RecordOptions& options) {
   blackbox::StoreCounts counts;
   {
     bus::Participant participant(options.bus);
-    blackbox::Recorder recorder(keep, clock, [](const std::string& line) {
+    blackbox::Recorder recorder(keep, clock, [](bool /*is_trouble*/, const std::string& line) {
       std::fprintf(stderr, "fathom: record: %s\n", line.c_str());
     });
     const blackbox::Tap tap(participant, recorder.queue(), clock, topics, runtime::host_name());

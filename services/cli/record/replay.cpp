@@ -20,7 +20,7 @@ namespace fathom::cli {
 namespace {
 
 struct ReplayOptions {
-  std::string file;
+  std::vector<std::string> files;
   double speed = 1.0;
   double from_s = 0.0;
   double to_s = 0.0;
@@ -36,14 +36,15 @@ struct ReplayOptions {
 volatile std::sig_atomic_t stopped = 0;
 
 ExitCode replay(const ReplayOptions& options) {
-  record::Reader reader = open_recording(options.file);
+  std::vector<record::Reader> readers;
+  for (const std::string& file : options.files) readers.push_back(open_recording(file));
   blackbox::PlayOptions play;
   play.speed = options.speed;
   play.now = options.now;
   play.selection.topics = topics_of(options.topics);
   if (options.sensors_only)
     for_each_kind([&](auto kind) { play.selection.topics.emplace_back(kind.kTopic); });
-  const TimeNs begin = reader.contents().statistics.message_start_time;
+  const TimeNs begin = readers.front().contents().statistics.message_start_time;
   if (options.from_s > 0.0) play.selection.from = begin + from_seconds(options.from_s);
   if (options.to_s > 0.0) play.selection.to = begin + from_seconds(options.to_s);
   for (const std::string& rename : options.renames) {
@@ -60,16 +61,20 @@ ExitCode replay(const ReplayOptions& options) {
   std::signal(SIGTERM, [](int) { stopped = 1; });
   bus::Participant participant(options.bus);
   blackbox::Played sum;
+  bool came = true;
   do {
-    const blackbox::Played played = blackbox::play(reader, participant, play, [] { return stopped == 0; });
-    sum.samples += played.samples;
-    sum.refused += played.refused;
-    sum.problems = played.problems;
-    if (played.samples == 0) break;
-  } while (options.loop && stopped == 0);
+    came = false;
+    for (record::Reader& reader : readers) {
+      const blackbox::Played played = blackbox::play(reader, participant, play, [] { return stopped == 0; });
+      sum.samples += played.samples;
+      sum.refused += played.refused;
+      sum.problems.insert(sum.problems.end(), played.problems.begin(), played.problems.end());
+      came = came || played.samples > 0;
+    }
+  } while (options.loop && stopped == 0 && came && sum.problems.empty());
   for (const std::string& problem : sum.problems)
-    std::fprintf(stderr, "fathom: %s: %s\n", options.file.c_str(), problem.c_str());
-  std::printf("%s: %llu samples published, %llu refused\n", options.file.c_str(),
+    std::fprintf(stderr, "fathom: %s: %s\n", options.files.front().c_str(), problem.c_str());
+  std::printf("%s: %llu samples published, %llu refused\n", options.files.front().c_str(),
               static_cast<unsigned long long>(sum.samples), static_cast<unsigned long long>(sum.refused));
   return sum.problems.empty() && sum.refused == 0 && sum.samples > 0 ? ExitCode::done : ExitCode::no;
 }
@@ -81,7 +86,9 @@ void add_replay(CLI::App& app, ExitCode& exit_code) {
   options->bus.name = "fathom_replay";
   auto* command =
       app.add_subcommand("replay", "Publishes a recording on the vehicle network again, as it arrived.");
-  command->add_option("file", options->file, "recording (MCAP)")->required()->check(CLI::ExistingFile);
+  command->add_option("file", options->files, "recording (MCAP); several that follow one another")
+      ->required()
+      ->check(CLI::ExistingFile);
   command->add_option("--speed", options->speed, "times as fast; 0: as fast as it goes")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
@@ -103,7 +110,7 @@ void add_replay(CLI::App& app, ExitCode& exit_code) {
       "publish nothing: prove that states and verdicts follow from the samples, to the last bit");
   add_bus_options(*command, options->bus, "cli");
   command->callback(
-      [options, &exit_code] { exit_code = options->verify ? verify(options->file) : replay(*options); });
+      [options, &exit_code] { exit_code = options->verify ? verify(options->files) : replay(*options); });
 }
 
 }  // namespace fathom::cli

@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "bus/cdr.hpp"
 #include "cli/command.hpp"
@@ -29,57 +31,68 @@ std::string process_of(const record::Channel& channel) {
   return guid == channel.metadata.end() ? "" : guid->second.substr(0, 24);
 }
 
+struct File {
+  std::string name;
+  record::Reader reader;
+};
+
 class Verification {
  public:
-  explicit Verification(std::string file) : file_(std::move(file)), reader_(open_recording(file_)) {}
+  explicit Verification(const std::vector<std::string>& files) : name_(files.front()) {
+    for (const std::string& file : files) files_.push_back({file, open_recording(file)});
+  }
 
   ExitCode run() {
-    find_runs();
+    for (File& file : files_) find_runs(file);
     if (runs_.empty()) {
       throw Failure(ExitCode::bad_input,
-                    file_ + ": no fusion service says in it what it took (fathom/v1/intake)");
+                    name_ + ": no fusion service says in it what it took (fathom/v1/intake)");
     }
     record::Selection selection;
     for_each_kind([&](auto kind) { selection.topics.emplace_back(kind.kTopic); });
     for (const char* topic :
          {"fathom/v1/command", "fathom/v1/intake", "fathom/v1/nav_state", "fathom/v1/verdict"})
       selection.topics.emplace_back(topic);
-    const record::Outcome outcome =
-        reader_.read(selection, [&](const record::Channel& channel, const record::Message& message) {
-          take(channel, message);
-          return true;
-        });
-    return answer(outcome);
+    record::Outcome all;
+    for (File& file : files_) {
+      const record::Outcome outcome =
+          file.reader.read(selection, [&](const record::Channel& channel, const record::Message& message) {
+            take(channel, message);
+            return true;
+          });
+      all.problems.insert(all.problems.end(), outcome.problems.begin(), outcome.problems.end());
+    }
+    return answer(all);
   }
 
  private:
-  void find_runs() {
-    const record::Outcome outcome = reader_.read(
-        {{"fathom/v1/intake"}}, [&](const record::Channel& channel, const record::Message& message) {
-          if (runs_.contains(process_of(channel))) return true;
-          const auto intake = bus::from_cdr<IntakeRecord>(message.data);
-          if (intake) begin(runs_[process_of(channel)], *intake);
-          return true;
-        });
-    reader_.read({{"fathom/v1/service_status"}},
-                 [&](const record::Channel& channel, const record::Message& message) {
-                   const auto status = bus::from_cdr<ServiceStatus>(message.data);
-                   if (status && runs_.contains(process_of(channel))) {
-                     versions_.insert(status->version);
-                     hashes_[status->header.sensor.str()].insert(status->config_hash);
-                   }
-                   return true;
-                 });
+  void find_runs(File& file) {
+    file.reader.read({{"fathom/v1/intake"}},
+                     [&](const record::Channel& channel, const record::Message& message) {
+                       if (runs_.contains(process_of(channel))) return true;
+                       const auto intake = bus::from_cdr<IntakeRecord>(message.data);
+                       if (intake) begin(file, runs_[process_of(channel)], *intake);
+                       return true;
+                     });
+    file.reader.read({{"fathom/v1/service_status"}},
+                     [&](const record::Channel& channel, const record::Message& message) {
+                       const auto status = bus::from_cdr<ServiceStatus>(message.data);
+                       if (status && runs_.contains(process_of(channel))) {
+                         versions_.insert(status->version);
+                         hashes_[status->header.sensor.str()].insert(status->config_hash);
+                       }
+                       return true;
+                     });
   }
 
-  void begin(Run& run, const IntakeRecord& intake) {
+  void begin(File& file, Run& run, const IntakeRecord& intake) {
     run.service = intake.header.sensor.str();
     if (intake.resumed) {
       run.no_proof = "it went on from a state of another run, which is not in the recording";
     } else if (intake.first != 0) {
       run.no_proof = "it had taken " + std::to_string(intake.first) + " samples before the recording began";
     } else {
-      const auto loaded = recorded_configuration(reader_, file_, run.service);
+      const auto loaded = recorded_configuration(file.reader, file.name, run.service);
       own_hashes_[run.service] = loaded.hash;
       run.proof = std::make_unique<Proof>(loaded.value);
     }
@@ -122,8 +135,10 @@ class Verification {
   /// Why states may differ although nobody changed the recording.
   std::string why(const std::string& service, const record::Outcome& outcome) {
     if (!outcome.problems.empty()) return "the recording is damaged: " + outcome.problems.front();
-    for (const auto& index : reader_.contents().metadata) {
-      if (index.name == "dropped") return "the recorder dropped samples (metadata 'dropped')";
+    for (const File& file : files_) {
+      for (const auto& index : file.reader.contents().metadata) {
+        if (index.name == "dropped") return "the recorder dropped samples (metadata 'dropped')";
+      }
     }
     if (!hashes_[service].empty() && !hashes_[service].contains(own_hashes_[service])) {
       return "the configuration that is enclosed (" + own_hashes_[service] + ") is not the one that ran (" +
@@ -138,13 +153,14 @@ class Verification {
   ExitCode answer(const record::Outcome& outcome) {
     ExitCode code = ExitCode::done;
     for (auto& [process, run] : runs_) {
-      const std::string who = file_ + ": " + run.service + " (" + process.substr(0, 8) + "): ";
+      const std::string who = name_ + ": " + run.service + " (" + process.substr(0, 8) + "): ";
       std::string line;
       if (run.proof) run.proof->finish();
       if (!run.proof) {
         line = "cannot be proved: " + run.no_proof;
       } else if (!run.proof->difference().empty()) {
-        line = run.proof->difference() + "; " + why(run.service, outcome);
+        line = run.proof->difference() + "; " + why(run.service, outcome) + " (" +
+               std::to_string(run.proof->states()) + " states before it are equal)";
       } else {
         line = "equal to the last bit: " + std::to_string(run.proof->states()) + " navigation states and " +
                std::to_string(run.proof->verdicts()) + " verdicts follow from " +
@@ -158,8 +174,8 @@ class Verification {
     return code;
   }
 
-  std::string file_;
-  record::Reader reader_;
+  std::string name_;  // of the first file
+  std::vector<File> files_;
   std::map<std::string, Run> runs_;  // by process
   std::set<std::string> versions_;
   std::map<std::string, std::set<std::string>> hashes_;
@@ -168,8 +184,8 @@ class Verification {
 
 }  // namespace
 
-ExitCode verify(const std::string& file) {
-  return Verification(file).run();
+ExitCode verify(const std::vector<std::string>& files) {
+  return Verification(files).run();
 }
 
 }  // namespace fathom::cli

@@ -45,7 +45,9 @@ struct Disk {
     };
   }
   Store::Say say() {
-    return [this](const std::string& line) { said.push_back(line); };
+    return [this](bool is_trouble, const std::string& line) {
+      if (is_trouble) said.push_back(line);
+    };
   }
   std::map<std::string, record::Bytes> files;
   std::string trouble;
