@@ -11,6 +11,7 @@
 #include "config/fusion/hydro_config.hpp"
 #include "config/guidance_config.hpp"
 #include "config/monitor_config.hpp"
+#include "config/recorder_config.hpp"
 #include "config/scenario/scenario_config.hpp"
 #include "config/scenario/simulator_config.hpp"
 
@@ -41,6 +42,7 @@ std::span<const ConfigKind> config_kinds() {
                                  fusion_kind(),
                                  hydro_kind(),
                                  monitor_kind(),
+                                 recorder_kind(),
                                  guidance_kind(),
                                  simulator_kind(),
                                  scenario_kind(),

@@ -42,8 +42,7 @@ void add_import(CLI::App& app, ExitCode& exit_code);
 void add_export(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);
 void add_plot(CLI::App& app, ExitCode& exit_code);
-
-/// Sub-commands that have a name and that this build does not have: they say so and end with code 2.
-void add_missing(CLI::App& app);
+void add_record(CLI::App& app, ExitCode& exit_code);
+void add_replay(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli

@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
   fathom::cli::add_export(app, exit_code);
   fathom::cli::add_report(app, exit_code);
   fathom::cli::add_plot(app, exit_code);
-  fathom::cli::add_missing(app);
+  fathom::cli::add_record(app, exit_code);
+  fathom::cli::add_replay(app, exit_code);
 
   try {
     app.parse(argc, argv);

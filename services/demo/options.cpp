@@ -42,6 +42,10 @@ Parsed parse(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--console,!--no-console", options.console,
                "with the operator console, where this build has one");
+  app.add_flag("--record,!--no-record", options.record, "with the recorder");
+  app.add_option(
+      "--recordings", options.recordings,
+      "folder of recordings; default: fathom-recordings-UID/DOMAIN in the system's temporary folder");
   app.add_flag("--standby", options.standby, "with a second fusion that takes over when the first one dies");
   app.add_flag("--secure", options.secure,
                "on a protected network: identities, permissions and encryption, made for this run");

@@ -21,8 +21,10 @@ struct Options {
   std::vector<std::string> interfaces{"127.0.0.1"};  ///< addresses of this host that DDS binds
   std::vector<std::string> peers{"127.0.0.1"};       ///< asked for discovery besides multicast
   bool console = true;
-  bool standby = false;  ///< with a second fusion that takes over when the first one dies
-  bool secure = false;   ///< on a protected network, with credentials made for this run
+  bool record = true;
+  std::string recordings;  ///< folder; empty: a folder of the user's below the temporary one, for each domain
+  bool standby = false;    ///< with a second fusion that takes over when the first one dies
+  bool secure = false;     ///< on a protected network, with credentials made for this run
 };
 
 /// What the command line asks for, or the exit code when it has been answered already (--help, bad usage).

@@ -5,6 +5,7 @@
 #include <random>
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "base/clock.hpp"
 #include "config/monitor_config.hpp"
@@ -187,6 +188,12 @@ Sets monitor_sets(const Plan& plan, const sim::Scenario& scenario, const std::ve
   return out;
 }
 
+std::filesystem::path recordings_folder(const Options& options) {
+  if (!options.recordings.empty()) return std::filesystem::absolute(options.recordings);
+  return std::filesystem::temp_directory_path() / ("fathom-recordings-" + std::to_string(getuid())) /
+         std::to_string(options.domain);
+}
+
 }  // namespace
 
 Plan make_plan(const Options& options, const std::filesystem::path& run_directory) {
@@ -256,6 +263,12 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   monitor.push_back("journal.path=" + (run_directory / "alarms.jsonl").string());
   monitor.push_back("metrics.port=" + std::to_string(kMetricsPort + options.domain));
   builder.add("monitor", monitor);
+  if (options.record) {
+    plan.recordings = recordings_folder(options);
+    // 1 GB of what was recorded last is kept.
+    builder.add("recorder",
+                {"folder=" + plan.recordings.string(), "files.split_mb=256", "files.quota_mb=1024"});
+  }
   if (options.console) builder.add_console(options.domain, run_directory);
   // The simulator last: instruments speak when everyone listens.
   const auto simulator_at = std::find_if(plan.programs.begin(), plan.programs.end(),

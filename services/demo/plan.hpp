@@ -18,8 +18,9 @@ struct Plan {
   double duration_s = 0.0;        ///< vehicle time
   TimeNs epoch_ns = 0;            ///< UTC at which an accelerated clock starts; 0: the host's own clock
   std::vector<Program> programs;  ///< in the order of their start
-  std::string console;      ///< address of the operator console, with the right to give orders; empty: none
-  std::string credentials;  ///< folder of the run's own; empty: the network is not protected
+  std::string console;  ///< address of the operator console, with the right to give orders; empty: none
+  std::filesystem::path recordings;  ///< folder of the recorder; empty: nothing is recorded
+  std::string credentials;           ///< folder of the run's own; empty: the network is not protected
   RunRecord::Options record;
   Demands demands;
 };

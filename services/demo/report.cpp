@@ -36,7 +36,8 @@ json figures(const dataset::ErrorFigures& f) {
 }  // namespace
 
 std::string report_json(const std::string& scenario, double duration_s, const Observation& seen,
-                        const Demands& demands, const std::vector<Finding>& findings) {
+                        const Demands& demands, const std::vector<Finding>& findings,
+                        const std::string& recording) {
   json outages = json::array();
   for (const GpsOutage& outage : seen.outages) {
     outages.push_back({{"start_s", number(outage.start_s)},
@@ -89,6 +90,7 @@ std::string report_json(const std::string& scenario, double duration_s, const Ob
       {"restarts", demands.restarts},
       {"verdicts", verdicts},
       {"alarms", alarms},
+      {"recording", recording.empty() ? json(nullptr) : json(recording)},
       {"findings", judged}};
   return out.dump(2) + "\n";
 }

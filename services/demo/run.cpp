@@ -74,6 +74,16 @@ void say_summary(const Plan& plan, const std::vector<Finding>& findings) {
     say(std::string(finding.met ? "  met      " : "  NOT MET  ") + finding.text);
 }
 
+/// The file that was written last; empty when there is none.
+std::string newest_recording(const std::filesystem::path& folder) {
+  std::filesystem::path newest;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+    if (entry.path().extension() == ".mcap" && entry.path() > newest) newest = entry.path();
+  }
+  return newest.string();
+}
+
 volatile std::sig_atomic_t last_code = 0;
 
 /// All is said; what is left is to leave the vehicle network. Should the bus not let go, the answer still
@@ -167,11 +177,13 @@ ExitCode run(const Options& options) {
   plan.demands.killed = supervisor.stop(kStopGraceNs);
   const std::vector<Finding> findings = judge(seen, plan.demands);
   say_summary(plan, findings);
+  const std::string recording = newest_recording(plan.recordings);
+  if (!recording.empty()) say("Recording: " + recording);
   bool good = true;
   for (const Finding& finding : findings) good = good && finding.met;
   if (!options.report.empty()) {
     std::ofstream out(options.report);
-    out << report_json(plan.title, duration_s, seen, plan.demands, findings);
+    out << report_json(plan.title, duration_s, seen, plan.demands, findings, recording);
     if (!out.flush()) throw std::runtime_error(options.report + ": cannot be written");
   }
   if (!good) {

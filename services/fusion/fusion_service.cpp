@@ -19,6 +19,7 @@
 #include "fusion/checkpoint/start.hpp"
 #include "fusion/intake/arrival.hpp"
 #include "fusion/intake/intake.hpp"
+#include "fusion/intake_publisher.hpp"
 #include "fusion/life_sign.hpp"
 #include "fusion/order_text.hpp"
 #include "fusion/replica/link.hpp"
@@ -80,12 +81,14 @@ struct FusionService::Impl {
         details(host.participant(), slow_options(config)),
         alignments(host.participant(), slow_options(config)),
         forecasts(host.participant(), slow_options(config)),
+        taken(host, mutex),
         link(replica_link(config)),
         verdicts(host, mutex, engine, link ? [this] { return speaks(); } : std::function<bool()>()),
         aiding_readers(listen_to_aiding()),
         commands(host.participant(),
                  [this](const Command& command, const bus::SampleInfo&) { on_command(command); }),
         imu(host.participant(), arrivals_of<ImuSample>()) {
+    if (start.resumption.resumed) taken.resumed();
     if (link) link->begin();
     host.on_tick(kNsPerSecond, [this] { publish_slow(); });
     host.on_status([this](ServiceStatus& status) { fill(status); });
@@ -106,6 +109,7 @@ struct FusionService::Impl {
   ~Impl() {
     host.on_tick(kNsPerSecond, [] {});
     host.on_status([](ServiceStatus&) {});
+    taken.publish(true);
     // What the engine still holds back is judged later by the next start, from the checkpoint, or by another
     // fusion service. Without both it is judged now.
     if (keeper || link) return;
@@ -164,6 +168,7 @@ struct FusionService::Impl {
       if (answer.fate == Intake::Fate::taken) {
         if (arrival.source() == SourceKind::imu) verdicts.set_imu_writer(arrival.writer);
         fresh = give(arrival);
+        taken.add(arrival);
         if (fresh) {
           state = engine.nav_state();
           newest_nav_state_ns = host.clock().monotonic_ns();
@@ -186,6 +191,7 @@ struct FusionService::Impl {
       host.log().info("alignment: " + std::string(to_string(alignment->phase)));
     }
     verdicts.publish();
+    taken.publish();
   }
 
   /// Inertial samples of another unit, or of another writer of this unit, are never integrated. They get a
@@ -208,6 +214,7 @@ struct FusionService::Impl {
       ++counts.commands;
       intake.take(command);
       objection = engine.apply(command);
+      taken.add(command);
       if (!objection.empty()) ++counts.orders_refused;
     }
     if (!objection.empty()) host.log().warning(in_words(command) + ": refused: " + objection);
@@ -239,6 +246,7 @@ struct FusionService::Impl {
   }
 
   void publish_slow() {
+    taken.publish(true);
     NavDetail detail;
     AlignmentStatus alignment;
     Forecast forecast;
@@ -303,6 +311,7 @@ struct FusionService::Impl {
     }
     for (estimation::OrderOutcome outcome; engine.next_outcome(outcome);) continue;
     verdicts.begin_anew();
+    taken.resumed();
     phase = engine.nav_state().alignment;
     return {"and " + std::to_string(told_again) + " samples since", ""};
   }
@@ -355,6 +364,7 @@ struct FusionService::Impl {
   bus::Writer<NavDetail> details;
   bus::Writer<AlignmentStatus> alignments;
   bus::Writer<Forecast> forecasts;
+  IntakePublisher taken;
 
   std::unique_ptr<ReplicaLink> link;  // none where this is the only fusion
   VerdictPublisher verdicts;

@@ -19,6 +19,8 @@ class WriterCore {
   WriterCore(Participant& participant, const TopicOps& ops, const WriterOptions& options);
   ~WriterCore();
   bool write(const void* sample);
+  /// The bytes of a sample as they are. Those of none are not written: false.
+  bool write_raw(std::vector<std::uint8_t> bytes);
   [[nodiscard]] int matched_readers() const;
   [[nodiscard]] WriterGuid guid() const;
 
@@ -33,7 +35,9 @@ class ReaderCore {
  public:
   using Handler = std::function<void(const void* sample, const SampleInfo& info)>;
 
-  ReaderCore(Participant& participant, const TopicOps& ops, Handler handler, const ReaderOptions& options);
+  /// `raw`: the handler gets a RawSample (detail/sample_type.hpp), whatever the bytes are.
+  ReaderCore(Participant& participant, const TopicOps& ops, Handler handler, const ReaderOptions& options,
+             bool raw = false);
   ~ReaderCore();
   [[nodiscard]] int matched_writers() const;
 
@@ -42,6 +46,9 @@ class ReaderCore {
  private:
   std::unique_ptr<Impl> impl_;
 };
+
+/// The operations of every topic, in the order of all_topics().
+[[nodiscard]] const std::vector<const TopicOps*>& all_topic_ops();
 
 /// Behind to_cdr and from_cdr.
 std::vector<std::uint8_t> encode(const TopicOps& ops, const void* sample);

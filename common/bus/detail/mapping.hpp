@@ -250,6 +250,7 @@ TopicOps make_ops() {
     detail::encode_key(to_wire(*static_cast<const T*>(sample)), cdr);
   };
   ops.key_text = [](const void* sample) { return M::key_text(*static_cast<const T*>(sample)); };
+  ops.header = [](void* sample) -> SampleHeader& { return static_cast<T*>(sample)->header; };
   return ops;
 }
 

@@ -50,17 +50,20 @@ Arrival arrival_of(const WriterGuid& guid, const dds::SampleInfo& info) {
 }  // namespace
 
 struct ReaderCore::Impl final : dds::DataReaderListener {
-  Impl(Participant::Impl& bus_in, const TopicOps& ops_in, Handler handler_in, const ReaderOptions& options)
+  Impl(Participant::Impl& bus_in, const TopicOps& ops_in, Handler handler_in, const ReaderOptions& options,
+       bool raw_in)
       : bus(bus_in),
         ops(ops_in),
+        raw(raw_in),
         qos(reader_qos(*bus.subscriber, ops.topic, options)),
         requested(summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(),
                             qos.liveliness())),
         handler(std::move(handler_in)) {
-    slot.sample = ops.create();
+    slot.sample = create();
+    slot.raw = raw;
     open();
     if (reader == nullptr) {
-      ops.destroy(slot.sample);
+      destroy()(slot.sample);
       throw BusError("reader of " + std::string(ops.topic) + ": Fast DDS could not create it" +
                      bus.why_not(ops.topic));
     }
@@ -72,7 +75,19 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     stop();
     bus.work_queue.forget(this);
     close();
-    ops.destroy(slot.sample);
+    destroy()(slot.sample);
+  }
+
+  [[nodiscard]] void* create() const { return raw ? new RawSample() : ops.create(); }
+  using Destroy = void (*)(void* sample);
+  [[nodiscard]] Destroy destroy() const {
+    return raw ? [](void* sample) { delete static_cast<RawSample*>(sample); } : ops.destroy;
+  }
+  [[nodiscard]] std::string key_text(const void* sample) const {
+    if (!raw) return ops.key_text(sample);
+    const std::unique_ptr<void, Destroy> typed(ops.create(), ops.destroy);
+    const bool valid = decode(ops, *static_cast<const RawSample*>(sample), typed.get());
+    return valid ? ops.key_text(typed.get()) : "an unknown key";
   }
 
   void open() {
@@ -172,8 +187,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     const std::lock_guard lock(mutex);
     if (order.may_pass(arrival)) return true;
     Held kept = held;
-    kept.sample = {slot.sample, ops.destroy};
-    slot.sample = ops.create();
+    kept.sample = {slot.sample, destroy()};
+    slot.sample = create();
     order.keep(arrival, std::move(kept), clock.monotonic_ns());
     return false;
   }
@@ -294,7 +309,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     {
       const std::lock_guard lock(mutex);
       Instance& instance = instances[handle];
-      if (instance.key.empty()) instance.key = ops.key_text(sample);
+      if (instance.key.empty()) instance.key = key_text(sample);
       instance.writer = guid;
       if (!instance.missed) return;
       instance.missed = false;
@@ -305,6 +320,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 
   Participant::Impl& bus;
   const TopicOps& ops;
+  const bool raw;
   const SystemClock clock;
   const dds::DataReaderQos qos;
   const QosSummary requested;
@@ -325,8 +341,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 };
 
 ReaderCore::ReaderCore(Participant& participant, const TopicOps& ops, Handler handler,
-                       const ReaderOptions& options)
-    : impl_(std::make_unique<Impl>(participant.impl(), ops, std::move(handler), options)) {}
+                       const ReaderOptions& options, bool raw)
+    : impl_(std::make_unique<Impl>(participant.impl(), ops, std::move(handler), options, raw)) {}
 ReaderCore::~ReaderCore() = default;
 int ReaderCore::matched_writers() const {
   return impl_->matched;

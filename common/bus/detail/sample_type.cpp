@@ -49,7 +49,7 @@ bool decode_from(const TopicOps& ops, std::span<char> bytes, void* sample) {
 SampleType::SampleType(const TopicOps& ops) : TopicType(ops.type_name, ops.max_size), ops_(ops) {}
 
 void* SampleType::create() const {
-  return new SampleSlot{ops_.create(), true};
+  return new SampleSlot{ops_.create()};
 }
 
 void SampleType::destroy(void* data) const {
@@ -59,11 +59,20 @@ void SampleType::destroy(void* data) const {
 }
 
 std::size_t SampleType::encode(const void* data, std::span<char> into) const {
-  return encode_into(ops_, static_cast<const SampleSlot*>(data)->sample, into);
+  const auto* slot = static_cast<const SampleSlot*>(data);
+  if (slot->wire == nullptr) return encode_into(ops_, slot->sample, into);
+  if (slot->wire->size() > into.size()) return 0;
+  std::copy(slot->wire->begin(), slot->wire->end(), into.begin());
+  return slot->wire->size();
 }
 
 void SampleType::decode(std::span<char> bytes, void* data) const {
   auto* slot = static_cast<SampleSlot*>(data);
+  if (slot->raw) {
+    static_cast<RawSample*>(slot->sample)->assign(bytes.begin(), bytes.end());
+    slot->valid = true;
+    return;
+  }
   slot->valid = decode_from(ops_, bytes, slot->sample);
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "bus/detail/topic_ops.hpp"
 #include "bus/detail/versions/topic_type.hpp"
 
@@ -7,11 +10,15 @@ namespace fathom::bus::detail {
 
 /// What Fast DDS calls the data of our topics: a pointer to a plain sample, and whether the bytes it was last
 /// decoded from made sense. Decoding never fails towards Fast DDS, so that the reader learns of bad bytes and
-/// counts them.
+/// counts them. Whoever reads or writes bytes says so in the slot that it hands to Fast DDS; the topic's type
+/// is the same for all.
 struct SampleSlot {
   void* sample = nullptr;
   bool valid = true;
+  bool raw = false;  ///< reading: `sample` is a RawSample, which gets the bytes
+  const std::vector<std::uint8_t>* wire = nullptr;  ///< writing: the bytes of `sample`, sent as they are
 };
+using RawSample = std::vector<std::uint8_t>;
 
 /// Teaches Fast DDS one topic's type. Unlike generated type supports it is safe to share between threads, and
 /// no bytes from the network make it throw.

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "samples/header.hpp"
+
 namespace eprosima::fastcdr {
 class Cdr;
 }
@@ -27,6 +29,8 @@ struct TopicOps {
   void (*encode_key)(const void* sample, eprosima::fastcdr::Cdr& cdr);
   /// The key in words, e.g. "auv/gps0", for reports.
   std::string (*key_text)(const void* sample);
+  /// What every sample begins with.
+  SampleHeader& (*header)(void* sample);
 };
 
 /// The operations of the topic of T, instantiated in bus/topics/.

@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <shared_mutex>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
@@ -288,9 +290,11 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     }
   }
 
-  bool write(const void* sample) {
+  bool write(const void* sample, const std::vector<std::uint8_t>* wire = nullptr) {
     if (bus.samples_as) ask_for_short_turns();
-    SampleSlot slot{const_cast<void*>(sample), true};
+    SampleSlot slot;
+    slot.sample = const_cast<void*>(sample);
+    slot.wire = wire;
     bool written = false;
     {
       const std::shared_lock lock(writer_mutex);
@@ -348,6 +352,11 @@ WriterCore::WriterCore(Participant& participant, const TopicOps& ops, const Writ
 WriterCore::~WriterCore() = default;
 bool WriterCore::write(const void* sample) {
   return impl_->write(sample);
+}
+bool WriterCore::write_raw(std::vector<std::uint8_t> bytes) {
+  const TopicOps& ops = impl_->ops;
+  const std::unique_ptr<void, void (*)(void*)> sample(ops.create(), ops.destroy);
+  return decode(ops, bytes, sample.get()) && impl_->write(sample.get(), &bytes);
 }
 int WriterCore::matched_readers() const {
   return impl_->matched;

@@ -15,6 +15,7 @@
 #include "cli/solve/calibrate.hpp"
 #include "cli/solve/course.hpp"
 #include "cli/solve/fixes.hpp"
+#include "cli/solve/from_recording.hpp"
 #include "cli/solve/metrics.hpp"
 #include "cli/solve/outage.hpp"
 #include "cli/solve/run.hpp"
@@ -88,11 +89,19 @@ SolveReport solve(const SolveOptions& options) {
 
   config::LoadedConfig<config::FusionConfig> loaded;
   try {
-    loaded = config::load_service_config<config::FusionConfig>({options.config, options.sets});
+    loaded = options.config.empty() && is_recording(options.directory)
+                 ? configuration_in(options.directory, options.sets)
+                 : config::load_service_config<config::FusionConfig>({options.config, options.sets});
   } catch (const config::ConfigError& error) {
     throw Failure(ExitCode::bad_configuration, error.what());
   }
-  const dataset::Dataset data = read_dataset(options.directory, loaded.value);
+  const dataset::Dataset data = is_recording(options.directory)
+                                    ? read_recording(options.directory, loaded.value)
+                                    : read_dataset(options.directory, loaded.value);
+  // t_s counts from here: of a recording, from the second of its first inertial sample.
+  const TimeNs epoch_ns = is_recording(options.directory)
+                              ? data.of<ImuSample>().front().header.stamp_ns / kNsPerSecond * kNsPerSecond
+                              : dataset::kDefaultEpochNs;
   const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
 
   SolveRun solve_run;
@@ -103,7 +112,7 @@ SolveReport solve(const SolveOptions& options) {
   if (options.start == "reference")
     solve_run.start = start_from_reference(data, loaded.value, options.directory);
   if (outages) {
-    solve_run.gps_removed = first_windows(data, *outages, dataset::kDefaultEpochNs, options.directory);
+    solve_run.gps_removed = first_windows(data, *outages, epoch_ns, options.directory);
   }
 
   const dataset::TruthTrack truth(data.reference);
@@ -117,7 +126,7 @@ SolveReport solve(const SolveOptions& options) {
     if (place != nullptr) place->add(state, error);
   };
   dataset::Scorer scorer;
-  dataset::NavCsv csv(options.out, dataset::kDefaultEpochNs);
+  dataset::NavCsv csv(options.out, epoch_ns);
   Thinning rows(options.rate_hz);
   SolveReport report;
   Path path;
@@ -169,8 +178,7 @@ SolveReport solve(const SolveOptions& options) {
     if (options.smooth) report.filtered_at_fixes.add(filtered_path.error_m(fix, antenna));
   }
   if (outages) {
-    report.outages =
-        run_outages(solve_run, *outages, options.smooth, dataset::kDefaultEpochNs, options.directory);
+    report.outages = run_outages(solve_run, *outages, options.smooth, epoch_ns, options.directory);
   }
   if (!options.calibrate_hydro.empty())
     report.calibration =
@@ -195,9 +203,10 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
       "deploy/config/solve/*.json.");
   command
       ->add_option("directory", options->directory,
-                   "data set: a folder with imu.csv and others, plain or .gz")
+                   "data set: a folder with imu.csv and others, plain or .gz; or a recording, FILE.mcap")
       ->required();
-  command->add_option("--config", options->config, "configuration of the fusion service")->required();
+  command->add_option("--config", options->config,
+                      "configuration of the fusion service; of a recording: default as it was recorded");
   command->add_option("--set", options->sets, "override: key.sub=value, may be repeated")
       ->allow_extra_args(false);
   command
@@ -227,6 +236,8 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
                       "gave and write them, each with its sigma (JSON)");
   command->add_flag("--json", options->json, "print the metrics as JSON");
   command->callback([options, &exit_code] {
+    if (options->config.empty() && !is_recording(options->directory))
+      throw Failure(ExitCode::bad_configuration, "--config is required; see --help");
     const SolveReport report = solve(*options);
     if (!options->metrics.empty()) write_text(options->metrics, to_json(report));
     std::fputs((options->json ? to_json(report) : to_text(report)).c_str(), stdout);

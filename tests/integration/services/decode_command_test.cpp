@@ -183,12 +183,12 @@ TEST_F(DecodeCommand, ExitCodes) {
   EXPECT_GE(list.lines.size(), 8U);
 }
 
-TEST(Command, WhatThisBuildCannotDoIsSaidInWords) {
-  const Answer answer = run("record --out x.mcap 2>&1");
+TEST(Command, ARecordingHasAName) {
+  const Answer answer = run("record --out recording 2>&1");
   EXPECT_EQ(answer.code, 2);
   ASSERT_EQ(answer.lines.size(), 1U);
-  EXPECT_EQ(answer.lines[0], "fathom: record: this build has no recorder yet; see --help for what it has");
-  EXPECT_EQ(run("record 2>/dev/null").code, 2);
+  EXPECT_EQ(answer.lines[0], "fathom: --out recording: expected a name that ends in .mcap");
+  EXPECT_EQ(run("record --recover /absent 2>/dev/null").code, 3);
 }
 
 }  // namespace

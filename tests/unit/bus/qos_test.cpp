@@ -78,6 +78,7 @@ class QosTable : public testing::Test {
     make<EngineStatePart>(participant, "fathom/v1/engine_state", *pairs_);
     make<Route>(participant, "fathom/v1/route", *pairs_);
     make<Truth>(participant, "fathom/v1/truth", *pairs_);
+    make<IntakeRecord>(participant, "fathom/v1/intake", *pairs_);
   }
   static void TearDownTestSuite() { delete std::exchange(pairs_, nullptr); }
 

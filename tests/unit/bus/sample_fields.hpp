@@ -24,6 +24,7 @@
 #include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
+#include "samples/status/intake.hpp"
 #include "samples/status/replication.hpp"
 #include "samples/status/route.hpp"
 #include "samples/truth.hpp"
@@ -168,6 +169,15 @@ void fields(Is<EngineStatePart> auto& s, auto visit) {
   visit(header, a, b, c, d, e, f);
 }
 
+void fields(Is<IntakeEntry> auto& s, auto visit) {
+  auto& [a, b, c, d, e, f] = s;
+  visit(a, b, c, d, e, f);
+}
+void fields(Is<IntakeRecord> auto& s, auto visit) {
+  auto& [header, a, b, c] = s;
+  visit(header, a, b, c);
+}
+
 /// The last enumerator of each enumeration.
 template <class E>
 constexpr unsigned last_of();
@@ -243,6 +253,7 @@ enum class Lists { empty, one, full };
 template <class T>
 constexpr std::size_t bound_of() {
   if (std::is_same_v<T, RouteWaypoint>) return Route::kMostWaypoints;
+  if (std::is_same_v<T, IntakeEntry>) return IntakeRecord::kMostEntries;
   return std::is_same_v<T, ServiceRate> || std::is_same_v<T, ReceiverOutage> ? 16 : 32;
 }
 

@@ -305,8 +305,8 @@ TEST(Report, HasTheFindingsAndTheNamesThatScriptsRead) {
   Voyage run;
   run.lost = {30.0, kRunS};
   const auto seen = run.observed();
-  const auto json =
-      nlohmann::json::parse(report_json("survey", kRunS, seen, run.demands(), judge(seen, run.demands())));
+  const auto json = nlohmann::json::parse(
+      report_json("survey", kRunS, seen, run.demands(), judge(seen, run.demands()), ""));
   for (const char* key :
        {"scenario", "duration_s", "nav_state_rate_hz", "horizontal_error_m", "attitude_error_deg",
         "gps_outages", "alignment", "latency_us", "services", "verdicts", "alarms"}) {

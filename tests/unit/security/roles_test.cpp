@@ -63,6 +63,7 @@ TEST(Roles, EveryTopicWithOneKindOfWriterHasOnlyThat) {
       {"fathom/v1/alignment", {"fusion"}},
       {"fathom/v1/forecast", {"fusion"}},
       {"fathom/v1/engine_state", {"fusion"}},
+      {"fathom/v1/intake", {"fusion"}},
       {"fathom/v1/alarm", {"monitor"}},
       {"fathom/v1/monitor_status", {"monitor"}},
       {"fathom/v1/truth", {"simulator"}},

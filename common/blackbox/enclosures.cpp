@@ -1,0 +1,113 @@
+#include "blackbox/enclosures.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include "record/file.hpp"
+
+namespace fathom::blackbox {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr std::uint64_t kMostBytes = 4U << 20U;
+
+std::optional<record::Bytes> read_small(const fs::path& path) {
+  auto source = record::FileSource::open(path);
+  if (!source || source.value()->size() > kMostBytes) return std::nullopt;
+  record::Bytes bytes(source.value()->size());
+  if (!source.value()->read(0, bytes).empty()) return std::nullopt;
+  return bytes;
+}
+
+/// checkpoint.path of a configuration file and its overrides; empty when there is none.
+std::string checkpoint_path(const record::Bytes& file, const CommandLine& line) {
+  std::string path;
+  const json config = json::parse(file.begin(), file.end(), nullptr, false);
+  if (config.is_object() && config.contains("checkpoint") && config["checkpoint"].is_object()) {
+    path = config["checkpoint"].value("path", json()).is_string()
+               ? config["checkpoint"]["path"].get<std::string>()
+               : std::string();
+  }
+  constexpr std::string_view kKey = "checkpoint.path=";
+  for (const std::string& set : line.values_of("--set")) {
+    if (set.starts_with(kKey)) path = set.substr(kKey.size());
+  }
+  return path;
+}
+
+}  // namespace
+
+std::vector<std::string> CommandLine::values_of(const std::string& option) const {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    if (arguments[i] == option && i + 1 < arguments.size())
+      out.push_back(arguments[++i]);
+    else if (arguments[i].starts_with(option + "="))
+      out.push_back(arguments[i].substr(option.size() + 1));
+  }
+  return out;
+}
+
+std::optional<std::string> CommandLine::value_of(const std::string& option) const {
+  const std::vector<std::string> all = values_of(option);
+  if (all.empty()) return std::nullopt;
+  return all.back();
+}
+
+std::optional<CommandLine> command_line_of(std::uint32_t pid) {
+  const fs::path process = fs::path("/proc") / std::to_string(pid);
+  std::error_code failed;
+  CommandLine out;
+  out.executable = fs::read_symlink(process / "exe", failed).string();
+  // A life sign may name any process.
+  if (failed || !fs::path(out.executable).filename().string().starts_with("fathom-")) return std::nullopt;
+  out.folder = fs::read_symlink(process / "cwd", failed).string();
+  std::ifstream file(process / "cmdline", std::ios::binary);
+  const std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\0', at), text.size());
+    if (at > 0) out.arguments.push_back(text.substr(at, end - at));  // the first one is the executable
+    at = end + 1;
+  }
+  return out;
+}
+
+std::string to_json(const CommandLine& line) {
+  const json out = {{"executable", line.executable}, {"folder", line.folder}, {"arguments", line.arguments}};
+  return out.dump(2, ' ', false, json::error_handler_t::replace) + "\n";
+}
+
+std::optional<CommandLine> command_line_from(std::string_view text) {
+  const json in = json::parse(text, nullptr, false);
+  if (!in.is_object()) return std::nullopt;
+  try {
+    return CommandLine{in.at("executable"), in.at("folder"), in.at("arguments")};
+  } catch (const json::exception&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<Enclosure> enclosures_of(const std::string& service, const CommandLine& line, TimeNs now_ns) {
+  const std::string folder = "services/" + service + "/";
+  const std::string command = to_json(line);
+  std::vector<Enclosure> out{
+      {folder + "command.json", "application/json", now_ns, {command.begin(), command.end()}}};
+  const auto config = line.value_of("--config");
+  if (!config) return out;
+  const auto file = read_small(fs::path(line.folder) / *config);
+  if (!file) return out;
+  out.push_back({folder + "config.json", "application/json", now_ns, *file});
+  const std::string checkpoint = checkpoint_path(*file, line);
+  if (checkpoint.empty()) return out;
+  if (const auto state = read_small(fs::path(line.folder) / checkpoint))
+    out.push_back({folder + "checkpoint", "application/octet-stream", now_ns, *state});
+  return out;
+}
+
+}  // namespace fathom::blackbox

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "blackbox/sample.hpp"
+
+namespace fathom::blackbox {
+
+/// How a service was started.
+struct CommandLine {
+  std::string executable;
+  std::string folder;  ///< that relative paths count from
+  std::vector<std::string> arguments;
+
+  /// The value after an option; of several the last one.
+  [[nodiscard]] std::optional<std::string> value_of(const std::string& option) const;
+  /// The values of all.
+  [[nodiscard]] std::vector<std::string> values_of(const std::string& option) const;
+};
+
+/// That of a process of this host. Nothing where it may not be seen, or is no service of this project.
+[[nodiscard]] std::optional<CommandLine> command_line_of(std::uint32_t pid);
+
+/// As JSON: {"executable", "folder", "arguments": [...]}; and back.
+[[nodiscard]] std::string to_json(const CommandLine& line);
+[[nodiscard]] std::optional<CommandLine> command_line_from(std::string_view json);
+
+/// What is kept of a service: its command line, its configuration file, its checkpoint. Files that cannot be
+/// read, and those of more than 4 MB, are left out.
+///   services/NAME/command.json, services/NAME/config.json, services/NAME/checkpoint
+[[nodiscard]] std::vector<Enclosure> enclosures_of(const std::string& service, const CommandLine& line,
+                                                   TimeNs now_ns);
+
+}  // namespace fathom::blackbox

@@ -1,0 +1,158 @@
+#include "blackbox/tap.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "blackbox/enclosures.hpp"
+#include "bus/cdr.hpp"
+#include "bus/raw.hpp"
+#include "bus/topics.hpp"
+#include "samples/command.hpp"
+#include "samples/status/health.hpp"
+
+namespace fathom::blackbox {
+namespace {
+
+constexpr std::size_t kMostOrigins = 4096;  // writers come from the network: bounded
+constexpr std::size_t kMostNamed = 512;     // alarms and services
+
+std::string hexadecimal(const WriterGuid& guid) {
+  std::string out;
+  for (const std::uint8_t byte : guid) {
+    std::array<char, 3> digits{};
+    std::snprintf(digits.data(), digits.size(), "%02x", byte);
+    out += digits.data();
+  }
+  return out;
+}
+
+std::string in_words(const Command& order) {
+  std::string text = order.header.sensor.str() + " ordered " + std::string(to_string(order.kind));
+  if (!order.target.view().empty()) text += " of " + order.target.str();
+  return text;
+}
+
+}  // namespace
+
+struct Tap::Impl {
+  Impl(bus::Participant& participant_in, Queue& queue_in, const Clock& clock_in,
+       const std::vector<std::string>& topics, std::string host_in)
+      : participant(participant_in), queue(queue_in), clock(clock_in), host(std::move(host_in)) {
+    for (const bus::TopicInfo& topic : bus::all_topics()) {
+      const bool named = std::find(topics.begin(), topics.end(), topic.topic) != topics.end();
+      // The engine's state is for those who may take over, unless it is asked for.
+      const bool usual = topics.empty() && topic.topic != std::string_view("fathom/v1/engine_state");
+      if (named || usual) listen(topic);
+    }
+  }
+
+  void listen(const bus::TopicInfo& topic) {
+    bus::ReaderOptions options;
+    options.profile_suffix = "deep";
+    try {
+      auto reader = std::make_unique<bus::RawReader>(
+          participant, topic.topic,
+          [this, topic, latched = bus::is_latched(participant, topic.topic)](
+              std::span<const std::uint8_t> bytes, const bus::SampleInfo& info) {
+            take(topic, latched, bytes, info);
+          },
+          options);
+      readers.push_back(std::move(reader));
+    } catch (const bus::BusError& error) {  // e.g. without permission for it
+      refused.push_back(error.what());
+    }
+  }
+
+  void take(const bus::TopicInfo& topic, bool latched, std::span<const std::uint8_t> bytes,
+            const bus::SampleInfo& info) {
+    Sample sample;
+    sample.log_ns = clock.utc_ns();
+    // The writer's clock is its host's; the vehicle's may run at another rate.
+    const DurationNs age_ns = SystemClock().utc_ns() - info.source_ns;
+    const bool sound = age_ns >= 0 && age_ns < 60 * kNsPerSecond;
+    sample.publish_ns =
+        sample.log_ns - (sound ? static_cast<DurationNs>(static_cast<double>(age_ns) * clock.rate()) : 0);
+    sample.bytes.assign(bytes.begin(), bytes.end());
+    if (latched) sample.key = bus::key_of(topic.topic, bytes).value_or("");
+    {
+      const std::lock_guard lock(mutex);
+      const std::pair<const char*, WriterGuid> key(topic.topic, info.writer_guid);  // a text of the program
+      const auto found = origins.find(key);
+      if (found != origins.end()) {
+        sample.origin = found->second;
+      } else if (origins.size() < kMostOrigins) {
+        sample.origin = queue.add({topic.topic, topic.type, participant.writer_name(info.writer_guid),
+                                   hexadecimal(info.writer_guid), latched});
+        origins.emplace(key, sample.origin);
+      } else {
+        return;
+      }
+    }
+    const TimeNs now_ns = sample.log_ns;
+    queue.put(std::move(sample));
+    if (topic.topic == std::string_view("fathom/v1/alarm")) {
+      if (const auto alarm = bus::from_cdr<Alarm>(bytes)) note(*alarm, now_ns);
+    } else if (topic.topic == std::string_view("fathom/v1/command")) {
+      if (const auto order = bus::from_cdr<Command>(bytes))
+        queue.put(Event{now_ns, "order", in_words(*order)});
+    } else if (topic.topic == std::string_view("fathom/v1/service_status")) {
+      if (const auto status = bus::from_cdr<ServiceStatus>(bytes)) enclose(*status, now_ns);
+    }
+  }
+
+  /// Alarms are published again and again: an event is what changes.
+  void note(const Alarm& alarm, TimeNs now_ns) {
+    const std::lock_guard lock(mutex);
+    const auto known = alarms.find(alarm.alarm);
+    const bool was_active = known != alarms.end() && known->second;
+    if (was_active == alarm.active && (known != alarms.end() || !alarm.active)) return;
+    if (known == alarms.end() && alarms.size() >= kMostNamed) return;
+    alarms[alarm.alarm] = alarm.active;
+    queue.put(Event{now_ns, "alarm",
+                    alarm.alarm.str() + (alarm.active ? " began: " : " is over: ") + alarm.text,
+                    alarm.active});
+  }
+
+  void enclose(const ServiceStatus& status, TimeNs now_ns) {
+    if (status.host != host) return;
+    {
+      const std::lock_guard lock(mutex);
+      const auto known = services.find(status.header.sensor);
+      const std::pair<std::uint32_t, TimeNs> process(status.pid, status.started_ns);
+      if (known != services.end() && known->second == process) return;
+      if (known == services.end() && services.size() >= kMostNamed) return;
+      services[status.header.sensor] = process;
+    }
+    const auto line = command_line_of(status.pid);
+    if (!line) return;
+    for (Enclosure& one : enclosures_of(status.header.sensor.str(), *line, now_ns)) queue.put(std::move(one));
+  }
+
+  bus::Participant& participant;
+  Queue& queue;
+  const Clock& clock;
+  const std::string host;
+  std::vector<std::string> refused;
+
+  std::mutex mutex;
+  std::map<std::pair<const char*, WriterGuid>, std::uint32_t> origins;
+  std::map<Name, bool> alarms;
+  std::map<Name, std::pair<std::uint32_t, TimeNs>> services;
+
+  std::vector<std::unique_ptr<bus::RawReader>> readers;  // end first: they use everything above
+};
+
+Tap::Tap(bus::Participant& participant, Queue& queue, const Clock& clock,
+         const std::vector<std::string>& topics, std::string host)
+    : impl_(std::make_unique<Impl>(participant, queue, clock, topics, std::move(host))) {}
+Tap::~Tap() = default;
+const std::vector<std::string>& Tap::refused() const {
+  return impl_->refused;
+}
+
+}  // namespace fathom::blackbox

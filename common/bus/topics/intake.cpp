@@ -1,0 +1,35 @@
+#include "samples/status/intake.hpp"
+
+#include "bus/detail/mapping.hpp"
+#include "idl/intake.h"
+
+namespace fathom::bus::detail {
+
+template <>
+struct Mapping<IntakeRecord> {
+  using Wire = v1::IntakeRecord;
+  static constexpr const char* kTopic = "fathom/v1/intake";
+  static constexpr const char* kType = "fathom::v1::IntakeRecord";
+  static constexpr bool kHasLists = true;
+
+  static void fields(auto& copy, auto& plain, auto& wire) {
+    copy_header(copy, plain.header, wire);
+    copy(plain.resumed, wire.resumed());
+    copy(plain.first, wire.first());
+    copy.sequence(plain.entries, wire.entries(), IntakeRecord::kMostEntries,
+                  [](auto& each, auto& entry, auto& w) {
+                    each(entry.is_order, w.is_order());
+                    copy_enum<kLastKind, v1::SourceKind::SOURCE_RANGE>(each, entry.source, w.source());
+                    each(entry.sensor, w.sensor());
+                    each(entry.writer, w.writer());
+                    each(entry.stamp_ns, w.stamp_ns());
+                    each(entry.sequence, w.sequence_number());
+                  });
+  }
+
+  static std::string key_text(const IntakeRecord& sample) { return vehicle_and_sensor(sample); }
+};
+
+}  // namespace fathom::bus::detail
+
+FATHOM_BUS_TOPIC(IntakeRecord)

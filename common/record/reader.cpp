@@ -1,0 +1,192 @@
+#include "record/reader.hpp"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "record/scan.hpp"
+#include "record/wire.hpp"
+
+namespace fathom::record {
+
+struct Reader::Chosen {
+  std::set<std::uint16_t> channels;
+  bool all = true;
+  TimeNs from = 0;
+  TimeNs to = 0;
+
+  [[nodiscard]] bool takes(const ChunkIndex& chunk) const {
+    // Times of a chunk without messages are 0; one that cannot be used says so when it is read.
+    if (chunk.message_end_time < from || chunk.message_start_time >= to) return false;
+    if (all || chunk.message_index_offsets.empty()) return true;
+    return std::any_of(chunk.message_index_offsets.begin(), chunk.message_index_offsets.end(),
+                       [&](const auto& entry) { return channels.contains(entry.first); });
+  }
+  [[nodiscard]] bool takes(const Message& message) const {
+    return message.log_time >= from && message.log_time < to &&
+           (all || channels.contains(message.channel_id));
+  }
+};
+
+Result<Reader> Reader::open(const std::filesystem::path& path, const Limits& limits) {
+  auto source = FileSource::open(path);
+  if (!source) return source.error();
+  auto reader = open(std::move(source.value()), limits);
+  if (!reader) return Error{path.string() + ": " + reader.error().message};
+  return reader;
+}
+
+Result<Reader> Reader::open(std::unique_ptr<Source> source, const Limits& limits) {
+  auto summary = read_summary(*source, limits);
+  if (summary) return Reader(std::move(source), limits, std::move(summary.value()));
+  auto found = scan(*source, limits);
+  if (!found) return found.error();
+  Contents& contents = found.value();
+  contents.ending = summary.error().message + (contents.ending.empty() ? "" : "; " + contents.ending);
+  return Reader(std::move(source), limits, std::move(contents));
+}
+
+const Schema* Reader::schema_of(const Channel& channel) const {
+  const auto found = contents_.schemas.find(channel.schema_id);
+  return found == contents_.schemas.end() ? nullptr : &found->second;
+}
+
+Outcome Reader::read(const Selection& selection, const Handler& handler) {
+  Outcome outcome;
+  outcome.problems = contents_.problems;
+  Chosen chosen{{}, selection.topics.empty(), selection.from, selection.to};
+  for (const auto& [id, channel] : contents_.channels) {
+    if (std::find(selection.topics.begin(), selection.topics.end(), channel.topic) != selection.topics.end())
+      chosen.channels.insert(id);
+  }
+  if (contents_.loose_messages) {
+    stream(chosen, handler, outcome);
+    return outcome;
+  }
+  for (const ChunkIndex& chunk : contents_.chunks) {
+    if (chosen.takes(chunk) && !read_chunk(chunk, chosen, handler, outcome)) break;
+  }
+  return outcome;
+}
+
+bool Reader::read_chunk(const ChunkIndex& index, const Chosen& chosen, const Handler& handler,
+                        Outcome& outcome) {
+  const std::uint64_t at = index.chunk_start_offset;
+  Walk walk(*source_, at, at + index.chunk_length, limits_);
+  Place place;
+  const auto wrong = [&](const std::string& what) {
+    note(outcome.problems, at, what);
+    return true;
+  };
+  if (!walk.next(place)) return wrong(walk.fault().empty() ? "chunk: it has no bytes" : walk.fault());
+  if (place.op != Op::chunk) return wrong("a " + to_string(place.op) + ", expected a chunk");
+  const auto chunk = parse<Chunk>(place.content);
+  if (!chunk) return wrong(chunk.error().message);
+  const Chunk& one = chunk.value();
+  if (place.end() - at != index.chunk_length || one.message_start_time != index.message_start_time ||
+      one.message_end_time != index.message_end_time || one.uncompressed_size != index.uncompressed_size ||
+      one.compression != index.compression || one.records.size() != index.compressed_size) {
+    return wrong("chunk: it is another one than its index says");
+  }
+  const auto records = open_chunk(one, limits_);
+  if (!records) return wrong(records.error().message);
+  MemoryWalk inside(records.value());
+  for (Place record; inside.next(record);) {
+    if (record.op != Op::message) continue;
+    record.offset += at;
+    if (!hand_over(record, chosen, handler, outcome, &one)) return false;
+  }
+  if (!inside.fault().empty()) return wrong("in the chunk: " + inside.fault());
+  return true;
+}
+
+bool Reader::hand_over(const Place& place, const Chosen& chosen, const Handler& handler, Outcome& outcome,
+                       const Chunk* chunk) {
+  const auto found = parse<Message>(place.content);
+  if (!found) {
+    note(outcome.problems, place.offset, found.error().message);
+    return true;
+  }
+  const Message& message = found.value();
+  const auto channel = contents_.channels.find(message.channel_id);
+  if (channel == contents_.channels.end()) {
+    note(outcome.problems, place.offset,
+         "message: channel " + std::to_string(message.channel_id) + " is not there");
+    return true;
+  }
+  if (chunk != nullptr &&
+      (message.log_time < chunk->message_start_time || message.log_time > chunk->message_end_time)) {
+    note(outcome.problems, place.offset, "message: its time is outside of its chunk's");
+  }
+  if (!chosen.takes(message)) return true;
+  ++outcome.messages;
+  return handler(channel->second, message);
+}
+
+void Reader::stream(const Chosen& chosen, const Handler& handler, Outcome& outcome) {
+  Header header;
+  const auto begin = read_header(*source_, limits_, header);
+  if (!begin) return note(outcome.problems, 0, begin.error().message);
+  Walk walk(*source_, begin.value(), contents_.end_of_data, limits_);
+  for (Place place; walk.next(place);) {
+    if (place.op == Op::message) {
+      if (!hand_over(place, chosen, handler, outcome, nullptr)) return;
+    } else if (place.op == Op::chunk) {
+      const auto chunk = parse<Chunk>(place.content);
+      if (!chunk) continue;  // known as a problem
+      const auto records = open_chunk(chunk.value(), limits_);
+      if (!records) continue;
+      MemoryWalk inside(records.value());
+      for (Place record; inside.next(record);) {
+        if (record.op != Op::message) continue;
+        record.offset += place.offset;
+        if (!hand_over(record, chosen, handler, outcome, &chunk.value())) return;
+      }
+    }
+  }
+  if (!walk.fault().empty()) note(outcome.problems, walk.at(), walk.fault());
+}
+
+Result<Bytes> Reader::attachment(const AttachmentIndex& index) {
+  Walk walk(*source_, index.offset, index.offset + index.length, limits_);
+  Place place;
+  if (!walk.next(place)) return Error{walk.fault()};
+  const std::string where = "offset " + std::to_string(index.offset) + ": ";
+  if (place.op != Op::attachment)
+    return Error{where + "a " + to_string(place.op) + ", expected an attachment"};
+  const auto found = parse<Attachment>(place.content);
+  if (!found) return Error{where + found.error().message};
+  const Attachment& one = found.value();
+  const std::size_t covered =
+      static_cast<std::size_t>(one.data.data() - place.content.data()) + one.data.size();
+  if (one.crc != 0 && crc32(place.content.first(covered)) != one.crc) {
+    return Error{where + "attachment: its bytes do not fit its CRC"};
+  }
+  if (one.name != index.name || one.data.size() != index.data_size || one.log_time != index.log_time ||
+      one.create_time != index.create_time || one.media_type != index.media_type) {
+    return Error{where + "attachment: it is another one than its index says"};
+  }
+  return Bytes(one.data.begin(), one.data.end());
+}
+
+Result<Bytes> Reader::attachment(std::string_view name) {
+  for (auto one = contents_.attachments.rbegin(); one != contents_.attachments.rend(); ++one) {
+    if (one->name == name) return attachment(*one);
+  }
+  return Error{"there is no attachment '" + std::string(name) + "'"};
+}
+
+Result<Metadata> Reader::metadata(const MetadataIndex& index) {
+  Walk walk(*source_, index.offset, index.offset + index.length, limits_);
+  Place place;
+  if (!walk.next(place)) return Error{walk.fault()};
+  const std::string where = "offset " + std::to_string(index.offset) + ": ";
+  if (place.op != Op::metadata) return Error{where + "a " + to_string(place.op) + ", expected metadata"};
+  auto found = parse<Metadata>(place.content);
+  if (!found) return Error{where + found.error().message};
+  if (found.value().name != index.name)
+    return Error{where + "metadata: it is another one than its index says"};
+  return found;
+}
+
+}  // namespace fathom::record

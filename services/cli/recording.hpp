@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/fusion/fusion_config.hpp"
+#include "record/reader.hpp"
+
+namespace fathom::cli {
+
+/// Opens a recording; one that was not closed is said on standard error and read as far as it goes. Throws
+/// Failure.
+[[nodiscard]] record::Reader open_recording(const std::string& file);
+
+/// Topics by their full or their short names, e.g. "nav_state". Throws Failure for one that there is not.
+[[nodiscard]] std::vector<std::string> topics_of(const std::vector<std::string>& words);
+
+/// The configuration that a fusion service of this name ran with, as it is enclosed in the recording, with
+/// further overrides behind its own. Throws Failure where it is not there, and config::ConfigError.
+[[nodiscard]] config::LoadedConfig<config::FusionConfig> recorded_configuration(
+    record::Reader& reader, const std::string& file, const std::string& service,
+    const std::vector<std::string>& sets = {});
+
+}  // namespace fathom::cli

@@ -1,0 +1,48 @@
+#include "blackbox/enclosures.hpp"
+
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "support/temporary_folder.hpp"
+
+namespace fathom {
+namespace {
+
+using blackbox::CommandLine;
+
+TEST(CommandLine, GivesTheLastValueOfAnOptionAndAllOfThem) {
+  const CommandLine line{
+      "fathom-fusion", "/", {"--config", "a.json", "--set", "x=1", "--set=y=2", "--config=b.json"}};
+  EXPECT_EQ(line.value_of("--config"), "b.json");
+  EXPECT_EQ(line.values_of("--set"), (std::vector<std::string>{"x=1", "y=2"}));
+  EXPECT_EQ(line.value_of("--other"), std::nullopt);
+  const auto back = blackbox::command_line_from(blackbox::to_json(line));
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->arguments, line.arguments);
+  EXPECT_FALSE(blackbox::command_line_from("{\"arguments\": 3}"));
+}
+
+TEST(CommandLine, IsOfServicesOnly) {
+  EXPECT_FALSE(blackbox::command_line_of(static_cast<std::uint32_t>(getpid()))) << "this test is none";
+  EXPECT_FALSE(blackbox::command_line_of(1));
+}
+
+TEST(Enclosures, HoldConfigurationAndCheckpoint) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder / "fusion.json") << R"({"checkpoint": {"path": "/nowhere"}})";
+  std::ofstream(folder / "state") << "bytes";
+  const CommandLine line{
+      "fathom-fusion", folder.path().string(), {"--config", "fusion.json", "--set", "checkpoint.path=state"}};
+  const auto all = blackbox::enclosures_of("fusion", line, 5);
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].name, "services/fusion/command.json");
+  EXPECT_EQ(all[1].name, "services/fusion/config.json");
+  EXPECT_EQ(all[2].name, "services/fusion/checkpoint");
+  EXPECT_EQ(all[2].data, (record::Bytes{'b', 'y', 't', 'e', 's'}));
+  EXPECT_EQ(blackbox::enclosures_of("fusion", {"x", "/", {"--config", "absent"}}, 5).size(), 1U);
+}
+
+}  // namespace
+}  // namespace fathom
