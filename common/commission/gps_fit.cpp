@@ -1,0 +1,182 @@
+#include "commission/gps_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "commission/signed_axes.hpp"
+#include "geo/so3.hpp"
+#include "geo/wgs84.hpp"
+
+namespace fathom::commission {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kApart_s = 0.4;
+constexpr double kGap_s = 2.5;
+constexpr double kMargin_s = 2.0;  // of the integration around a window: latencies up to this
+
+using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+
+double gravity_of(const Series& series) {
+  return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : 9.80665;
+}
+
+Vector3d increment(const Strapdown& strapdown, double from_s, double to_s, const Vector3d& lever) {
+  const Strapdown::State a = strapdown.at(from_s);
+  const Strapdown::State b = strapdown.at(to_s);
+  return b.S - a.S + b.C_WB * b.rate.cross(lever) - a.C_WB * a.rate.cross(lever);
+}
+
+// Least squares with the worst residuals counting less.
+double robust_weight(double residual, double scale) {
+  const double limit = 3.0 * scale;
+  return residual <= limit ? 1.0 : limit / residual;
+}
+
+}  // namespace
+
+double gps_squares(const Series& series, const VectorSeries& velocity_N, const std::vector<Span>& windows,
+                   const ImuReading& reading, double latency_s) {
+  const Vector3d gravity(0.0, 0.0, gravity_of(series));
+  double squares = 0.0;
+  for (const Span& window : windows) {
+    const Strapdown strapdown(series.imu, reading, window.from_s - kMargin_s, window.to_s + kMargin_s);
+    std::vector<Vector3d> x;
+    std::vector<Vector3d> y;
+    Matrix3d sum = Matrix3d::Zero();
+    for (const auto& [i, j] : pairs_in(velocity_N, window, kApart_s, kGap_s)) {
+      const double from = velocity_N.t_s[i] - latency_s;
+      const double to = velocity_N.t_s[j] - latency_s;
+      if (!strapdown.covers(from) || !strapdown.covers(to)) continue;
+      x.push_back(increment(strapdown, from, to, Vector3d::Zero()));
+      y.push_back(velocity_N.v[j] - velocity_N.v[i] - gravity * (to - from));
+      sum += y.back() * x.back().transpose();
+    }
+    if (x.size() < 4) continue;
+    const Matrix3d R = best_rotation(sum);
+    for (std::size_t k = 0; k < x.size(); ++k) squares += (y[k] - R * x[k]).squaredNorm();
+  }
+  return squares;
+}
+
+GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::vector<Span>& windows,
+               const ImuReading& reading, double latency_s, const Vector3d& lever_B_m) {
+  GpsFit out;
+  out.latency_s = latency_s;
+  out.lever_B_m = lever_B_m;
+  const Vector3d gravity(0.0, 0.0, gravity_of(series));
+  constexpr int kCommon = 10;  // lever, latency, bias of the rate, bias of the force
+  ImuReading now = reading;
+  Vector3d force_bias = Vector3d::Zero();
+  double scale = 1.0;
+  constexpr double kRateStep = 2e-4;
+  constexpr double kTimeStep_s = 0.02;
+  std::vector<Matrix3d> turns(windows.size(), Matrix3d::Zero());
+  for (int iteration = 0; iteration < 6; ++iteration) {
+    WindowFit fit(kCommon);
+    std::vector<double> residuals;
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+      const double from_s = windows[w].from_s - kMargin_s;
+      const double to_s = windows[w].to_s + kMargin_s;
+      const Strapdown strapdown(series.imu, now, from_s, to_s);
+      std::vector<Strapdown> biased;
+      for (int axis = 0; axis < 3; ++axis) {
+        ImuReading other = now;
+        other.rate_bias[axis] += kRateStep;
+        biased.emplace_back(series.imu, other, from_s, to_s);
+      }
+      std::vector<std::array<double, 2>> times;
+      std::vector<Vector3d> x;
+      std::vector<Vector3d> y;
+      Matrix3d sum = Matrix3d::Zero();
+      for (const auto& [i, j] : pairs_in(velocity_N, windows[w], kApart_s, kGap_s)) {
+        const double from = velocity_N.t_s[i] - out.latency_s;
+        const double to = velocity_N.t_s[j] - out.latency_s;
+        if (!strapdown.covers(from - 0.05) || !strapdown.covers(to + 0.05)) continue;
+        const Matrix3d IC = strapdown.at(to).IC - strapdown.at(from).IC;
+        times.push_back({from, to});
+        x.push_back(increment(strapdown, from, to, out.lever_B_m) - IC * force_bias);
+        y.push_back(velocity_N.v[j] - velocity_N.v[i] - gravity * (to - from));
+        sum += y.back() * x.back().transpose();
+      }
+      if (x.size() < 4) continue;
+      const Matrix3d R = turns[w].isZero() ? best_rotation(sum) : best_rotation(sum);
+      turns[w] = R;
+      const auto rows = static_cast<Eigen::Index>(3 * x.size());
+      MatrixXd J(rows, kCommon);
+      MatrixXd Jw(rows, 3);
+      VectorXd r(rows);
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(3 * k);
+        const auto [from, to] = std::pair(times[k][0], times[k][1]);
+        const Strapdown::State a = strapdown.at(from);
+        const Strapdown::State b = strapdown.at(to);
+        const Vector3d residual = y[k] - R * x[k];
+        residuals.push_back(residual.norm());
+        const double weight = std::sqrt(robust_weight(residual.norm(), scale));
+        MatrixXd row(3, kCommon);
+        row.block<3, 3>(0, 0) = -R * (b.C_WB * geo::skew(b.rate) - a.C_WB * geo::skew(a.rate));
+        const Vector3d later = increment(strapdown, from - kTimeStep_s, to - kTimeStep_s, out.lever_B_m);
+        const Vector3d earlier = increment(strapdown, from + kTimeStep_s, to + kTimeStep_s, out.lever_B_m);
+        row.col(3) = -R * (later - earlier) / (2.0 * kTimeStep_s);
+        for (int axis = 0; axis < 3; ++axis)
+          row.col(4 + axis) = -R *
+                              (increment(biased[static_cast<std::size_t>(axis)], from, to, out.lever_B_m) -
+                               x[k] - (b.IC - a.IC) * force_bias) /
+                              kRateStep;
+        row.block<3, 3>(0, 7) = R * (b.IC - a.IC);
+        J.middleRows<3>(at) = weight * row;
+        Jw.middleRows<3>(at) = weight * geo::skew(R * x[k]);
+        r.segment<3>(at) = weight * residual;
+      }
+      fit.add(J, Jw, r);
+    }
+    if (residuals.size() < 12) return out;
+    scale = std::max(1e-4, median(residuals));
+    const double residual_sigma = scale / 1.54;  // median of the length of three normal numbers
+    for (int i = 0; i < 3; ++i) fit.prior(i, out.lever_B_m[i] - lever_B_m[i], 3.0, residual_sigma);
+    fit.prior(3, out.latency_s - latency_s, 0.5, residual_sigma);
+    for (int i = 0; i < 3; ++i)
+      fit.prior(4 + i, now.rate_bias[i] - reading.rate_bias[i], 0.03, residual_sigma);
+    for (int i = 0; i < 3; ++i) fit.prior(7 + i, force_bias[i], 0.5, residual_sigma);
+    const WindowFit::Solution solution = fit.solve();
+    const double most_s = 0.3;
+    out.lever_B_m += solution.step.segment<3>(0);
+    out.latency_s += std::clamp(solution.step[3], -most_s, most_s);
+    now.rate_bias += solution.step.segment<3>(4);
+    force_bias += solution.step.segment<3>(7);
+    out.lever_sigma_m = solution.covariance.diagonal().segment<3>(0).cwiseSqrt();
+    out.latency_sigma_s = std::sqrt(solution.covariance(3, 3));
+    out.rate_bias_sigma = solution.covariance.diagonal().segment<3>(4).cwiseSqrt();
+    out.residual_m_s = std::sqrt(solution.squares / solution.freedom);
+    out.windows = solution.windows;
+  }
+  out.rate_bias = now.rate_bias - reading.rate_bias;
+  out.done = true;
+  // Where it goes, in its own axes.
+  Vector3d sum = Vector3d::Zero();
+  double length = 0.0;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    if (turns[w].isZero()) continue;
+    const Strapdown strapdown(series.imu, now, windows[w].from_s - kMargin_s, windows[w].to_s + kMargin_s);
+    for (const auto& [i, j] : pairs_in(velocity_N, windows[w], kApart_s, kGap_s)) {
+      const double t = velocity_N.t_s[i] - out.latency_s;
+      if (!strapdown.covers(t)) continue;
+      sum += (turns[w] * strapdown.at(t).C_WB).transpose() * velocity_N.v[i];
+      length += velocity_N.v[i].norm();
+    }
+  }
+  if (length > 0.0) out.forward_B = sum / length;
+  return out;
+}
+
+}  // namespace fathom::commission
