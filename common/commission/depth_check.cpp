@@ -3,11 +3,15 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 #include "commission/heading_check.hpp"
 #include "commission/text.hpp"
 
 namespace fathom::commission {
 namespace {
+
+using Eigen::Vector3d;
 
 constexpr double kStep_s = 4.0;
 constexpr double kGap_s = 1.5;
@@ -55,13 +59,15 @@ Findings check_depth(const Series& series, const Assumed& assumed, const ImuRead
   if (series.depth.size() < 20) return out;
   // Way down by the DVL. Pairs are shorter than five seconds, so that what it is across a longer silence
   // counts nowhere.
-  const VectorSeries down = down_of(series, reading, 1.0);
+  const VectorSeries down = down_of(series, reading, 5.0);
   ScalarSeries sunk;
   double last = 0.0;
   for (std::size_t i = 0; i < dvl_B.size(); ++i) {
     const auto axis = at(down, dvl_B.t_s[i], 0.5);
     if (!axis) continue;
-    const double speed = axis->dot(dvl_B.v[i]);
+    const Vector3d port =
+        dvl_B.v[i] + rate_about(series.imu, reading, dvl_B.t_s[i]).cross(assumed.depth.lever_B_m);
+    const double speed = axis->dot(port);
     const double before =
         sunk.size() > 0 ? sunk.v.back() + 0.5 * (dvl_B.t_s[i] - sunk.t_s.back()) * (speed + last) : 0.0;
     sunk.t_s.push_back(dvl_B.t_s[i]);

@@ -3,6 +3,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "commission/signed_axes.hpp"
 #include "commission/text.hpp"
@@ -15,7 +18,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMirrorChi2 = 30.0;
+constexpr double kPerWindow = 6.0;  // independent figures that a window counts for
+constexpr double kClaim = 15.0;     // log likelihood ratio
 constexpr std::array<const char*, 3> kAngles{"roll", "pitch", "yaw"};
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
@@ -35,7 +39,21 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
         {"dvl", std::move(what), kind, value, unit, sigma, is_known, severity, std::move(text)});
   };
   if (series.dvl.size() < 10) return out;
-  const DvlFit fit = windows.size() >= 3 ? fit_dvl(series, windows, reading, latency_s) : DvlFit{};
+  const DvlFit linear = windows.size() >= 3 ? fit_dvl_linear(series, windows, reading, latency_s) : DvlFit{};
+  const Similarity plain = linear.done ? fit_similarity(linear, false) : Similarity{};
+  const Similarity reflected = linear.done ? fit_similarity(linear, true) : Similarity{};
+  DvlFigures fit;
+  DvlFigures other;
+  double against = 0.0;  // log likelihood ratio of the two
+  if (linear.done) {
+    fit = fit_dvl(series, windows, reading, plain, assumed.dvl.lever_B_m, latency_s);
+    other = fit_dvl(series, windows, reading, reflected, assumed.dvl.lever_B_m, latency_s);
+    if (fit.done && other.done)
+      against =
+          kPerWindow * static_cast<double>(fit.windows) * std::log(other.residual_m_s / fit.residual_m_s);
+  }
+  const bool mirrored = other.done && (!fit.done || against < -kClaim);
+  if (mirrored) std::swap(fit, other);
   if (!fit.done) {
     add("mounting", FindingKind::missing, false, Severity::ok,
         "How the DVL is mounted cannot be told: there is no minute under way with the DVL on the bottom. "
@@ -43,11 +61,8 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
         "would tell.");
     return out;
   }
-  const Similarity plain = fit_similarity(fit, false);
-  const Similarity reflected = fit_similarity(fit, true);
-  const bool mirrored = reflected.chi2 + kMirrorChi2 < plain.chi2;
-  const bool mirror_told = mirrored || plain.chi2 + kMirrorChi2 < reflected.chi2;
-  const Similarity& found = mirrored ? reflected : plain;
+  const bool mirror_told = std::abs(against) > kClaim;
+  const Similarity& found = fit.similarity;
   Matrix3d D = Matrix3d::Identity();
   if (mirrored) D(1, 1) = -1.0;
   // Signs of the whole vector and of z are told apart by the motion that turns give.
@@ -142,9 +157,14 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
       assumed.dvl.latency_s + fit.latency_s, "s", fit.latency_sigma_s);
   if (late) patch.dvl_latency_s = assumed.dvl.latency_s + fit.latency_s;
   const Matrix3d M = found.scale * axes;
+  // A lever that the log does not tell is as configured.
+  Vector3d lever = assumed.dvl.lever_B_m;
+  for (int axis = 0; axis < 3; ++axis)
+    if (fit.lever_sigma_m[axis] < 0.2) lever[axis] = fit.lever_B_m[axis];
   for (std::size_t i = 0; i < series.dvl.size(); ++i) {
-    out.velocity_B.t_s.push_back(series.dvl.t_s[i] - fit.latency_s);
-    out.velocity_B.v.push_back(M * series.dvl.v[i]);
+    const double t = series.dvl.t_s[i] - fit.latency_s;
+    out.velocity_B.t_s.push_back(t);
+    out.velocity_B.v.push_back(M * series.dvl.v[i] - rate_about(series.imu, reading, t).cross(lever));
   }
   return out;
 }

@@ -10,7 +10,7 @@ namespace fathom::commission {
 /// Mirror, unit, mounting, scale, lever and time offset of the DVL against the inertial unit.
 struct DvlCheck {
   Findings findings;
-  VectorSeries velocity_B;  ///< corrected, in body axes; of the DVL's place
+  VectorSeries velocity_B;  ///< corrected, in body axes; of the inertial unit's place
 };
 [[nodiscard]] DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading,
                                  const std::vector<Span>& windows, double latency_s, Patch& patch);

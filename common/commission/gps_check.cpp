@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -77,6 +78,71 @@ VectorSeries from_positions(const VectorSeries& p) {
     i = k;
   }
   return out;
+}
+
+// Squares of the changes of position less those by the velocity, whose stamps count as `lag_s` too late.
+double lagged_squares(const VectorSeries& p, const ScalarSeries& north, const ScalarSeries& east,
+                      double lag_s, std::size_t& count) {
+  double squares = 0.0;
+  count = 0;
+  for (std::size_t i = 1; i < p.size(); ++i) {
+    if (p.t_s[i] - p.t_s[i - 1] > 1.5) continue;
+    const auto n0 = at(north, p.t_s[i - 1] + lag_s, 1.5);
+    const auto n1 = at(north, p.t_s[i] + lag_s, 1.5);
+    const auto e0 = at(east, p.t_s[i - 1] + lag_s, 1.5);
+    const auto e1 = at(east, p.t_s[i] + lag_s, 1.5);
+    if (!n0 || !n1 || !e0 || !e1) continue;
+    const double dn = p.v[i].x() - p.v[i - 1].x() - (*n1 - *n0);
+    const double de = p.v[i].y() - p.v[i - 1].y() - (*e1 - *e0);
+    squares += dn * dn + de * de;
+    ++count;
+  }
+  return squares;
+}
+
+// A receiver that smooths gives a velocity that is older than its position.
+void report_lag(const Series& series, GpsCheck& out) {
+  ScalarSeries north;
+  ScalarSeries east;
+  const VectorSeries& v = out.velocity_N;
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (i > 0) sum += 0.5 * (v.t_s[i] - v.t_s[i - 1]) * (v.v[i] + v.v[i - 1]);
+    north.t_s.push_back(v.t_s[i]);
+    north.v.push_back(sum.x());
+    east.t_s.push_back(v.t_s[i]);
+    east.v.push_back(sum.y());
+  }
+  double best = 0.0;
+  double least = std::numeric_limits<double>::max();
+  std::size_t count = 0;
+  for (int step = -50; step <= 50; ++step) {
+    std::size_t now = 0;
+    const double squares = lagged_squares(series.gps_position, north, east, 0.02 * step, now);
+    if (now < 30 || squares / static_cast<double>(now) >= least) continue;
+    least = squares / static_cast<double>(now);
+    best = 0.02 * step;
+    count = now;
+  }
+  if (count < 30) return;
+  constexpr double kWing_s = 0.1;
+  std::size_t n = 0;
+  const double left =
+      lagged_squares(series.gps_position, north, east, best - kWing_s, n) / static_cast<double>(n);
+  const double right =
+      lagged_squares(series.gps_position, north, east, best + kWing_s, n) / static_cast<double>(n);
+  const double curvature = (left - 2.0 * least + right) / (kWing_s * kWing_s);
+  if (!(curvature > 0.0)) return;
+  const double lag = best - (right - left) / (2.0 * kWing_s) / curvature;
+  // Two components a pair; neighbours share a position, which halves what they count.
+  const double sigma = std::sqrt(2.0 * least / static_cast<double>(count) / curvature);
+  if (sigma > 0.05 || std::abs(lag) < 5.0 * sigma || std::abs(lag) < 0.03) return;
+  out.findings.push_back(
+      {"gps", "velocity_lag", FindingKind::latency, lag, "s", sigma, true, Severity::note,
+       "The GPS velocity is " + with_sigma(lag, sigma) +
+           " s older than the GPS position of the same stamp. One latency cannot suit both: leave the "
+           "one out that the receiver smooths."});
+  for (double& t : out.velocity_N.t_s) t -= lag;
 }
 
 struct Unit {
@@ -174,6 +240,7 @@ GpsCheck check_gps(const Series& series) {
                  : "The vehicle moved too little to tell the axes of the GPS velocity. A straight run of "
                    "some 50 m to each side would.");
   }
+  report_lag(series, out);
   // Noise: differences over neighbours hold the motion as well, second differences little of it.
   std::vector<double> second;
   const VectorSeries& v = out.velocity_N;

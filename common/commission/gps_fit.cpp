@@ -22,9 +22,8 @@ using Eigen::VectorXd;
 
 constexpr double kApart_s = 0.4;
 constexpr double kGap_s = 2.5;
-constexpr double kMargin_s = 2.0;  // of the integration around a window: latencies up to this
-
-using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
+constexpr double kLeastStep_s = 0.15;  // receivers that are quicker filter: what they add is not independent
+constexpr double kMargin_s = 2.0;      // of the integration around a window: latencies up to this
 
 double gravity_of(const Series& series) {
   return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : 9.80665;
@@ -34,6 +33,12 @@ Vector3d increment(const Strapdown& strapdown, double from_s, double to_s, const
   const Strapdown::State a = strapdown.at(from_s);
   const Strapdown::State b = strapdown.at(to_s);
   return b.S - a.S + b.C_WB * b.rate.cross(lever) - a.C_WB * a.rate.cross(lever);
+}
+
+// What the unit felt up to an instant and the turning of the lever, in W.
+Vector3d felt(const Strapdown& strapdown, double t_s, const Vector3d& lever) {
+  const Strapdown::State state = strapdown.at(t_s);
+  return state.S + state.C_WB * state.rate.cross(lever);
 }
 
 // Least squares with the worst residuals counting less.
@@ -94,48 +99,56 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
         other.rate_bias[axis] += kRateStep;
         biased.emplace_back(series.imu, other, from_s, to_s);
       }
-      std::vector<std::array<double, 2>> times;
+      // Points of the window: v = v0 + R x + g t, v0 and R of the window.
+      const double begin_s = windows[w].from_s;
+      std::vector<double> times;
       std::vector<Vector3d> x;
       std::vector<Vector3d> y;
-      Matrix3d sum = Matrix3d::Zero();
-      for (const auto& [i, j] : pairs_in(velocity_N, windows[w], kApart_s, kGap_s)) {
-        const double from = velocity_N.t_s[i] - out.latency_s;
-        const double to = velocity_N.t_s[j] - out.latency_s;
-        if (!strapdown.covers(from - 0.05) || !strapdown.covers(to + 0.05)) continue;
-        const Matrix3d IC = strapdown.at(to).IC - strapdown.at(from).IC;
-        times.push_back({from, to});
-        x.push_back(increment(strapdown, from, to, out.lever_B_m) - IC * force_bias);
-        y.push_back(velocity_N.v[j] - velocity_N.v[i] - gravity * (to - from));
-        sum += y.back() * x.back().transpose();
+      Vector3d mean_x = Vector3d::Zero();
+      Vector3d mean_y = Vector3d::Zero();
+      for (const std::size_t i : rows_in(velocity_N, windows[w], kLeastStep_s)) {
+        const double t = velocity_N.t_s[i] - out.latency_s;
+        if (!strapdown.covers(t - 0.05) || !strapdown.covers(t + 0.05)) continue;
+        times.push_back(t);
+        x.push_back(felt(strapdown, t, out.lever_B_m) - strapdown.at(t).IC * force_bias);
+        y.push_back(velocity_N.v[i] - gravity * (t - begin_s));
+        mean_x += x.back();
+        mean_y += y.back();
       }
-      if (x.size() < 4) continue;
-      const Matrix3d R = turns[w].isZero() ? best_rotation(sum) : best_rotation(sum);
+      if (x.size() < 5) continue;
+      mean_x /= static_cast<double>(x.size());
+      mean_y /= static_cast<double>(x.size());
+      Matrix3d sum = Matrix3d::Zero();
+      for (std::size_t k = 0; k < x.size(); ++k) sum += (y[k] - mean_y) * (x[k] - mean_x).transpose();
+      const Matrix3d R = best_rotation(sum);
       turns[w] = R;
       const auto rows = static_cast<Eigen::Index>(3 * x.size());
       MatrixXd J(rows, kCommon);
-      MatrixXd Jw(rows, 3);
+      MatrixXd Jw(rows, 6);
       VectorXd r(rows);
       for (std::size_t k = 0; k < x.size(); ++k) {
         const auto at = static_cast<Eigen::Index>(3 * k);
-        const auto [from, to] = std::pair(times[k][0], times[k][1]);
-        const Strapdown::State a = strapdown.at(from);
-        const Strapdown::State b = strapdown.at(to);
-        const Vector3d residual = y[k] - R * x[k];
+        const double t = times[k];
+        const Strapdown::State state = strapdown.at(t);
+        const Vector3d residual = y[k] - mean_y - R * (x[k] - mean_x);
         residuals.push_back(residual.norm());
         const double weight = std::sqrt(robust_weight(residual.norm(), scale));
         MatrixXd row(3, kCommon);
-        row.block<3, 3>(0, 0) = -R * (b.C_WB * geo::skew(b.rate) - a.C_WB * geo::skew(a.rate));
-        const Vector3d later = increment(strapdown, from - kTimeStep_s, to - kTimeStep_s, out.lever_B_m);
-        const Vector3d earlier = increment(strapdown, from + kTimeStep_s, to + kTimeStep_s, out.lever_B_m);
-        row.col(3) = -R * (later - earlier) / (2.0 * kTimeStep_s);
+        row.block<3, 3>(0, 0) = -R * state.C_WB * geo::skew(state.rate);
+        // The stamp moves gravity's part of y as well.
+        row.col(3) = gravity - R *
+                                   (felt(strapdown, t - kTimeStep_s, out.lever_B_m) -
+                                    felt(strapdown, t + kTimeStep_s, out.lever_B_m)) /
+                                   (2.0 * kTimeStep_s);
         for (int axis = 0; axis < 3; ++axis)
           row.col(4 + axis) = -R *
-                              (increment(biased[static_cast<std::size_t>(axis)], from, to, out.lever_B_m) -
-                               x[k] - (b.IC - a.IC) * force_bias) /
+                              (felt(biased[static_cast<std::size_t>(axis)], t, out.lever_B_m) -
+                               state.IC * force_bias - x[k]) /
                               kRateStep;
-        row.block<3, 3>(0, 7) = R * (b.IC - a.IC);
+        row.block<3, 3>(0, 7) = R * state.IC;
         J.middleRows<3>(at) = weight * row;
-        Jw.middleRows<3>(at) = weight * geo::skew(R * x[k]);
+        Jw.block<3, 3>(at, 0) = weight * geo::skew(R * (x[k] - mean_x));
+        Jw.block<3, 3>(at, 3) = -weight * Matrix3d::Identity();
         r.segment<3>(at) = weight * residual;
       }
       fit.add(J, Jw, r);

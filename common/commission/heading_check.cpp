@@ -18,10 +18,11 @@ using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kStep_s = 2.0;  // of one comparison of turns
 constexpr double kGap_s = 3.0;
+constexpr double kHalf_s = 5.0;  // over which accelerations even out
 
 // Turn about the vertical by the gyro, from the start on.
 ScalarSeries turn_by_gyro(const Series& series, const ImuReading& reading) {
-  const VectorSeries down = down_of(series, reading, 1.0);
+  const VectorSeries down = down_of(series, reading, kHalf_s);
   ScalarSeries out;
   double sum = 0.0;
   std::size_t j = 0;
@@ -89,18 +90,19 @@ Turns compare(const ScalarSeries& heading, const ScalarSeries& gyro, double late
 
 VectorSeries down_of(const Series& series, const ImuReading& reading, double half_s) {
   VectorSeries out;
+  constexpr double kPiece_s = 60.0;
   const ImuSeries& imu = series.imu;
-  std::size_t from = 0;
-  std::size_t to = 0;
-  Vector3d sum = Vector3d::Zero();
-  for (double t = imu.t_s.front(); t <= imu.t_s.back(); t += 0.1) {
-    while (to < imu.size() && imu.t_s[to] <= t + half_s) sum += imu.force[to++];
-    while (from < to && imu.t_s[from] < t - half_s) sum -= imu.force[from++];
-    if (to - from < 3) continue;
-    const Vector3d force = reading.force * sum;
-    if (!(force.norm() > 0.0)) continue;
-    out.t_s.push_back(t);
-    out.v.push_back(-force.normalized());
+  double t = imu.t_s.front() + half_s + 0.1;
+  while (t + half_s < imu.t_s.back()) {
+    const Strapdown strapdown(imu, reading, t - half_s - 0.5, t + kPiece_s + half_s + 0.5);
+    const double begun = t;
+    for (; t < begun + kPiece_s && strapdown.covers(t - half_s) && strapdown.covers(t + half_s); t += 0.1) {
+      const Vector3d felt = strapdown.at(t + half_s).S - strapdown.at(t - half_s).S;
+      if (!(felt.norm() > 0.0)) continue;
+      out.t_s.push_back(t);
+      out.v.push_back(-(strapdown.at(t).C_WB.transpose() * felt).normalized());
+    }
+    if (t == begun) t += 1.0;  // a gap
   }
   return out;
 }

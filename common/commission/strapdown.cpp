@@ -59,4 +59,15 @@ Strapdown::State Strapdown::at(double t_s) const {
   return out;
 }
 
+Vector3d rate_about(const ImuSeries& imu, const ImuReading& reading, double t_s) {
+  constexpr double kHalf_s = 0.1;
+  Vector3d sum = Vector3d::Zero();
+  double count = 0.0;
+  auto i = static_cast<std::size_t>(std::lower_bound(imu.t_s.begin(), imu.t_s.end(), t_s - kHalf_s) -
+                                    imu.t_s.begin());
+  for (; i < imu.size() && imu.t_s[i] <= t_s + kHalf_s; ++i, count += 1.0)
+    sum += imu.rate[i] - reading.rate_bias;
+  return count > 0.0 ? Vector3d(reading.rate * sum / count) : Vector3d::Zero();
+}
+
 }  // namespace fathom::commission

@@ -39,4 +39,7 @@ class Strapdown {
   std::vector<State> states_;
 };
 
+/// Mean turn rate from 0.1 s before to 0.1 s behind an instant, read right, rad/s.
+[[nodiscard]] Eigen::Vector3d rate_about(const ImuSeries& imu, const ImuReading& reading, double t_s);
+
 }  // namespace fathom::commission

@@ -68,6 +68,15 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_in(const VectorSeries& ve
   return out;
 }
 
+std::vector<std::size_t> rows_in(const VectorSeries& velocity, const Span& span, double apart_s) {
+  std::vector<std::size_t> out;
+  auto i = static_cast<std::size_t>(std::lower_bound(velocity.t_s.begin(), velocity.t_s.end(), span.from_s) -
+                                    velocity.t_s.begin());
+  for (; i < velocity.size() && velocity.t_s[i] <= span.to_s; ++i)
+    if (out.empty() || velocity.t_s[i] - velocity.t_s[out.back()] >= apart_s - 1e-3) out.push_back(i);
+  return out;
+}
+
 void WindowFit::add(const MatrixXd& J, const MatrixXd& Jw, const VectorXd& r) {
   const MatrixXd own = Jw.transpose() * Jw + 1e-9 * MatrixXd::Identity(Jw.cols(), Jw.cols());
   const Eigen::LDLT<MatrixXd> factor(own);
@@ -97,19 +106,24 @@ WindowFit::Solution WindowFit::solve() const {
   out.squares = squares_ + out.step.dot(right_);
   out.freedom = std::max(1.0, rows_ - common_);
   const MatrixXd inverse = factor.solve(MatrixXd::Identity(common_, common_));
-  MatrixXd scores = MatrixXd::Zero(common_, common_);
+  // Leaving out one window after the other (jackknife): few windows make it larger, never smaller.
+  VectorXd mean = VectorXd::Zero(common_);
+  std::vector<VectorXd> without;
   for (const Part& part : parts_) {
-    const VectorXd score = part.b + part.N * out.step;
-    scores += score * score.transpose();
+    const MatrixXd N = normal_ - part.N + 1e-12 * MatrixXd::Identity(common_, common_);
+    without.push_back(-N.ldlt().solve(right_ - part.b));
+    mean += without.back();
   }
+  const auto count = static_cast<double>(std::max<std::size_t>(parts_.size(), 1));
+  mean /= count;
+  MatrixXd jackknife = MatrixXd::Zero(common_, common_);
+  for (const VectorXd& step : without) jackknife += (step - mean) * (step - mean).transpose();
+  jackknife *= (count - 1.0) / count;
   // Never less than white noise would leave.
   const MatrixXd white = out.squares / out.freedom * inverse;
-  const double few =
-      static_cast<double>(parts_.size()) / std::max(1.0, static_cast<double>(parts_.size()) - 1.0);
-  const MatrixXd sandwich = few * inverse * scores * inverse;
   out.covariance = white;
   for (int i = 0; i < common_; ++i) {
-    const double ratio = sandwich(i, i) / std::max(white(i, i), 1e-300);
+    const double ratio = jackknife(i, i) / std::max(white(i, i), 1e-300);
     if (ratio <= 1.0) continue;
     const double stretch = std::sqrt(ratio);
     out.covariance.row(i) *= stretch;

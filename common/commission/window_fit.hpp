@@ -20,8 +20,12 @@ namespace fathom::commission {
                                                                         const Span& span, double apart_s,
                                                                         double gap_s);
 
-/// Least squares over windows: common unknowns, and three of each window that are eliminated at once. Its
-/// covariance is that of the scatter between windows (sandwich), so that what is correlated inside a window
+/// Rows of a velocity within a span, at least `apart_s` apart.
+[[nodiscard]] std::vector<std::size_t> rows_in(const VectorSeries& velocity, const Span& span,
+                                               double apart_s);
+
+/// Least squares over windows: common unknowns, and some of each window that are eliminated at once. Its
+/// covariance is that of the scatter between windows (jackknife), so that what is correlated inside a window
 /// counts once.
 class WindowFit {
  public:
