@@ -21,10 +21,10 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kWindow_s = 12.0;
-constexpr double kDvlWindow_s =
-    24.0;  // of the figures of the DVL: quiet instruments want more to fit than their start
+// Windows of the DVL's figures: a quiet instrument wants more to fit than its start.
+constexpr double kDvlWindow_s = 24.0;
 constexpr std::size_t kFew = 16;    // windows that hypotheses are compared on
-constexpr std::size_t kMany = 120;  // and that figures come from
+constexpr std::size_t kMany = 250;  // and that figures come from
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 void append(Findings& to, Findings from) {
@@ -158,7 +158,7 @@ Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
                     assumed.gps.lever_B_m);
     report_gps(fit, assumed, out);
   }
-  const std::vector<Span> dvl_windows = windows_of(series, series.dvl, kDvlWindow_s, 10, kMany);
+  const std::vector<Span> dvl_windows = windows_of(series, series.dvl, kDvlWindow_s, 6, kMany);
   DvlCheck dvl = check_dvl(series, assumed, axes.reading, dvl_windows, evidence.dvl_latency_s, out.patch);
   append(out.findings, dvl.findings);
   append(out.findings, check_heading(series, assumed, axes.reading, gps, dvl.velocity_B));

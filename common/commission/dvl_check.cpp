@@ -10,6 +10,7 @@
 #include "commission/signed_axes.hpp"
 #include "commission/text.hpp"
 #include "geo/so3.hpp"
+#include "geo/wgs84.hpp"
 
 namespace fathom::commission {
 namespace {
@@ -101,6 +102,17 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
   const Vector3d rpy = geo::to_rpy(geo::from_matrix(found.C)) / kDegree;
   const Vector3d off = geo::log(geo::from_matrix(assumed.dvl.C_BD.transpose() * found.C)) / kDegree;
   const Vector3d sigma = found.turn_sigma_rad / kDegree;
+  // The same uncertainty as roll, pitch and yaw have it.
+  Vector3d rpy_sigma = Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    constexpr double kStep = 1e-5;
+    const Vector3d moved =
+        geo::to_rpy(geo::from_matrix(found.C * geo::to_matrix(geo::exp(kStep * Vector3d::Unit(axis)))));
+    for (int i = 0; i < 3; ++i) {
+      const double slope = geo::wrap_pi(moved[i] - rpy[i] * kDegree) / kStep;
+      rpy_sigma[i] = std::hypot(rpy_sigma[i], slope * sigma[axis]);
+    }
+  }
   bool all_known = true;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
@@ -117,11 +129,11 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
                                 " degrees about its " + kAxes[i] + " axis against what is configured. Its " +
                                 kAngles[i] + " in the body is " + number(rpy[axis], 1) + " degrees."
                           : std::string("DVL mounting ") + kAngles[i] + " " +
-                                with_sigma(rpy[axis], sigma[axis]) + " degrees.")
+                                with_sigma(rpy[axis], rpy_sigma[axis]) + " degrees.")
                  : std::string("DVL mounting ") + kAngles[i] + " cannot be told to two degrees: " +
                        (axis == 0 ? "the vehicle slipped too little sideways; tight turns would tell."
                                   : "starts, stops and turns under way would tell."),
-        rpy[axis], "deg", sigma[axis]);
+        rpy[axis], "deg", rpy_sigma[axis]);
     if (wrong || differs) patch.C_BD = found.C;
   }
   if (mirrored || !all_known) {

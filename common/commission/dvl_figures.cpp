@@ -33,17 +33,24 @@ struct Unknowns {
   Vector3d force_bias = Vector3d::Zero();
 };
 
+// A window's own: velocity at its start, gravity, and the drift of gravity in the frame of the gyro as the
+// Earth turns.
+using Own = Eigen::Matrix<double, 9, 1>;
+constexpr double kDrift_m_s3 = 7.292e-5 * 9.8;  // one sigma of each component of the drift
+
 // A window's rows: what the DVL read, when.
 struct Rows {
   std::vector<double> t_s;
   std::vector<Vector3d> read;
 };
 
-// Velocity in body axes of the DVL's place, as it would be read in a window of velocity v0 and gravity g (W).
+// Velocity in body axes of the DVL's place.
 Vector3d body_velocity(const Strapdown& strapdown, double t_s, double begin_s, const Unknowns& u,
-                       const Eigen::Matrix<double, 6, 1>& own) {
+                       const Own& own) {
   const Strapdown::State state = strapdown.at(t_s);
-  const Vector3d v_W = own.head<3>() + state.S - state.IC * u.force_bias + own.tail<3>() * (t_s - begin_s);
+  const Vector3d v_W = own.head<3>() + state.S - state.IC * u.force_bias +
+                       own.segment<3>(3) * (t_s - begin_s) +
+                       own.tail<3>() * (0.5 * (t_s - begin_s) * (t_s - begin_s));
   return state.C_WB.transpose() * v_W + state.rate.cross(u.lever);
 }
 
@@ -73,10 +80,12 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
   const double begin_s = window.from_s;
   const Matrix3d A = u.D * u.C.transpose() / u.scale;
   const auto count = static_cast<Eigen::Index>(3 * rows.t_s.size());
+  const double drift_weight = (robust_scale > 0.0 ? robust_scale / 1.54 : 0.01) / kDrift_m_s3;
   // The window's own velocity and gravity for the present common unknowns: linear.
-  MatrixXd Jw(count, 6);
-  VectorXd r(count);
-  Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
+  MatrixXd Jw = MatrixXd::Zero(count + 3, 9);
+  VectorXd r = VectorXd::Zero(count + 3);
+  Own own = Own::Zero();
+  Jw.bottomRightCorner<3, 3>() = drift_weight * Matrix3d::Identity();
   for (int pass = 0; pass < 2; ++pass) {
     for (std::size_t k = 0; k < rows.t_s.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(3 * k);
@@ -86,11 +95,14 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
       const double weight = pass == 0 ? 1.0 : weight_of(residual.norm(), robust_scale);
       Jw.block<3, 3>(at, 0) = -weight * turn;
       Jw.block<3, 3>(at, 3) = -weight * (t - begin_s) * turn;
+      Jw.block<3, 3>(at, 6) = -weight * 0.5 * (t - begin_s) * (t - begin_s) * turn;
       r.segment<3>(at) = weight * residual;
     }
-    own -= (Jw.transpose() * Jw + 1e-9 * MatrixXd::Identity(6, 6)).ldlt().solve(Jw.transpose() * r);
+    r.tail<3>() = drift_weight * own.tail<3>();
+    own -= (Jw.transpose() * Jw + 1e-9 * MatrixXd::Identity(9, 9)).ldlt().solve(Jw.transpose() * r);
   }
-  MatrixXd J(count, kCommon);
+  r.tail<3>() = drift_weight * own.tail<3>();
+  MatrixXd J = MatrixXd::Zero(count + 3, kCommon);
   for (std::size_t k = 0; k < rows.t_s.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(3 * k);
     const double t = rows.t_s[k];
@@ -115,6 +127,7 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
     J.middleRows<3>(at) = weight * row;
     Jw.block<3, 3>(at, 0) = -weight * turn;
     Jw.block<3, 3>(at, 3) = -weight * (t - begin_s) * turn;
+    Jw.block<3, 3>(at, 6) = -weight * 0.5 * (t - begin_s) * (t - begin_s) * turn;
     r.segment<3>(at) = weight * residual;
   }
   fit.add(J, Jw, r);

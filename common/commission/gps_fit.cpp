@@ -23,16 +23,18 @@ using Eigen::VectorXd;
 constexpr double kApart_s = 0.4;
 constexpr double kGap_s = 2.5;
 constexpr double kLeastStep_s = 0.15;  // receivers that are quicker filter: what they add is not independent
-constexpr double kMargin_s = 2.0;      // of the integration around a window: latencies up to this
+constexpr double kManyCourses =
+    0.6;  // length of the mean direction over ground below which the courses were many
+constexpr double kMargin_s = 2.0;  // of the integration around a window: latencies up to this
 
 double gravity_of(const Series& series) {
   return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : 9.80665;
 }
 
-Vector3d increment(const Strapdown& strapdown, double from_s, double to_s, const Vector3d& lever) {
-  const Strapdown::State a = strapdown.at(from_s);
-  const Strapdown::State b = strapdown.at(to_s);
-  return b.S - a.S + b.C_WB * b.rate.cross(lever) - a.C_WB * a.rate.cross(lever);
+Vector3d mean_of(const std::vector<Vector3d>& some) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& each : some) sum += each;
+  return sum / static_cast<double>(some.size());
 }
 
 // What the unit felt up to an instant and the turning of the lever, in W.
@@ -57,18 +59,19 @@ double gps_squares(const Series& series, const VectorSeries& velocity_N, const s
     const Strapdown strapdown(series.imu, reading, window.from_s - kMargin_s, window.to_s + kMargin_s);
     std::vector<Vector3d> x;
     std::vector<Vector3d> y;
-    Matrix3d sum = Matrix3d::Zero();
-    for (const auto& [i, j] : pairs_in(velocity_N, window, kApart_s, kGap_s)) {
-      const double from = velocity_N.t_s[i] - latency_s;
-      const double to = velocity_N.t_s[j] - latency_s;
-      if (!strapdown.covers(from) || !strapdown.covers(to)) continue;
-      x.push_back(increment(strapdown, from, to, Vector3d::Zero()));
-      y.push_back(velocity_N.v[j] - velocity_N.v[i] - gravity * (to - from));
-      sum += y.back() * x.back().transpose();
+    for (const std::size_t i : rows_in(velocity_N, window, kLeastStep_s)) {
+      const double t = velocity_N.t_s[i] - latency_s;
+      if (!strapdown.covers(t)) continue;
+      x.push_back(strapdown.at(t).S);
+      y.push_back(velocity_N.v[i] - gravity * (t - window.from_s));
     }
-    if (x.size() < 4) continue;
+    if (x.size() < 5) continue;
+    const Vector3d mean_x = mean_of(x);
+    const Vector3d mean_y = mean_of(y);
+    Matrix3d sum = Matrix3d::Zero();
+    for (std::size_t k = 0; k < x.size(); ++k) sum += (y[k] - mean_y) * (x[k] - mean_x).transpose();
     const Matrix3d R = best_rotation(sum);
-    for (std::size_t k = 0; k < x.size(); ++k) squares += (y[k] - R * x[k]).squaredNorm();
+    for (std::size_t k = 0; k < x.size(); ++k) squares += (y[k] - mean_y - R * (x[k] - mean_x)).squaredNorm();
   }
   return squares;
 }
@@ -177,6 +180,7 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
   out.done = true;
   // Where it goes, in its own axes.
   Vector3d sum = Vector3d::Zero();
+  Vector3d over_ground = Vector3d::Zero();
   double length = 0.0;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (turns[w].isZero()) continue;
@@ -185,10 +189,12 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
       const double t = velocity_N.t_s[i] - out.latency_s;
       if (!strapdown.covers(t)) continue;
       sum += (turns[w] * strapdown.at(t).C_WB).transpose() * velocity_N.v[i];
+      over_ground += velocity_N.v[i];
       length += velocity_N.v[i].norm();
     }
   }
-  if (length > 0.0) out.forward_B = sum / length;
+  // One course over ground says nothing of a bow: a multicopter keeps its heading where it likes.
+  if (length > 0.0 && over_ground.norm() < kManyCourses * length) out.forward_B = sum / length;
   return out;
 }
 

@@ -27,6 +27,7 @@ struct GpsFit {
   double residual_m_s = 0.0;
   std::size_t windows = 0;
   /// Direction in which the vehicle goes, in body axes, unit or shorter: the length says how steady it is.
+  /// Zero where it kept to one course.
   Eigen::Vector3d forward_B = Eigen::Vector3d::Zero();
 };
 [[nodiscard]] GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N,

@@ -22,9 +22,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kGravity = 9.80665;
-constexpr double kReject = 15.0;    // log likelihood ratio: e^-15 in some 400 hypotheses is no chance
-constexpr double kPerWindow = 6.0;  // independent figures that a window counts for at most
-constexpr double kSteady = 0.8;     // length of the mean direction of travel from which a vehicle has a bow
+constexpr double kReject = 15.0;     // log likelihood ratio: e^-15 in some 400 hypotheses is no chance
+constexpr double kPerWindow = 6.0;   // independent figures that a window counts for at most
+constexpr double kDeparture = 10.0;  // log odds against an instrument that is not as configured
+constexpr double kSteady = 0.8;      // length of the mean direction of travel from which a vehicle has a bow
 
 struct Unit {
   double factor;
@@ -123,8 +124,8 @@ Explanation explain(const std::vector<Class>& classes, const Vector3d& mean_forc
         now.dvl_agrees = nearest_signed_axes(now.force * *M).isIdentity(1e-9);
         now.cost += now.dvl_agrees ? 0.0 : 1.0;
       }
-      now.cost += 1e-3 * (3.0 - now.gyro.trace()) + 1e-3 * (3.0 - now.force.trace()) +
-                  1e-4 * std::min(each.against, 50.0);
+      now.cost +=
+          1e-3 * (3.0 - now.gyro.trace()) + 1e-3 * (3.0 - now.force.trace()) + each.against / kDeparture;
       if (now.cost < best.cost) best = now;
     }
   }
@@ -293,6 +294,22 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
   out.reading.rate = gyro_unit->factor * found.gyro;
   out.reading.force = unit.factor * found.force;
   out.wrong = !found.gyro.isIdentity(1e-9) || !found.force.isIdentity(1e-9);
+  static constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
+  // Axis by axis: whether the log would have noticed the other sign of the gyro.
+  const Matrix3d Q = found.force * (std::abs(found.force.determinant() - 1.0) < 1e-9 ? 1.0 : -1.0);
+  const double force_sign = found.force.determinant();
+  std::string told;
+  std::string untold;
+  for (int axis = 0; axis < 3; ++axis) {
+    Matrix3d flipped = Matrix3d::Identity();
+    flipped(axis, axis) = -1.0;
+    const Matrix3d other = Q.transpose() * flipped * found.gyro;
+    const bool noticed = std::all_of(classes.begin(), classes.end(), [&](const Class& each) {
+      return each.force_sign * force_sign < 0.0 || !each.gyro.isApprox(other, 1e-9) || each.against > kReject;
+    });
+    std::string& list = noticed ? told : untold;
+    list += std::string(list.empty() ? "" : ", ") + kNames[static_cast<std::size_t>(axis)];
+  }
   if (out.wrong) {
     const bool both = found.gyro.isApprox(found.force, 1e-9);
     const std::string gyro = describe(found.gyro);
@@ -314,19 +331,7 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
     }
     return out;
   }
-  // As configured. What the log would have noticed, axis by axis.
-  static constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
-  std::string told;
-  std::string untold;
-  for (int axis = 0; axis < 3; ++axis) {
-    Matrix3d flipped = Matrix3d::Identity();
-    flipped(axis, axis) = -1.0;
-    const bool noticed = std::all_of(classes.begin(), classes.end(), [&](const Class& each) {
-      return each.force_sign < 0.0 || !each.gyro.isApprox(flipped, 1e-9) || each.against > kReject;
-    });
-    std::string& list = noticed ? told : untold;
-    list += std::string(list.empty() ? "" : ", ") + kNames[static_cast<std::size_t>(axis)];
-  }
+  // As configured.
   if (!told.empty())
     add("gyro_axes", FindingKind::axes, true, Severity::ok,
         "Gyro " + told + " turn with gravity and motion as configured.");
