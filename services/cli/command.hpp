@@ -33,6 +33,7 @@ class Failure : public std::runtime_error {
 void add_decode(CLI::App& app, ExitCode& exit_code);
 void add_status(CLI::App& app, ExitCode& exit_code);
 void add_solve(CLI::App& app, ExitCode& exit_code);
+void add_commission(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_study(CLI::App& app, ExitCode& exit_code);
 void add_bench(CLI::App& app, ExitCode& exit_code);

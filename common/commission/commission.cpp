@@ -1,0 +1,175 @@
+#include "commission/commission.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "commission/depth_check.hpp"
+#include "commission/dvl_check.hpp"
+#include "commission/gps_check.hpp"
+#include "commission/gps_fit.hpp"
+#include "commission/heading_check.hpp"
+#include "commission/imu_axes.hpp"
+#include "commission/imu_noise.hpp"
+#include "commission/text.hpp"
+#include "geo/so3.hpp"
+
+namespace fathom::commission {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kWindow_s = 12.0;
+// Windows of the DVL's figures: a quiet instrument wants more to fit than its start.
+constexpr double kDvlWindow_s = 24.0;
+constexpr std::size_t kFew = 16;    // windows that hypotheses are compared on
+constexpr std::size_t kMany = 250;  // and that figures come from
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+void append(Findings& to, Findings from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+void report_gps(const GpsFit& fit, const Assumed& assumed, Commissioning& out) {
+  const auto add = [&](std::string what, FindingKind kind, bool is_known, Severity severity, std::string text,
+                       double value, const char* unit, double sigma) {
+    out.findings.push_back(
+        {"gps", std::move(what), kind, value, unit, sigma, is_known, severity, std::move(text)});
+  };
+  if (!fit.done) {
+    out.findings.push_back({"gps", "latency", FindingKind::missing, kUnknown, "", kUnknown, false,
+                            Severity::ok,
+                            "Latency and lever of the antenna cannot be told: there is no minute under way "
+                            "with GPS. Turns to both sides, starts and "
+                            "stops would tell."});
+    return;
+  }
+  const bool late_known = fit.latency_sigma_s < 0.1;
+  const bool late =
+      late_known && std::abs(fit.latency_s) > 0.3 && std::abs(fit.latency_s) > 5.0 * fit.latency_sigma_s;
+  const bool differs = late_known && assumed.gps.configured && std::abs(fit.latency_s) > 0.05 &&
+                       std::abs(fit.latency_s) > 4.0 * fit.latency_sigma_s;
+  add("latency", FindingKind::latency, late_known,
+      late      ? Severity::wrong
+      : differs ? Severity::note
+                : Severity::ok,
+      late_known ? "GPS is stamped " + with_sigma(fit.latency_s, fit.latency_sigma_s) +
+                       " s later than the motion beyond the configured latency."
+                 : "The time offset of GPS cannot be told: quicker turns, starts and stops would tell.",
+      assumed.gps.latency_s + fit.latency_s, "s", fit.latency_sigma_s);
+  if (late || differs) out.patch.gps_latency_s = assumed.gps.latency_s + fit.latency_s;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double s = fit.lever_sigma_m[axis];
+    const bool is_known = s < 0.3;
+    const double off = fit.lever_B_m[axis] - assumed.gps.lever_B_m[axis];
+    const bool note = is_known && assumed.gps.configured && std::abs(off) > 4.0 * s && std::abs(off) > 0.5;
+    add(std::string("lever_") + kAxes[static_cast<std::size_t>(axis)], FindingKind::lever, is_known,
+        note ? Severity::note : Severity::ok,
+        is_known ? std::string("The antenna lies ") + with_sigma(fit.lever_B_m[axis], s) + " m along " +
+                       kAxes[static_cast<std::size_t>(axis)] + " from the inertial unit."
+                 : std::string("The lever of the antenna along ") + kAxes[static_cast<std::size_t>(axis)] +
+                       " cannot be told: " +
+                       (axis == 2 ? "rolling and pitching would tell." : "quicker turns would tell."),
+        fit.lever_B_m[axis], "m", s);
+    if (!note) continue;
+    if (!out.patch.gps_lever_B_m) out.patch.gps_lever_B_m = assumed.gps.lever_B_m;
+    (*out.patch.gps_lever_B_m)[axis] = fit.lever_B_m[axis];
+  }
+  const double steady = fit.forward_B.norm();
+  if (steady > 0.8) {
+    const double yaw = std::atan2(fit.forward_B.y(), fit.forward_B.x());
+    const double pitch = -std::asin(std::clamp(fit.forward_B.z() / steady, -1.0, 1.0));
+    const double sigma =
+        std::sqrt(2.0 * (1.0 - steady)) / std::sqrt(std::max<double>(1.0, static_cast<double>(fit.windows)));
+    out.findings.push_back({"imu", "travel_yaw", FindingKind::mounting, yaw / kDegree, "deg", sigma / kDegree,
+                            true, Severity::ok,
+                            "The vehicle goes " + with_sigma(yaw / kDegree, sigma / kDegree) +
+                                " degrees to the right of the x axis on average, and " +
+                                number(pitch / kDegree, 1) +
+                                " degrees above it. On wheels that is the mounting; in water and air drift "
+                                "and trim are in it."});
+  }
+}
+
+void report_datum(const Series& series, Findings& out) {
+  if (series.gps_position.size() == 0 || series.depth.size() == 0 || !known(series.first_altitude_m)) return;
+  const auto depth = at(series.depth, series.gps_position.t_s.front(), 2.0);
+  if (!depth || std::abs(*depth) > 1.0) return;
+  const double altitude = series.first_altitude_m;
+  out.push_back(
+      {"gps", "altitude_datum", FindingKind::datum, altitude, "m", 3.0, false, Severity::ok,
+       "The GPS altitude is " + number(altitude, 1) +
+           " m where the depth says surface. At sea that is the height of the geoid if altitudes are "
+           "above the ellipsoid, as they must be, and about zero if they are above sea level. The log alone "
+           "cannot tell on a lake."});
+}
+
+}  // namespace
+
+bool Patch::empty() const {
+  return !imu_rate_hz && !C_BI && !C_BD && !gps_lever_B_m && !dvl_lever_B_m && !gps_latency_s &&
+         !dvl_latency_s && !depth_latency_s && !heading_latency_s && !angle_random_walk &&
+         !velocity_random_walk;
+}
+
+Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
+  Commissioning out;
+  const Series series = series_of(data, assumed);
+  out.duration_s = series.imu.t_s.empty() ? 0.0 : series.imu.t_s.back();
+  const std::vector<Span> rest = rest_spans(series);
+  out.rest_s = rest.empty() ? 0.0 : rest.front().to_s - rest.front().from_s;
+  ImuNoise noise = check_imu_noise(series, assumed, rest);
+  out.gyro_allan = noise.gyro;
+  out.force_allan = noise.force;
+  for (const Finding& finding : noise.findings) {
+    if (finding.what == "rate" && finding.severity == Severity::wrong) out.patch.imu_rate_hz = finding.value;
+    if (finding.what == "gyro_noise" && finding.severity != Severity::ok)
+      out.patch.angle_random_walk = finding.value * kDegree / 60.0;
+    if (finding.what == "accelerometer_noise" && finding.severity != Severity::ok)
+      out.patch.velocity_random_walk = finding.value / 60.0;
+  }
+  append(out.findings, noise.findings);
+
+  GpsCheck gps = check_gps(series);
+  append(out.findings, gps.findings);
+  Evidence evidence;
+  evidence.rest = rest;
+  if (gps.usable) evidence.gps = windows_of(series, gps.velocity_N, kWindow_s, 6, kFew);
+  evidence.dvl = windows_of(series, series.dvl, kWindow_s, 6, kFew);
+  ImuAxes axes = check_imu_axes(series, gps, evidence);
+  // A time offset of a second hides the axes: look for it with what was found, and look again.
+  if (evidence.gps.size() >= 3)
+    evidence.gps_latency_s = scan_gps_latency(series, gps, evidence.gps, axes.reading);
+  if (evidence.dvl.size() >= 3) evidence.dvl_latency_s = scan_dvl_latency(series, evidence.dvl, axes.reading);
+  if (std::abs(evidence.gps_latency_s) > 0.15 || std::abs(evidence.dvl_latency_s) > 0.15)
+    axes = check_imu_axes(series, gps, evidence);
+  append(out.findings, axes.findings);
+  for (const Finding& finding : axes.findings) {
+    const bool turned = finding.what == "mounting" && finding.severity == Severity::wrong;
+    if (turned) out.patch.C_BI = axes.reading.rate * assumed.C_BI;
+  }
+
+  if (gps.usable) {
+    const std::vector<Span> windows = windows_of(series, gps.velocity_N, kWindow_s, 6, kMany);
+    GpsFit fit;
+    if (windows.size() >= 3)
+      fit = fit_gps(series, gps.velocity_N, windows, axes.reading, evidence.gps_latency_s,
+                    assumed.gps.lever_B_m);
+    report_gps(fit, assumed, out);
+  }
+  const std::vector<Span> dvl_windows = windows_of(series, series.dvl, kDvlWindow_s, 6, kMany);
+  DvlCheck dvl = check_dvl(series, assumed, axes.reading, dvl_windows, evidence.dvl_latency_s, out.patch);
+  append(out.findings, dvl.findings);
+  append(out.findings, check_heading(series, assumed, axes.reading, gps, dvl.velocity_B));
+  append(out.findings, check_depth(series, assumed, axes.reading, dvl.velocity_B));
+  for (const Finding& finding : out.findings) {
+    if (finding.what != "latency" || finding.severity != Severity::wrong) continue;
+    if (finding.sensor == "heading") out.patch.heading_latency_s = finding.value;
+    if (finding.sensor == "depth") out.patch.depth_latency_s = finding.value;
+  }
+  report_datum(series, out.findings);
+  return out;
+}
+
+}  // namespace fathom::commission

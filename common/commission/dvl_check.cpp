@@ -1,0 +1,184 @@
+#include "commission/dvl_check.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+#include "commission/signed_axes.hpp"
+#include "commission/text.hpp"
+#include "geo/so3.hpp"
+#include "geo/wgs84.hpp"
+
+namespace fathom::commission {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kPerWindow = 6.0;  // independent figures that a window counts for
+constexpr double kClaim = 15.0;     // log likelihood ratio
+constexpr std::array<const char*, 3> kAngles{"roll", "pitch", "yaw"};
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+struct Unit {
+  double factor;
+  const char* name;
+};
+
+}  // namespace
+
+DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading,
+                   const std::vector<Span>& windows, double latency_s, Patch& patch) {
+  DvlCheck out;
+  const auto add = [&](std::string what, FindingKind kind, bool is_known, Severity severity, std::string text,
+                       double value = kUnknown, const char* unit = "", double sigma = kUnknown) {
+    out.findings.push_back(
+        {"dvl", std::move(what), kind, value, unit, sigma, is_known, severity, std::move(text)});
+  };
+  if (series.dvl.size() < 10) return out;
+  const DvlFit linear = windows.size() >= 3 ? fit_dvl_linear(series, windows, reading, latency_s) : DvlFit{};
+  const Similarity plain = linear.done ? fit_similarity(linear, false) : Similarity{};
+  const Similarity reflected = linear.done ? fit_similarity(linear, true) : Similarity{};
+  DvlFigures fit;
+  DvlFigures other;
+  double against = 0.0;  // log likelihood ratio of the two
+  if (linear.done) {
+    fit = fit_dvl(series, windows, reading, plain, assumed.dvl.lever_B_m, latency_s);
+    other = fit_dvl(series, windows, reading, reflected, assumed.dvl.lever_B_m, latency_s);
+    if (fit.done && other.done)
+      against =
+          kPerWindow * static_cast<double>(fit.windows) * std::log(other.residual_m_s / fit.residual_m_s);
+  }
+  const bool mirrored = other.done && (!fit.done || against < -kClaim);
+  if (mirrored) std::swap(fit, other);
+  if (!fit.done) {
+    add("mounting", FindingKind::missing, false, Severity::ok,
+        "How the DVL is mounted cannot be told: there is no minute under way with the DVL on the bottom. "
+        "Turns to both sides, starts and stops "
+        "would tell.");
+    return out;
+  }
+  const bool mirror_told = std::abs(against) > kClaim;
+  const Similarity& found = fit.similarity;
+  Matrix3d D = Matrix3d::Identity();
+  if (mirrored) D(1, 1) = -1.0;
+  // Signs of the whole vector and of z are told apart by the motion that turns give.
+  const Matrix3d axes = found.C * D;
+  const bool negated = mirrored && (nearest_signed_axes(axes) + Matrix3d::Identity()).isZero(1e-9);
+  add("mirror", FindingKind::axes, mirror_told, mirrored ? Severity::wrong : Severity::ok,
+      negated       ? "The DVL velocity is negated: it is that of the bottom, not of the vehicle."
+      : mirrored    ? "The DVL velocity is mirrored: " + describe(nearest_signed_axes(axes)) + "."
+      : mirror_told ? "The DVL is right-handed, as expected."
+                    : "Whether the DVL is mirrored cannot be told: the vehicle slipped too little sideways. "
+                      "Tight turns under way would tell.");
+  static constexpr std::array<Unit, 5> kUnits{
+      {{1.0, "m/s"}, {1e-3, "mm/s"}, {1e-2, "cm/s"}, {1852.0 / 3600.0, "knots"}, {0.3048, "ft/s"}}};
+  const Unit* unit = &kUnits[0];
+  for (const Unit& each : kUnits)
+    if (std::abs(std::log(found.scale / each.factor)) < std::abs(std::log(found.scale / unit->factor)))
+      unit = &each;
+  const bool scale_told = found.scale_sigma < 0.2 * found.scale;
+  if (unit->factor != 1.0 && scale_told)
+    add("unit", FindingKind::unit, true, Severity::wrong,
+        std::string("The DVL velocity is in ") + unit->name + ", where m/s are expected: the motion is " +
+            with_sigma(found.scale, found.scale_sigma) + " of it.",
+        found.scale, "", found.scale_sigma);
+  const double excess = unit->factor / found.scale - 1.0;  // what it reads too much
+  const double excess_sigma = found.scale_sigma / found.scale;
+  const bool scale_known = excess_sigma < 0.05;
+  add("scale", FindingKind::scale, scale_known,
+      scale_known && std::abs(excess) > 0.05 && std::abs(excess) > 5.0 * excess_sigma ? Severity::wrong
+                                                                                      : Severity::ok,
+      scale_known ? "The DVL reads " + with_sigma(100.0 * excess, 100.0 * excess_sigma) + " % too much."
+                  : "The scale of the DVL cannot be told to five per cent: starts, stops and turns under way "
+                    "would tell.",
+      excess, "", excess_sigma);
+  // Mounting: of the DVL's axes in body, against what is configured. Roll is seen only where the vehicle
+  // slips.
+  const Vector3d rpy = geo::to_rpy(geo::from_matrix(found.C)) / kDegree;
+  const Vector3d off = geo::log(geo::from_matrix(assumed.dvl.C_BD.transpose() * found.C)) / kDegree;
+  const Vector3d sigma = found.turn_sigma_rad / kDegree;
+  // The same uncertainty as roll, pitch and yaw have it.
+  Vector3d rpy_sigma = Vector3d::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    constexpr double kStep = 1e-5;
+    const Vector3d moved =
+        geo::to_rpy(geo::from_matrix(found.C * geo::to_matrix(geo::exp(kStep * Vector3d::Unit(axis)))));
+    for (int i = 0; i < 3; ++i) {
+      const double slope = geo::wrap_pi(moved[i] - rpy[i] * kDegree) / kStep;
+      rpy_sigma[i] = std::hypot(rpy_sigma[i], slope * sigma[axis]);
+    }
+  }
+  bool all_known = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const bool is_known = sigma[axis] < 2.0;
+    all_known = all_known && is_known;
+    const bool wrong = is_known && std::abs(off[axis]) > 5.0 * sigma[axis] && std::abs(off[axis]) > 5.0;
+    const bool differs = is_known && assumed.dvl.configured && std::abs(off[axis]) > 4.0 * sigma[axis] &&
+                         std::abs(off[axis]) > 1.0;
+    add(std::string("mounting_") + kAngles[i], FindingKind::mounting, is_known,
+        wrong     ? Severity::wrong
+        : differs ? Severity::note
+                  : Severity::ok,
+        is_known ? (wrong ? "The DVL is turned by " + with_sigma(off[axis], sigma[axis]) +
+                                " degrees about its " + kAxes[i] + " axis against what is configured. Its " +
+                                kAngles[i] + " in the body is " + number(rpy[axis], 1) + " degrees."
+                          : std::string("DVL mounting ") + kAngles[i] + " " +
+                                with_sigma(rpy[axis], rpy_sigma[axis]) + " degrees.")
+                 : std::string("DVL mounting ") + kAngles[i] + " cannot be told to two degrees: " +
+                       (axis == 0 ? "the vehicle slipped too little sideways; tight turns would tell."
+                                  : "starts, stops and turns under way would tell."),
+        rpy[axis], "deg", rpy_sigma[axis]);
+    if (wrong || differs) patch.C_BD = found.C;
+  }
+  if (mirrored || !all_known) {
+    // A mirror is no mounting, and a turn that is half unknown is none to write down.
+    if (mirrored) patch.C_BD.reset();
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double s = fit.lever_sigma_m[axis];
+    const bool is_known = s < 0.2;
+    const double differs = fit.lever_B_m[axis] - assumed.dvl.lever_B_m[axis];
+    add(std::string("lever_") + kAxes[i], FindingKind::lever, is_known,
+        is_known && assumed.dvl.configured && std::abs(differs) > 4.0 * s && std::abs(differs) > 0.3
+            ? Severity::note
+            : Severity::ok,
+        is_known ? std::string("The DVL lies ") + with_sigma(fit.lever_B_m[axis], s) + " m along " +
+                       kAxes[i] + " from the inertial unit."
+                 : std::string("The lever of the DVL along ") + kAxes[i] + " cannot be told: " +
+                       (axis == 2 ? "rolling and pitching would tell." : "quicker turns would tell."),
+        fit.lever_B_m[axis], "m", s);
+    if (is_known && assumed.dvl.configured && std::abs(differs) > 4.0 * s && std::abs(differs) > 0.3) {
+      if (!patch.dvl_lever_B_m) patch.dvl_lever_B_m = assumed.dvl.lever_B_m;
+      (*patch.dvl_lever_B_m)[axis] = fit.lever_B_m[axis];
+    }
+  }
+  const bool late_known = fit.latency_sigma_s < 0.1;
+  const bool late =
+      late_known && std::abs(fit.latency_s) > 0.2 && std::abs(fit.latency_s) > 5.0 * fit.latency_sigma_s;
+  add("latency", FindingKind::latency, late_known, late ? Severity::wrong : Severity::ok,
+      late_known ? "The DVL is stamped " + with_sigma(fit.latency_s, fit.latency_sigma_s) + " s " +
+                       (late ? "late" : "later than the motion") + " beyond the configured latency."
+                 : "The time offset of the DVL cannot be told: starts, stops and turns under way would tell.",
+      assumed.dvl.latency_s + fit.latency_s, "s", fit.latency_sigma_s);
+  if (late) patch.dvl_latency_s = assumed.dvl.latency_s + fit.latency_s;
+  const Matrix3d M = found.scale * axes;
+  // A lever that the log does not tell is as configured.
+  Vector3d lever = assumed.dvl.lever_B_m;
+  for (int axis = 0; axis < 3; ++axis)
+    if (fit.lever_sigma_m[axis] < 0.2) lever[axis] = fit.lever_B_m[axis];
+  for (std::size_t i = 0; i < series.dvl.size(); ++i) {
+    const double t = series.dvl.t_s[i] - fit.latency_s;
+    out.velocity_B.t_s.push_back(t);
+    out.velocity_B.v.push_back(M * series.dvl.v[i] - rate_about(series.imu, reading, t).cross(lever));
+  }
+  return out;
+}
+
+}  // namespace fathom::commission

@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include "commission/dvl_fit.hpp"
+#include "geo/so3.hpp"
+
+namespace fathom::commission {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kMargin_s = 2.0;
+constexpr double kLeastStep_s = 0.15;
+constexpr double kRateStep = 1e-4;
+constexpr double kTimeStep_s = 0.02;
+// Unknowns: turn of the mounting, log of the scale, lever, latency, bias of the rate, bias of the force.
+constexpr int kTurn = 0, kScale = 3, kLever = 4, kLatency = 7, kRateBias = 8, kForceBias = 11, kCommon = 14;
+
+struct Unknowns {
+  Matrix3d C;
+  Matrix3d D = Matrix3d::Identity();
+  double scale = 1.0;
+  Vector3d lever;
+  double latency_s = 0.0;
+  ImuReading reading;
+  Vector3d force_bias = Vector3d::Zero();
+};
+
+// A window's own: velocity at its start, gravity, and the drift of gravity in the frame of the gyro as the
+// Earth turns.
+using Own = Eigen::Matrix<double, 9, 1>;
+constexpr double kDrift_m_s3 = 7.292e-5 * 9.8;  // one sigma of each component of the drift
+
+// A window's rows: what the DVL read, when.
+struct Rows {
+  std::vector<double> t_s;
+  std::vector<Vector3d> read;
+};
+
+// Velocity in body axes of the DVL's place.
+Vector3d body_velocity(const Strapdown& strapdown, double t_s, double begin_s, const Unknowns& u,
+                       const Own& own) {
+  const Strapdown::State state = strapdown.at(t_s);
+  const Vector3d v_W = own.head<3>() + state.S - state.IC * u.force_bias +
+                       own.segment<3>(3) * (t_s - begin_s) +
+                       own.tail<3>() * (0.5 * (t_s - begin_s) * (t_s - begin_s));
+  return state.C_WB.transpose() * v_W + state.rate.cross(u.lever);
+}
+
+double weight_of(double residual, double scale) {
+  return scale <= 0.0 || residual <= 3.0 * scale ? 1.0 : std::sqrt(3.0 * scale / residual);
+}
+
+void add_window(const Series& series, const Span& window, const Unknowns& u, double robust_scale,
+                WindowFit& fit, std::vector<double>& residuals) {
+  const double from_s = window.from_s - kMargin_s;
+  const double to_s = window.to_s + kMargin_s;
+  const Strapdown strapdown(series.imu, u.reading, from_s, to_s);
+  Rows rows;
+  for (const std::size_t i : rows_in(series.dvl, window, kLeastStep_s)) {
+    const double t = series.dvl.t_s[i] - u.latency_s;
+    if (!strapdown.covers(t - 0.05) || !strapdown.covers(t + 0.05)) continue;
+    rows.t_s.push_back(t);
+    rows.read.push_back(series.dvl.v[i]);
+  }
+  if (rows.t_s.size() < 6) return;
+  std::vector<Strapdown> biased;
+  for (int axis = 0; axis < 3; ++axis) {
+    ImuReading other = u.reading;
+    other.rate_bias[axis] += kRateStep;
+    biased.emplace_back(series.imu, other, from_s, to_s);
+  }
+  const double begin_s = window.from_s;
+  const Matrix3d A = u.D * u.C.transpose() / u.scale;
+  const auto count = static_cast<Eigen::Index>(3 * rows.t_s.size());
+  const double drift_weight = (robust_scale > 0.0 ? robust_scale / 1.54 : 0.01) / kDrift_m_s3;
+  // The window's own velocity and gravity for the present common unknowns: linear.
+  MatrixXd Jw = MatrixXd::Zero(count + 3, 9);
+  VectorXd r = VectorXd::Zero(count + 3);
+  Own own = Own::Zero();
+  Jw.bottomRightCorner<3, 3>() = drift_weight * Matrix3d::Identity();
+  for (int pass = 0; pass < 2; ++pass) {
+    for (std::size_t k = 0; k < rows.t_s.size(); ++k) {
+      const auto at = static_cast<Eigen::Index>(3 * k);
+      const double t = rows.t_s[k];
+      const Matrix3d turn = A * strapdown.at(t).C_WB.transpose();
+      const Vector3d residual = rows.read[k] - A * body_velocity(strapdown, t, begin_s, u, own);
+      const double weight = pass == 0 ? 1.0 : weight_of(residual.norm(), robust_scale);
+      Jw.block<3, 3>(at, 0) = -weight * turn;
+      Jw.block<3, 3>(at, 3) = -weight * (t - begin_s) * turn;
+      Jw.block<3, 3>(at, 6) = -weight * 0.5 * (t - begin_s) * (t - begin_s) * turn;
+      r.segment<3>(at) = weight * residual;
+    }
+    r.tail<3>() = drift_weight * own.tail<3>();
+    own -= (Jw.transpose() * Jw + 1e-9 * MatrixXd::Identity(9, 9)).ldlt().solve(Jw.transpose() * r);
+  }
+  r.tail<3>() = drift_weight * own.tail<3>();
+  MatrixXd J = MatrixXd::Zero(count + 3, kCommon);
+  for (std::size_t k = 0; k < rows.t_s.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(3 * k);
+    const double t = rows.t_s[k];
+    const Strapdown::State state = strapdown.at(t);
+    const Vector3d v_B = body_velocity(strapdown, t, begin_s, u, own);
+    const Vector3d residual = rows.read[k] - A * v_B;
+    residuals.push_back(residual.norm());
+    const double weight = weight_of(residual.norm(), robust_scale);
+    const Matrix3d turn = A * state.C_WB.transpose();
+    MatrixXd row(3, kCommon);
+    row.middleCols<3>(kTurn) = -u.D * geo::skew(u.C.transpose() * v_B) / u.scale;
+    row.col(kScale) = A * v_B;
+    row.middleCols<3>(kLever) = -A * geo::skew(state.rate);
+    row.col(kLatency) = A *
+                        (body_velocity(strapdown, t + kTimeStep_s, begin_s, u, own) -
+                         body_velocity(strapdown, t - kTimeStep_s, begin_s, u, own)) /
+                        (2.0 * kTimeStep_s);
+    for (int axis = 0; axis < 3; ++axis)
+      row.col(kRateBias + axis) =
+          -A * (body_velocity(biased[static_cast<std::size_t>(axis)], t, begin_s, u, own) - v_B) / kRateStep;
+    row.middleCols<3>(kForceBias) = turn * state.IC;
+    J.middleRows<3>(at) = weight * row;
+    Jw.block<3, 3>(at, 0) = -weight * turn;
+    Jw.block<3, 3>(at, 3) = -weight * (t - begin_s) * turn;
+    Jw.block<3, 3>(at, 6) = -weight * 0.5 * (t - begin_s) * (t - begin_s) * turn;
+    r.segment<3>(at) = weight * residual;
+  }
+  fit.add(J, Jw, r);
+}
+
+}  // namespace
+
+DvlFigures fit_dvl(const Series& series, const std::vector<Span>& windows, const ImuReading& reading,
+                   const Similarity& guess, const Vector3d& lever_B_m, double latency_s) {
+  Unknowns u;
+  u.C = guess.C;
+  if (guess.mirrored) u.D(1, 1) = -1.0;
+  u.scale = guess.scale;
+  u.lever = lever_B_m;
+  u.latency_s = latency_s;
+  u.reading = reading;
+  DvlFigures out;
+  double robust_scale = 0.0;
+  for (int iteration = 0; iteration < 8; ++iteration) {
+    WindowFit fit(kCommon);
+    std::vector<double> residuals;
+    for (const Span& window : windows) add_window(series, window, u, robust_scale, fit, residuals);
+    if (residuals.size() < 30) return {};
+    robust_scale = std::max(1e-4, median(residuals));
+    const double sigma = robust_scale / 1.54;  // median of the length of three normal numbers
+    const double unit = u.scale > 0.0 ? 1.0 / u.scale : 1.0;
+    for (int i = 0; i < 3; ++i) {
+      fit.prior(kLever + i, u.lever[i] - lever_B_m[i], 3.0, sigma);
+      fit.prior(kRateBias + i, u.reading.rate_bias[i] - reading.rate_bias[i], 0.01, sigma);
+      fit.prior(kForceBias + i, u.force_bias[i], 0.2, sigma);
+    }
+    fit.prior(kLatency, u.latency_s - latency_s, 0.5, sigma);
+    const WindowFit::Solution solution = fit.solve();
+    Vector3d turn = solution.step.segment<3>(kTurn);
+    if (turn.norm() > 0.3) turn *= 0.3 / turn.norm();
+    u.C = u.C * geo::to_matrix(geo::exp(turn));
+    u.scale *= std::exp(std::clamp(solution.step[kScale], -0.5, 0.5));
+    u.lever += solution.step.segment<3>(kLever);
+    u.latency_s += std::clamp(solution.step[kLatency], -0.3, 0.3);
+    u.reading.rate_bias += solution.step.segment<3>(kRateBias);
+    u.force_bias += solution.step.segment<3>(kForceBias);
+    const VectorXd sigmas = solution.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
+    out.similarity = {u.scale, u.scale * sigmas[kScale], u.C, sigmas.segment<3>(kTurn), guess.mirrored, 0.0};
+    out.lever_B_m = u.lever;
+    out.lever_sigma_m = sigmas.segment<3>(kLever);
+    out.latency_s = u.latency_s;
+    out.latency_sigma_s = sigmas[kLatency];
+    out.residual_m_s = std::sqrt(solution.squares / solution.freedom) / unit;
+    out.windows = solution.windows;
+    out.done = solution.step.allFinite() && solution.windows >= 3;
+  }
+  return out;
+}
+
+}  // namespace fathom::commission

@@ -1,0 +1,201 @@
+#include "commission/gps_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "commission/signed_axes.hpp"
+#include "geo/so3.hpp"
+#include "geo/wgs84.hpp"
+
+namespace fathom::commission {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double kApart_s = 0.4;
+constexpr double kGap_s = 2.5;
+constexpr double kLeastStep_s = 0.15;  // receivers that are quicker filter: what they add is not independent
+constexpr double kManyCourses =
+    0.6;  // length of the mean direction over ground below which the courses were many
+constexpr double kMargin_s = 2.0;  // of the integration around a window: latencies up to this
+
+double gravity_of(const Series& series) {
+  return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : 9.80665;
+}
+
+Vector3d mean_of(const std::vector<Vector3d>& some) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& each : some) sum += each;
+  return sum / static_cast<double>(some.size());
+}
+
+// What the unit felt up to an instant and the turning of the lever, in W.
+Vector3d felt(const Strapdown& strapdown, double t_s, const Vector3d& lever) {
+  const Strapdown::State state = strapdown.at(t_s);
+  return state.S + state.C_WB * state.rate.cross(lever);
+}
+
+// Least squares with the worst residuals counting less.
+double robust_weight(double residual, double scale) {
+  const double limit = 3.0 * scale;
+  return residual <= limit ? 1.0 : limit / residual;
+}
+
+}  // namespace
+
+double gps_squares(const Series& series, const VectorSeries& velocity_N, const std::vector<Span>& windows,
+                   const ImuReading& reading, double latency_s) {
+  const Vector3d gravity(0.0, 0.0, gravity_of(series));
+  double squares = 0.0;
+  for (const Span& window : windows) {
+    const Strapdown strapdown(series.imu, reading, window.from_s - kMargin_s, window.to_s + kMargin_s);
+    std::vector<Vector3d> x;
+    std::vector<Vector3d> y;
+    for (const std::size_t i : rows_in(velocity_N, window, kLeastStep_s)) {
+      const double t = velocity_N.t_s[i] - latency_s;
+      if (!strapdown.covers(t)) continue;
+      x.push_back(strapdown.at(t).S);
+      y.push_back(velocity_N.v[i] - gravity * (t - window.from_s));
+    }
+    if (x.size() < 5) continue;
+    const Vector3d mean_x = mean_of(x);
+    const Vector3d mean_y = mean_of(y);
+    Matrix3d sum = Matrix3d::Zero();
+    for (std::size_t k = 0; k < x.size(); ++k) sum += (y[k] - mean_y) * (x[k] - mean_x).transpose();
+    const Matrix3d R = best_rotation(sum);
+    for (std::size_t k = 0; k < x.size(); ++k) squares += (y[k] - mean_y - R * (x[k] - mean_x)).squaredNorm();
+  }
+  return squares;
+}
+
+GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::vector<Span>& windows,
+               const ImuReading& reading, double latency_s, const Vector3d& lever_B_m) {
+  GpsFit out;
+  out.latency_s = latency_s;
+  out.lever_B_m = lever_B_m;
+  const Vector3d gravity(0.0, 0.0, gravity_of(series));
+  constexpr int kCommon = 10;  // lever, latency, bias of the rate, bias of the force
+  ImuReading now = reading;
+  Vector3d force_bias = Vector3d::Zero();
+  double scale = 1.0;
+  constexpr double kRateStep = 2e-4;
+  constexpr double kTimeStep_s = 0.02;
+  std::vector<Matrix3d> turns(windows.size(), Matrix3d::Zero());
+  for (int iteration = 0; iteration < 6; ++iteration) {
+    WindowFit fit(kCommon);
+    std::vector<double> residuals;
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+      const double from_s = windows[w].from_s - kMargin_s;
+      const double to_s = windows[w].to_s + kMargin_s;
+      const Strapdown strapdown(series.imu, now, from_s, to_s);
+      std::vector<Strapdown> biased;
+      for (int axis = 0; axis < 3; ++axis) {
+        ImuReading other = now;
+        other.rate_bias[axis] += kRateStep;
+        biased.emplace_back(series.imu, other, from_s, to_s);
+      }
+      // Points of the window: v = v0 + R x + g t, v0 and R of the window.
+      const double begin_s = windows[w].from_s;
+      std::vector<double> times;
+      std::vector<Vector3d> x;
+      std::vector<Vector3d> y;
+      Vector3d mean_x = Vector3d::Zero();
+      Vector3d mean_y = Vector3d::Zero();
+      for (const std::size_t i : rows_in(velocity_N, windows[w], kLeastStep_s)) {
+        const double t = velocity_N.t_s[i] - out.latency_s;
+        if (!strapdown.covers(t - 0.05) || !strapdown.covers(t + 0.05)) continue;
+        times.push_back(t);
+        x.push_back(felt(strapdown, t, out.lever_B_m) - strapdown.at(t).IC * force_bias);
+        y.push_back(velocity_N.v[i] - gravity * (t - begin_s));
+        mean_x += x.back();
+        mean_y += y.back();
+      }
+      if (x.size() < 5) continue;
+      mean_x /= static_cast<double>(x.size());
+      mean_y /= static_cast<double>(x.size());
+      Matrix3d sum = Matrix3d::Zero();
+      for (std::size_t k = 0; k < x.size(); ++k) sum += (y[k] - mean_y) * (x[k] - mean_x).transpose();
+      const Matrix3d R = best_rotation(sum);
+      turns[w] = R;
+      const auto rows = static_cast<Eigen::Index>(3 * x.size());
+      MatrixXd J(rows, kCommon);
+      MatrixXd Jw(rows, 6);
+      VectorXd r(rows);
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        const auto at = static_cast<Eigen::Index>(3 * k);
+        const double t = times[k];
+        const Strapdown::State state = strapdown.at(t);
+        const Vector3d residual = y[k] - mean_y - R * (x[k] - mean_x);
+        residuals.push_back(residual.norm());
+        const double weight = std::sqrt(robust_weight(residual.norm(), scale));
+        MatrixXd row(3, kCommon);
+        row.block<3, 3>(0, 0) = -R * state.C_WB * geo::skew(state.rate);
+        // The stamp moves gravity's part of y as well.
+        row.col(3) = gravity - R *
+                                   (felt(strapdown, t - kTimeStep_s, out.lever_B_m) -
+                                    felt(strapdown, t + kTimeStep_s, out.lever_B_m)) /
+                                   (2.0 * kTimeStep_s);
+        for (int axis = 0; axis < 3; ++axis)
+          row.col(4 + axis) = -R *
+                              (felt(biased[static_cast<std::size_t>(axis)], t, out.lever_B_m) -
+                               state.IC * force_bias - x[k]) /
+                              kRateStep;
+        row.block<3, 3>(0, 7) = R * state.IC;
+        J.middleRows<3>(at) = weight * row;
+        Jw.block<3, 3>(at, 0) = weight * geo::skew(R * (x[k] - mean_x));
+        Jw.block<3, 3>(at, 3) = -weight * Matrix3d::Identity();
+        r.segment<3>(at) = weight * residual;
+      }
+      fit.add(J, Jw, r);
+    }
+    if (residuals.size() < 12) return out;
+    scale = std::max(1e-4, median(residuals));
+    const double residual_sigma = scale / 1.54;  // median of the length of three normal numbers
+    for (int i = 0; i < 3; ++i) fit.prior(i, out.lever_B_m[i] - lever_B_m[i], 3.0, residual_sigma);
+    fit.prior(3, out.latency_s - latency_s, 0.5, residual_sigma);
+    for (int i = 0; i < 3; ++i)
+      fit.prior(4 + i, now.rate_bias[i] - reading.rate_bias[i], 0.03, residual_sigma);
+    for (int i = 0; i < 3; ++i) fit.prior(7 + i, force_bias[i], 0.5, residual_sigma);
+    const WindowFit::Solution solution = fit.solve();
+    const double most_s = 0.3;
+    out.lever_B_m += solution.step.segment<3>(0);
+    out.latency_s += std::clamp(solution.step[3], -most_s, most_s);
+    now.rate_bias += solution.step.segment<3>(4);
+    force_bias += solution.step.segment<3>(7);
+    out.lever_sigma_m = solution.covariance.diagonal().segment<3>(0).cwiseSqrt();
+    out.latency_sigma_s = std::sqrt(solution.covariance(3, 3));
+    out.rate_bias_sigma = solution.covariance.diagonal().segment<3>(4).cwiseSqrt();
+    out.residual_m_s = std::sqrt(solution.squares / solution.freedom);
+    out.windows = solution.windows;
+  }
+  out.rate_bias = now.rate_bias - reading.rate_bias;
+  out.done = true;
+  // Where it goes, in its own axes.
+  Vector3d sum = Vector3d::Zero();
+  Vector3d over_ground = Vector3d::Zero();
+  double length = 0.0;
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    if (turns[w].isZero()) continue;
+    const Strapdown strapdown(series.imu, now, windows[w].from_s - kMargin_s, windows[w].to_s + kMargin_s);
+    for (const auto& [i, j] : pairs_in(velocity_N, windows[w], kApart_s, kGap_s)) {
+      const double t = velocity_N.t_s[i] - out.latency_s;
+      if (!strapdown.covers(t)) continue;
+      sum += (turns[w] * strapdown.at(t).C_WB).transpose() * velocity_N.v[i];
+      over_ground += velocity_N.v[i];
+      length += velocity_N.v[i].norm();
+    }
+  }
+  // One course over ground says nothing of a bow: a multicopter keeps its heading where it likes.
+  if (length > 0.0 && over_ground.norm() < kManyCourses * length) out.forward_B = sum / length;
+  return out;
+}
+
+}  // namespace fathom::commission

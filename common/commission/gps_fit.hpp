@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "commission/strapdown.hpp"
+#include "commission/window_fit.hpp"
+
+namespace fathom::commission {
+
+/// Sum of squares that an inertial unit so read leaves against the velocity of GPS, m^2/s^2: each window may
+/// turn freely. `latency_s` is subtracted from the stamps of GPS.
+[[nodiscard]] double gps_squares(const Series& series, const VectorSeries& velocity_N,
+                                 const std::vector<Span>& windows, const ImuReading& reading,
+                                 double latency_s);
+
+/// What IMU and GPS together tell.
+struct GpsFit {
+  bool done = false;
+  Eigen::Vector3d lever_B_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d lever_sigma_m = Eigen::Vector3d::Constant(1e9);
+  double latency_s = 0.0;
+  double latency_sigma_s = 1e9;
+  Eigen::Vector3d rate_bias = Eigen::Vector3d::Zero();  ///< beyond that of the reading
+  Eigen::Vector3d rate_bias_sigma = Eigen::Vector3d::Zero();
+  double residual_m_s = 0.0;
+  std::size_t windows = 0;
+  /// Direction in which the vehicle goes, in body axes, unit or shorter: the length says how steady it is.
+  /// Zero where it kept to one course.
+  Eigen::Vector3d forward_B = Eigen::Vector3d::Zero();
+};
+[[nodiscard]] GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N,
+                             const std::vector<Span>& windows, const ImuReading& reading, double latency_s,
+                             const Eigen::Vector3d& lever_B_m);
+
+}  // namespace fathom::commission

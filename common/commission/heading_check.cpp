@@ -1,0 +1,256 @@
+#include "commission/heading_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Cholesky>
+
+#include "commission/text.hpp"
+#include "geo/wgs84.hpp"
+
+namespace fathom::commission {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kStep_s = 2.0;  // of one comparison of turns
+constexpr double kGap_s = 3.0;
+constexpr double kHalf_s = 5.0;  // over which accelerations even out
+
+// Turn about the vertical by the gyro, from the start on.
+ScalarSeries turn_by_gyro(const Series& series, const ImuReading& reading) {
+  const VectorSeries down = down_of(series, reading, kHalf_s);
+  ScalarSeries out;
+  double sum = 0.0;
+  std::size_t j = 0;
+  for (std::size_t i = 1; i < series.imu.size(); ++i) {
+    const double t = series.imu.t_s[i];
+    while (j + 1 < down.size() && down.t_s[j + 1] <= t) ++j;
+    if (down.size() == 0) return out;
+    sum += (reading.rate * (series.imu.rate[i] - reading.rate_bias)).dot(down.v[j]) *
+           (t - series.imu.t_s[i - 1]);
+    if (out.size() > 0 && t - out.t_s.back() < 0.019) continue;
+    out.t_s.push_back(t);
+    out.v.push_back(sum);
+  }
+  return out;
+}
+
+struct Turns {
+  double slope = 0.0, sigma = 1e9, squares = 0.0, turned = 0.0;
+  std::size_t count = 0;
+};
+
+// Regression of the turn of the compass on that of the gyro; a constant rate (bias of the gyro) goes free.
+Turns compare(const ScalarSeries& heading, const ScalarSeries& gyro, double latency_s) {
+  std::vector<double> x;
+  std::vector<double> y;
+  double mean_x = 0.0;
+  double mean_y = 0.0;
+  for (std::size_t i = 0; i < heading.size();) {
+    std::size_t k = i + 1;
+    while (k < heading.size() && heading.t_s[k] - heading.t_s[i] < kStep_s - 1e-3) ++k;
+    if (k >= heading.size()) break;
+    const auto a = at(gyro, heading.t_s[i] - latency_s, 0.5);
+    const auto b = at(gyro, heading.t_s[k] - latency_s, 0.5);
+    if (a && b && heading.t_s[k] - heading.t_s[i] < kStep_s + kGap_s) {
+      const double dt = heading.t_s[k] - heading.t_s[i];
+      x.push_back((*b - *a) / dt);
+      y.push_back((heading.v[k] - heading.v[i]) / dt);
+      mean_x += x.back();
+      mean_y += y.back();
+    }
+    i = k;
+  }
+  Turns out;
+  out.count = x.size();
+  if (x.size() < 8) return out;
+  mean_x /= static_cast<double>(x.size());
+  mean_y /= static_cast<double>(x.size());
+  double xx = 0.0;
+  double xy = 0.0;
+  double yy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mean_x) * (x[i] - mean_x);
+    xy += (x[i] - mean_x) * (y[i] - mean_y);
+    yy += (y[i] - mean_y) * (y[i] - mean_y);
+    out.turned += std::abs(x[i]) * kStep_s;
+  }
+  if (xx <= 0.0) return out;
+  out.slope = xy / xx;
+  out.squares = std::max(0.0, yy - xy * xy / xx);
+  out.sigma = std::sqrt(out.squares / static_cast<double>(x.size() - 2) / xx);
+  return out;
+}
+
+}  // namespace
+
+VectorSeries down_of(const Series& series, const ImuReading& reading, double half_s) {
+  VectorSeries out;
+  constexpr double kPiece_s = 60.0;
+  const ImuSeries& imu = series.imu;
+  double t = imu.t_s.front() + half_s + 0.1;
+  while (t + half_s < imu.t_s.back()) {
+    const Strapdown strapdown(imu, reading, t - half_s - 0.5, t + kPiece_s + half_s + 0.5);
+    const double begun = t;
+    for (; t < begun + kPiece_s && strapdown.covers(t - half_s) && strapdown.covers(t + half_s); t += 0.1) {
+      const Vector3d felt = strapdown.at(t + half_s).S - strapdown.at(t - half_s).S;
+      if (!(felt.norm() > 0.0)) continue;
+      out.t_s.push_back(t);
+      out.v.push_back(-(strapdown.at(t).C_WB.transpose() * felt).normalized());
+    }
+    if (t == begun) t += 1.0;  // a gap
+  }
+  return out;
+}
+
+double heading_squares(const Series& series, const ImuReading& reading) {
+  const ScalarSeries gyro = turn_by_gyro(series, reading);
+  double squares = 0.0;
+  for (std::size_t i = 0; i < series.heading.size();) {
+    std::size_t k = i + 1;
+    while (k < series.heading.size() && series.heading.t_s[k] - series.heading.t_s[i] < kStep_s - 1e-3) ++k;
+    if (k >= series.heading.size()) break;
+    const auto a = at(gyro, series.heading.t_s[i], 0.5);
+    const auto b = at(gyro, series.heading.t_s[k], 0.5);
+    if (a && b) squares += std::pow(series.heading.v[k] - series.heading.v[i] - (*b - *a), 2);
+    i = k;
+  }
+  return squares;
+}
+
+Findings check_heading(const Series& series, const Assumed& assumed, const ImuReading& reading,
+                       const GpsCheck& gps, const VectorSeries& dvl_B) {
+  Findings out;
+  const auto add = [&](const char* what, FindingKind kind, bool is_known, Severity severity, std::string text,
+                       double value = kUnknown, const char* unit = "", double sigma = kUnknown) {
+    out.push_back({"heading", what, kind, value, unit, sigma, is_known, severity, std::move(text)});
+  };
+  if (series.heading.size() < 20) return out;
+  const ScalarSeries gyro = turn_by_gyro(series, reading);
+  Turns best = compare(series.heading, gyro, 0.0);
+  double latency = 0.0;
+  for (int step = -60; step <= 60; ++step) {
+    const Turns now = compare(series.heading, gyro, 0.025 * step);
+    if (now.count >= 8 && now.squares < best.squares) {
+      best = now;
+      latency = 0.025 * step;
+    }
+  }
+  if (best.count < 8 || !(std::abs(best.slope) > 8.0 * best.sigma) || best.turned < 1.0) {
+    add("sense", FindingKind::sign, false, Severity::ok,
+        "Whether the compass turns the right way cannot be told: the vehicle turned too little. A full turn "
+        "to each side would tell.");
+    return out;
+  }
+  const bool reversed = best.slope < 0.0;
+  add("sense", FindingKind::sign, true, reversed ? Severity::wrong : Severity::ok,
+      reversed ? "The compass counts the other way round: it decreases where the vehicle turns right."
+               : "The compass turns with the gyro: " + with_sigma(best.slope, best.sigma) + " of it.",
+      best.slope, "", best.sigma);
+  // The parabola through three latencies.
+  const double h = 0.05;
+  const double left = compare(series.heading, gyro, latency - h).squares;
+  const double right = compare(series.heading, gyro, latency + h).squares;
+  const double curvature = (left - 2.0 * best.squares + right) / (h * h);
+  if (curvature > 0.0) {
+    const double offset = latency - (right - left) / (2.0 * h) / curvature;
+    const double sigma = std::sqrt(2.0 * best.squares / static_cast<double>(best.count) / curvature);
+    const bool is_known = sigma < 0.1;
+    const bool wrong = is_known && std::abs(offset) > 5.0 * sigma && std::abs(offset) > 0.3;
+    add("latency", FindingKind::latency, is_known, wrong ? Severity::wrong : Severity::ok,
+        is_known ? "The compass is stamped " + with_sigma(offset, sigma) +
+                       " s later than the gyro beyond the configured latency."
+                 : "The time offset of the compass cannot be told: quicker turns to both sides would tell.",
+        assumed.heading.latency_s + offset, "s", sigma);
+  }
+  if (reversed) return out;
+  // Against the course: over ground by GPS, in the body by DVL, or straight ahead where there is none.
+  std::vector<double> difference;
+  std::vector<double> psi;
+  std::vector<double> weight;
+  for (std::size_t i = 0; i < gps.velocity_N.size(); ++i) {
+    const double t = gps.velocity_N.t_s[i];
+    const Vector3d& v = gps.velocity_N.v[i];
+    if (std::hypot(v.x(), v.y()) < std::max(0.7, 6.0 * gps.sigma_m_s)) continue;
+    const auto heading = at(series.heading, t, kGap_s);
+    const auto body = at(dvl_B, t, kGap_s);
+    if (!heading || (!body && dvl_B.size() > 0)) continue;
+    const double ahead = body ? std::atan2(body->y(), body->x()) : 0.0;
+    psi.push_back(*heading);
+    difference.push_back(geo::wrap_pi(*heading + ahead - std::atan2(v.y(), v.x())));
+    weight.push_back(1.0);
+  }
+  if (difference.size() < 20) {
+    add("offset", FindingKind::datum, false, Severity::ok,
+        "Whether the compass reads true or magnetic heading cannot be told: there is no run with GPS "
+        "velocity. A straight run of a minute "
+        "at the surface, out and back, would tell.");
+    return out;
+  }
+  const double middle = median(difference);
+  std::vector<double> apart;
+  for (double& d : difference) {
+    d = geo::wrap_pi(d - middle);
+    apart.push_back(std::abs(d));
+  }
+  const double scatter = std::max(1e-4, median(apart) / 0.6745);
+  // Fixes of ten seconds count as one: what sways the vehicle lasts.
+  const double duration = gps.velocity_N.t_s.back() - gps.velocity_N.t_s.front();
+  const double independent =
+      std::max(3.0, std::min(static_cast<double>(difference.size()) / 5.0, duration / 5.0));
+  const double sigma = std::max(scatter / std::sqrt(independent), dvl_B.size() > 0 ? 0.0 : 2.0 * kDegree);
+  const bool wrong =
+      std::abs(middle) > 4.0 * sigma && std::abs(middle) > 4.0 * kDegree && !series.heading_magnetic;
+  const double variation =
+      known(assumed.variation_rad) ? assumed.variation_rad : series.heading_variation_rad;
+  std::string text = "The compass reads " + with_sigma(middle / kDegree, sigma / kDegree) +
+                     " degrees more than the true heading by GPS";
+  text += dvl_B.size() > 0 ? " and DVL." : ", if the vehicle goes straight ahead.";
+  if (wrong) {
+    text += known(variation) && std::abs(middle + variation) < 3.0 * std::max(sigma, 0.5 * kDegree)
+                ? " That is the magnetic variation: it gives magnetic heading and calls it true."
+                : " It gives magnetic for true heading where the magnetic variation is " +
+                      number(-middle / kDegree, 1) +
+                      " degrees (east positive), else it is mounted turned by so much.";
+  }
+  add("offset", FindingKind::datum, true, wrong ? Severity::wrong : Severity::ok, text, middle / kDegree,
+      "deg", sigma / kDegree);
+  // Deviation A + B sin + C cos + D sin 2 + E cos 2, where all headings were steered.
+  std::array<int, 8> sectors{};
+  for (const double p : psi)
+    ++sectors[static_cast<std::size_t>(geo::wrap_two_pi(p) / (2.0 * std::numbers::pi) * 7.9999)];
+  const bool all_round = std::all_of(sectors.begin(), sectors.end(), [](int n) { return n >= 5; });
+  if (!all_round) {
+    add("deviation", FindingKind::deviation, false, Severity::ok,
+        "The deviation curve cannot be told: not all headings were steered with GPS. A slow circle at the "
+        "surface would tell.");
+    return out;
+  }
+  Eigen::Matrix<double, 5, 5> N = Eigen::Matrix<double, 5, 5>::Zero();
+  Eigen::Matrix<double, 5, 1> b = Eigen::Matrix<double, 5, 1>::Zero();
+  double used = 0.0;
+  for (std::size_t i = 0; i < psi.size(); ++i) {
+    if (std::abs(difference[i]) > 5.0 * scatter) continue;
+    Eigen::Matrix<double, 5, 1> a;
+    a << 1.0, std::sin(psi[i]), std::cos(psi[i]), std::sin(2.0 * psi[i]), std::cos(2.0 * psi[i]);
+    N += a * a.transpose();
+    b += a * (difference[i] + middle);
+    used += 1.0;
+  }
+  const Eigen::Matrix<double, 5, 1> x = N.ldlt().solve(b);
+  const Eigen::Matrix<double, 5, 5> inverse = N.ldlt().solve(Eigen::Matrix<double, 5, 5>::Identity());
+  for (int i = 0; i < 5; ++i) {
+    const double s = scatter * std::sqrt(inverse(i, i) * std::max(1.0, used / independent));
+    const std::string letter(1, static_cast<char>('A' + i));
+    add(("deviation_" + letter).c_str(), FindingKind::deviation, true, Severity::ok,
+        "Deviation coefficient " + letter + ": " + with_sigma(x[i] / kDegree, s / kDegree) + " degrees.",
+        x[i] / kDegree, "deg", s / kDegree);
+  }
+  return out;
+}
+
+}  // namespace fathom::commission

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "commission/assumed.hpp"
+#include "commission/finding.hpp"
+#include "commission/gps_check.hpp"
+#include "commission/strapdown.hpp"
+
+namespace fathom::commission {
+
+/// Sum of squares of the turn of the compass less that of the gyro about the vertical, rad^2.
+[[nodiscard]] double heading_squares(const Series& series, const ImuReading& reading);
+
+/// The compass against the gyro: sense of turning, time offset; against the course over ground: what it reads
+/// too much. `dvl_B` is the velocity of the vehicle in body axes where it is known.
+[[nodiscard]] Findings check_heading(const Series& series, const Assumed& assumed, const ImuReading& reading,
+                                     const GpsCheck& gps, const VectorSeries& dvl_B);
+
+/// Vertical axis of the body, down, over about `half_s` to both sides: what the accelerometer feels on
+/// average.
+[[nodiscard]] VectorSeries down_of(const Series& series, const ImuReading& reading, double half_s);
+
+}  // namespace fathom::commission

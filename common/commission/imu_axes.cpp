@@ -1,0 +1,347 @@
+#include "commission/imu_axes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "commission/gps_fit.hpp"
+#include "commission/heading_check.hpp"
+#include "commission/signed_axes.hpp"
+#include "commission/text.hpp"
+
+namespace fathom::commission {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kGravity = 9.80665;
+constexpr double kReject = 15.0;     // log likelihood ratio: e^-15 in some 400 hypotheses is no chance
+constexpr double kPerWindow = 6.0;   // independent figures that a window counts for at most
+constexpr double kDeparture = 10.0;  // log odds against an instrument that is not as configured
+constexpr double kSteady = 0.8;      // length of the mean direction of travel from which a vehicle has a bow
+
+struct Unit {
+  double factor;
+  const char* name;
+};
+
+// One class of hypotheses: gyro against accelerometer, and the accelerometer as it is or negated. A turn of
+// both together changes nothing of what GPS and DVL can say.
+struct Class {
+  Matrix3d gyro;
+  double force_sign = 1.0;
+  double gps = 0.0;
+  double dvl = 0.0;
+  double heading = 0.0;
+  double against = 0.0;  // log likelihood ratio against the best
+};
+
+struct Explanation {
+  Matrix3d gyro, force;
+  double cost = 0.0;
+  bool dvl_agrees = true;
+};
+
+Unit force_unit(const Series& series, double& found) {
+  std::vector<double> length;
+  Vector3d sum = Vector3d::Zero();
+  std::size_t n = 0;
+  double begin = series.imu.t_s.front();
+  for (std::size_t i = 0; i < series.imu.size(); ++i) {
+    sum += series.imu.force[i];
+    ++n;
+    if (series.imu.t_s[i] - begin < 1.0) continue;
+    length.push_back((sum / static_cast<double>(n)).norm());
+    sum.setZero();
+    n = 0;
+    begin = series.imu.t_s[i];
+  }
+  found = median(length);
+  const double dt =
+      (series.imu.t_s.back() - series.imu.t_s.front()) / static_cast<double>(series.imu.size() - 1);
+  const std::array<Unit, 4> units{{{1.0, "m/s^2"},
+                                   {kGravity, "g"},
+                                   {kGravity / 1000.0, "mg"},
+                                   {1.0 / dt, "m/s (increments of one interval)"}}};
+  Unit best = units[0];
+  for (const Unit& unit : units)
+    if (std::abs(std::log(found * unit.factor / kGravity)) <
+        std::abs(std::log(found * best.factor / kGravity)))
+      best = unit;
+  return best;
+}
+
+double log_ratio(double squares, double least, double count) {
+  return least > 0.0 ? 0.5 * count * std::log(std::max(squares, least) / least) : 0.0;
+}
+
+void rate_all(std::vector<Class>& classes, double gps_count, double dvl_count, double heading_count) {
+  double gps = std::numeric_limits<double>::max();
+  double dvl = gps;
+  double heading = gps;
+  for (const Class& each : classes) {
+    gps = std::min(gps, each.gps);
+    dvl = std::min(dvl, each.dvl);
+    heading = std::min(heading, each.heading);
+  }
+  double least = std::numeric_limits<double>::max();
+  for (Class& each : classes) {
+    each.against = log_ratio(each.gps, gps, gps_count) + log_ratio(each.dvl, dvl, dvl_count) +
+                   log_ratio(each.heading, heading, heading_count);
+    least = std::min(least, each.against);
+  }
+  for (Class& each : classes) each.against -= least;
+}
+
+// The best explanation is the one that finds fault with the fewest instruments.
+Explanation explain(const std::vector<Class>& classes, const Vector3d& mean_force, const Vector3d& forward,
+                    const Matrix3d* M) {
+  Explanation best;
+  best.cost = std::numeric_limits<double>::max();
+  for (const Class& each : classes) {
+    if (each.against > kReject) continue;
+    for (const Matrix3d& Q : signed_axes()) {
+      if (Q.determinant() < 0.0) continue;
+      Explanation now;
+      now.force = each.force_sign * Q;
+      now.gyro = Q * each.gyro;
+      const bool gyro_as_is = now.gyro.isIdentity(1e-9);
+      const bool force_as_is = now.force.isIdentity(1e-9);
+      const bool both_alike = now.gyro.isApprox(now.force, 1e-9);
+      now.cost = both_alike ? (gyro_as_is ? 0.0 : 1.0) : (gyro_as_is ? 0.0 : 1.0) + (force_as_is ? 0.0 : 1.0);
+      // Gravity is felt upwards; a vehicle goes where its bow points.
+      if ((now.force * mean_force).z() > -0.5 * mean_force.norm()) now.cost += 1.5;
+      if (forward.norm() > kSteady && (each.force_sign * now.force * forward).x() < 0.7 * forward.norm())
+        now.cost += 1.5;
+      if (M != nullptr) {
+        now.dvl_agrees = nearest_signed_axes(now.force * *M).isIdentity(1e-9);
+        now.cost += now.dvl_agrees ? 0.0 : 1.0;
+      }
+      now.cost +=
+          1e-3 * (3.0 - now.gyro.trace()) + 1e-3 * (3.0 - now.force.trace()) + each.against / kDeparture;
+      if (now.cost < best.cost) best = now;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+double scan_gps_latency(const Series& series, const GpsCheck& gps, const std::vector<Span>& windows,
+                        const ImuReading& reading) {
+  double best = 0.0;
+  double least = std::numeric_limits<double>::max();
+  for (int step = -15; step <= 15; ++step) {
+    const double squares = gps_squares(series, gps.velocity_N, windows, reading, 0.1 * step);
+    if (squares < least) {
+      least = squares;
+      best = 0.1 * step;
+    }
+  }
+  return best;
+}
+
+double scan_dvl_latency(const Series& series, const std::vector<Span>& windows, const ImuReading& reading) {
+  double best = 0.0;
+  double least = std::numeric_limits<double>::max();
+  for (int step = -15; step <= 15; ++step) {
+    const DvlFit fit = fit_dvl_linear(series, windows, reading, 0.1 * step);
+    if (fit.squares < least) {
+      least = fit.squares;
+      best = 0.1 * step;
+    }
+  }
+  return best;
+}
+
+ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence& evidence) {
+  ImuAxes out;
+  const auto add = [&](const char* what, FindingKind kind, bool is_known, Severity severity, std::string text,
+                       double value = kUnknown, const char* unit = "", double sigma = kUnknown) {
+    out.findings.push_back({"imu", what, kind, value, unit, sigma, is_known, severity, std::move(text)});
+  };
+  double force_found = kUnknown;
+  const Unit unit = force_unit(series, force_found);
+  add("accelerometer_unit", FindingKind::unit, true, unit.factor == 1.0 ? Severity::ok : Severity::wrong,
+      unit.factor == 1.0
+          ? "The specific force is " + number(force_found, 2) + " m/s^2 in the middle, as gravity is."
+          : "The specific force is " + number(force_found, 3) + " in the middle: gravity in " + unit.name +
+                ", where m/s^2 is expected. The factor is " + number(unit.factor, 4) + ".",
+      force_found, "m/s^2");
+
+  Vector3d mean_force = Vector3d::Zero();
+  for (const Vector3d& force : series.imu.force) mean_force += force;
+  mean_force /= static_cast<double>(series.imu.size());
+  Vector3d rest_rate = Vector3d::Zero();
+  if (!evidence.rest.empty()) {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < series.imu.size(); ++i) {
+      if (series.imu.t_s[i] < evidence.rest.front().from_s || series.imu.t_s[i] > evidence.rest.front().to_s)
+        continue;
+      rest_rate += series.imu.rate[i];
+      ++n;
+    }
+    rest_rate /= static_cast<double>(std::max<std::size_t>(n, 1));
+  }
+  const bool has_gps = evidence.gps.size() >= 3;
+  const bool has_dvl = evidence.dvl.size() >= 3;
+  const bool has_heading = !has_gps && !has_dvl && series.heading.size() > 50;
+  out.reading.force = unit.factor * Matrix3d::Identity();
+  out.reading.rate_bias = rest_rate;
+  if (!has_gps && !has_dvl && !has_heading) {
+    add("axes", FindingKind::missing, false, Severity::ok,
+        "The axes of the inertial unit cannot be told: there is no motion that GPS, DVL or compass saw. "
+        "Turns to both sides, a stop "
+        "and a start under way with GPS or DVL would tell.");
+    return out;
+  }
+  const double dt =
+      (series.imu.t_s.back() - series.imu.t_s.front()) / static_cast<double>(series.imu.size() - 1);
+  const std::array<Unit, 4> gyro_units{{{1.0, "rad/s"},
+                                        {std::numbers::pi / 180.0, "deg/s"},
+                                        {180.0 / std::numbers::pi, "rad/s, divided by 57.3 once too often"},
+                                        {1.0 / dt, "rad (increments of one interval)"}}};
+  const auto evaluate = [&](Class& each, double factor) {
+    ImuReading reading;
+    reading.rate = factor * each.gyro;
+    reading.force = each.force_sign * unit.factor * Matrix3d::Identity();
+    reading.rate_bias = rest_rate;
+    if (has_gps)
+      each.gps = gps_squares(series, gps.velocity_N, evidence.gps, reading, evidence.gps_latency_s);
+    if (has_dvl && each.force_sign > 0.0)
+      each.dvl = fit_dvl_linear(series, evidence.dvl, reading, evidence.dvl_latency_s).squares;
+    if (has_heading) each.heading = heading_squares(series, reading);
+  };
+  const auto classes_of = [&](double factor) {
+    std::vector<Class> classes;
+    for (const Matrix3d& P : signed_axes()) {
+      for (const double sign : {1.0, -1.0}) {
+        Class each;
+        each.gyro = P;
+        each.force_sign = sign;
+        evaluate(each, factor);
+        // The sign of the force is the DVL's own question: M takes it.
+        if (sign < 0.0) each.dvl = classes.back().dvl;
+        classes.push_back(each);
+      }
+    }
+    return classes;
+  };
+  const double gps_count = kPerWindow * static_cast<double>(evidence.gps.size());
+  const double dvl_count = kPerWindow * static_cast<double>(evidence.dvl.size());
+  const double heading_count =
+      has_heading ? std::min(200.0, static_cast<double>(series.heading.size()) / 10.0) : 0.0;
+  // The unit first, by the classes of each: the right one has the least squares of all.
+  std::vector<Class> classes = classes_of(1.0);
+  const Unit* gyro_unit = &gyro_units[0];
+  const auto best_of = [](const std::vector<Class>& some, double Class::*member) {
+    double least = some.front().*member;
+    for (const Class& each : some) least = std::min(least, each.*member);
+    return least;
+  };
+  for (std::size_t i = 1; i < gyro_units.size(); ++i) {
+    std::vector<Class> other = classes_of(gyro_units[i].factor);
+    const double gain =
+        log_ratio(best_of(classes, &Class::gps), best_of(other, &Class::gps), gps_count) +
+        log_ratio(best_of(classes, &Class::dvl), best_of(other, &Class::dvl), dvl_count) +
+        log_ratio(best_of(classes, &Class::heading), best_of(other, &Class::heading), heading_count);
+    if (gain < kReject) continue;
+    classes = std::move(other);
+    gyro_unit = &gyro_units[i];
+  }
+  rate_all(classes, gps_count, dvl_count, heading_count);
+
+  if (gyro_unit->factor != 1.0)
+    add("gyro_unit", FindingKind::unit, true, Severity::wrong,
+        std::string("The gyro is in ") + gyro_unit->name + ", where rad/s is expected. The factor is " +
+            number(gyro_unit->factor, 6) + ".",
+        gyro_unit->factor, "");
+
+  const auto best_class = *std::min_element(
+      classes.begin(), classes.end(), [](const Class& a, const Class& b) { return a.against < b.against; });
+  ImuReading of_best;
+  of_best.rate = gyro_unit->factor * best_class.gyro;
+  of_best.force = best_class.force_sign * unit.factor * Matrix3d::Identity();
+  of_best.rate_bias = rest_rate;
+  Vector3d forward = Vector3d::Zero();
+  if (has_gps) {
+    const GpsFit fit =
+        fit_gps(series, gps.velocity_N, evidence.gps, of_best, evidence.gps_latency_s, Vector3d::Zero());
+    forward = fit.forward_B;
+  }
+  Matrix3d M = Matrix3d::Identity();
+  bool M_told = false;
+  if (has_dvl) {
+    const DvlFit fit = fit_dvl_linear(series, evidence.dvl, of_best, evidence.dvl_latency_s);
+    const Similarity plain = fit_similarity(fit, false);
+    const Similarity mirrored = fit_similarity(fit, true);
+    M_told = fit.done;
+    Matrix3d D = Matrix3d::Identity();
+    D(1, 1) = -1.0;
+    M = mirrored.chi2 + 30.0 < plain.chi2 ? Matrix3d(mirrored.C * D) : plain.C;
+    // In the frame of the accelerometer as recorded.
+    M = best_class.force_sign * M;
+  }
+  const Explanation found = explain(classes, mean_force, forward, M_told ? &M : nullptr);
+  out.dvl_agrees = found.dvl_agrees;
+  out.reading.rate = gyro_unit->factor * found.gyro;
+  out.reading.force = unit.factor * found.force;
+  out.wrong = !found.gyro.isIdentity(1e-9) || !found.force.isIdentity(1e-9);
+  static constexpr std::array<const char*, 3> kNames{"x", "y", "z"};
+  // Axis by axis: whether the log would have noticed the other sign of the gyro.
+  const Matrix3d Q = found.force * (std::abs(found.force.determinant() - 1.0) < 1e-9 ? 1.0 : -1.0);
+  const double force_sign = found.force.determinant();
+  std::string told;
+  std::string untold;
+  for (int axis = 0; axis < 3; ++axis) {
+    Matrix3d flipped = Matrix3d::Identity();
+    flipped(axis, axis) = -1.0;
+    const Matrix3d other = Q.transpose() * flipped * found.gyro;
+    const bool noticed = std::all_of(classes.begin(), classes.end(), [&](const Class& each) {
+      return each.force_sign * force_sign < 0.0 || !each.gyro.isApprox(other, 1e-9) || each.against > kReject;
+    });
+    std::string& list = noticed ? told : untold;
+    list += std::string(list.empty() ? "" : ", ") + kNames[static_cast<std::size_t>(axis)];
+  }
+  if (out.wrong) {
+    const bool both = found.gyro.isApprox(found.force, 1e-9);
+    const std::string gyro = describe(found.gyro);
+    const std::string force = describe(found.force);
+    if (both && found.gyro.determinant() > 0.0) {
+      add("mounting", FindingKind::mounting, true, Severity::wrong,
+          "The inertial unit is mounted turned against what is configured: " + gyro + ".");
+    } else if (both) {
+      add("axes", FindingKind::axes, true, Severity::wrong,
+          "Gyro and accelerometer are both not right-handed: " + gyro + ".");
+    } else {
+      if (!gyro.empty())
+        add("gyro_axes", found.gyro.cwiseAbs().isIdentity(1e-9) ? FindingKind::sign : FindingKind::axes, true,
+            Severity::wrong, "The gyro does not agree with the motion: " + gyro + ".");
+      if (!force.empty())
+        add("accelerometer_axes",
+            found.force.cwiseAbs().isIdentity(1e-9) ? FindingKind::sign : FindingKind::axes, true,
+            Severity::wrong, "The accelerometer does not agree with the motion: " + force + ".");
+    }
+    return out;
+  }
+  // As configured.
+  if (!told.empty())
+    add("gyro_axes", FindingKind::axes, true, Severity::ok,
+        "Gyro " + told + " turn with gravity and motion as configured.");
+  if (!untold.empty())
+    add("gyro_axes", FindingKind::axes, false, Severity::ok,
+        "The sign of gyro " + untold +
+            " cannot be told: the vehicle turned too little about it while it accelerated. " +
+            (untold.find('z') != std::string::npos ? "Turns to both sides under way would tell."
+                                                   : "Rolling and pitching under way would tell."));
+  return out;
+}
+
+}  // namespace fathom::commission

@@ -1,0 +1,184 @@
+#include "commission/commission.hpp"
+
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "cli/command.hpp"
+#include "cli/commission/assume.hpp"
+#include "cli/commission/page.hpp"
+#include "cli/commission/patch.hpp"
+#include "config/fusion/fusion_config.hpp"
+#include "config/json/error.hpp"
+#include "dataset/dataset.hpp"
+
+namespace fathom::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using commission::Finding;
+using commission::Severity;
+
+struct CommissionOptions {
+  std::string log;
+  std::string config;
+  std::vector<std::string> sets;
+  std::string page;
+  bool json = false;
+  bool apply = false;
+};
+
+Json number(double value) {
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json json_of(const commission::Commissioning& found, const std::vector<Change>& changes) {
+  Json out;
+  out["findings"] = Json::array();
+  for (const Finding& finding : found.findings) {
+    out["findings"].push_back({{"sensor", finding.sensor},
+                               {"what", finding.what},
+                               {"kind", to_string(finding.kind)},
+                               {"value", number(finding.value)},
+                               {"unit", finding.unit},
+                               {"sigma", number(finding.sigma)},
+                               {"known", finding.known},
+                               {"severity", to_string(finding.severity)},
+                               {"text", finding.text}});
+  }
+  out["duration_s"] = found.duration_s;
+  out["rest_s"] = found.rest_s;
+  out["patch"] = Json::object();
+  for (const Change& change : changes) out["patch"][change.key] = change.value;
+  return out;
+}
+
+void print(const commission::Commissioning& found) {
+  const auto group = [&](const char* title, auto&& belongs) {
+    bool first = true;
+    for (const Finding& finding : found.findings) {
+      if (!belongs(finding)) continue;
+      if (first) std::printf("%s\n", title);
+      first = false;
+      std::printf("  %-8s %s\n", finding.sensor.c_str(), finding.text.c_str());
+    }
+  };
+  std::printf("%.0f s of log, %.0f s of it at rest in one piece.\n", found.duration_s, found.rest_s);
+  group("WRONG", [](const Finding& f) { return f.severity == Severity::wrong; });
+  group("To look at", [](const Finding& f) { return f.severity == Severity::note; });
+  group("As it should be", [](const Finding& f) { return f.severity == Severity::ok && f.known; });
+  group("What the log cannot tell",
+        [](const Finding& f) { return f.severity != Severity::wrong && !f.known; });
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written: " + std::strerror(errno));
+}
+
+// Written beside the old one and checked before it takes its place.
+void replace_file(const std::string& path, const Json& config) {
+  const std::string beside = path + ".commissioned";
+  write_text(beside, config.dump(2) + "\n");
+  try {
+    (void)config::load_service_config<config::FusionConfig>({beside, {}});
+  } catch (const config::ConfigError& error) {
+    std::filesystem::remove(beside);
+    throw Failure(ExitCode::runtime_failure,
+                  path + ": the corrected configuration would not load, the old one stays: " + error.what());
+  }
+  std::error_code error;
+  std::filesystem::rename(beside, path, error);
+  if (error) throw Failure(ExitCode::runtime_failure, path + ": cannot be replaced: " + error.message());
+}
+
+ExitCode run_commission(const CommissionOptions& options) {
+  if (options.apply && options.config.empty())
+    throw Failure(ExitCode::bad_configuration,
+                  "commission: --apply needs --config: the file that it corrects");
+  if (!std::filesystem::is_directory(options.log))
+    throw Failure(ExitCode::bad_input,
+                  options.log + ": not a folder; expected a data set, a folder with imu.csv and others");
+  commission::Assumed assumed;
+  Json config = Json::object();
+  Name vehicle = "auv";
+  if (!options.config.empty()) {
+    config::LoadedConfig<config::FusionConfig> loaded;
+    try {
+      loaded = config::load_service_config<config::FusionConfig>({options.config, options.sets});
+    } catch (const config::ConfigError& error) {
+      throw Failure(ExitCode::bad_configuration, error.what());
+    }
+    assumed = assumed_by(loaded.value);
+    vehicle = Name(loaded.value.common.vehicle);
+    std::ifstream file(options.config, std::ios::binary);
+    config = Json::parse(file);
+  }
+  dataset::Dataset data;
+  try {
+    data = dataset::read(options.log, {dataset::kDefaultEpochNs, vehicle});
+  } catch (const dataset::DatasetError& error) {
+    throw Failure(ExitCode::bad_input, error.what());
+  }
+  const auto& imu = data.of<ImuSample>();
+  if (imu.size() < 100 || imu.back().header.stamp_ns - imu.front().header.stamp_ns < 5 * kNsPerSecond)
+    throw Failure(ExitCode::bad_input,
+                  options.log + "/imu.csv: " + std::to_string(imu.size()) +
+                      " inertial samples, expected at least a hundred over five seconds");
+  const commission::Commissioning found = commission::commission(data, assumed);
+  const std::vector<Change> changes =
+      options.config.empty() ? std::vector<Change>{} : changes_of(found.patch, config);
+  if (options.json) {
+    std::printf("%s\n", json_of(found, changes).dump().c_str());
+  } else {
+    print(found);
+    if (!changes.empty())
+      std::printf("%s\n", options.apply ? "Changed in the configuration"
+                                        : "The configuration should say (--apply writes it)");
+    for (const Change& change : changes)
+      std::printf("  %s: %s (was %s)\n", change.key.c_str(), change.value.dump().c_str(),
+                  change.was.is_null() ? "not set" : change.was.dump().c_str());
+  }
+  if (!options.page.empty()) write_text(options.page, page_of(found, options.log));
+  if (options.apply && !changes.empty()) replace_file(options.config, patched(config, changes));
+  return commission::any_wrong(found.findings) ? ExitCode::no : ExitCode::done;
+}
+
+}  // namespace
+
+void add_commission(CLI::App& app, ExitCode& exit_code) {
+  auto options = std::make_shared<CommissionOptions>();
+  CLI::App* command = app.add_subcommand(
+      "commission",
+      "What a log tells about the instruments: axes, units, mounting, levers, latencies, noise.");
+  command->footer(
+      "The log: some twenty minutes with five minutes at rest, starts and stops, turns to both sides and, "
+      "under\n"
+      "water, dives. What it cannot tell is said, with the manoeuvre that would. Exit code 1 when something "
+      "is\n"
+      "wrong. The data set: common/dataset/README.md.");
+  command->add_option("log", options->log, "data set: a folder with imu.csv and others, plain or .gz")
+      ->required();
+  command->add_option(
+      "--config", options->config,
+      "configuration of fusion that the log is held against; without one: nothing is turned or late");
+  command->add_option("--set", options->sets, "override of the configuration: key.sub=value, may be repeated")
+      ->allow_extra_args(false);
+  command->add_flag("--json", options->json, "findings as JSON");
+  command->add_option("--page", options->page, "write a page of HTML with plots, complete in itself");
+  command->add_flag("--apply", options->apply, "write what was found into the file of --config");
+  command->callback([options, &exit_code] { exit_code = run_commission(*options); });
+}
+
+}  // namespace fathom::cli

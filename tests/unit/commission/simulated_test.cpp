@@ -1,0 +1,61 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "unit/commission/sabotage.hpp"
+#include "unit/commission/vehicle.hpp"
+
+namespace fathom::test {
+namespace {
+
+using commission::Finding;
+using commission::FindingKind;
+using commission::Findings;
+
+commission::Assumed assumed_of_simulated() {
+  commission::Assumed out;
+  out.configured = true;
+  out.imu_rate_hz = 100.0;
+  out.gps.configured = out.dvl.configured = out.depth.configured = out.heading.configured = true;
+  out.gps.lever_B_m = {0.0, 0.0, -0.4};
+  out.dvl.lever_B_m = {0.5, 0.0, 0.2};
+  return out;
+}
+
+const dataset::Dataset& healthy() {
+  static const dataset::Dataset kData = drive(commissioning_vehicle(), 1);
+  return kData;
+}
+
+TEST(CommissionSimulated, NamesNothingOfAVehicleThatIsAsConfigured) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const auto found = commission::commission(seed == 1 ? healthy() : drive(commissioning_vehicle(), seed),
+                                              assumed_of_simulated());
+    EXPECT_EQ(wrongs(found.findings), "") << "seed " << seed;
+    EXPECT_TRUE(found.patch.empty()) << "seed " << seed;
+  }
+}
+
+TEST(CommissionSimulated, NamesEachSabotageAndNothingElse) {
+  for (const Sabotage& sabotage : sabotages()) {
+    dataset::Dataset data = healthy();
+    sabotage.commit(data);
+    const auto found = commission::commission(data, assumed_of_simulated());
+    const Finding* finding = find(found.findings, sabotage.sensor, sabotage.what);
+    ASSERT_NE(finding, nullptr) << sabotage.name << "\n" << wrongs(found.findings);
+    EXPECT_EQ(finding->severity, commission::Severity::wrong)
+        << sabotage.name << ": " << finding->text << "\n"
+        << wrongs(found.findings);
+    EXPECT_NE(finding->text.find(sabotage.words), std::string::npos)
+        << sabotage.name << ": " << finding->text;
+    const std::string all = wrongs(found.findings);
+    // A clock that runs wrong shifts everything against it; else there is one fault and one sentence.
+    if (sabotage.sensor != "imu" || sabotage.what != "rate") {
+      EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 1) << sabotage.name << "\n" << all;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fathom::test
