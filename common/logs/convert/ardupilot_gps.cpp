@@ -156,7 +156,8 @@ std::optional<TimeNs> ardupilot_utc_of_start(const Log& log) {
       if (!(weeks > 1000.0 && weeks < 10000.0) || !(one->at(row, status) >= 3.0)) continue;
       const TimeNs gps_ns = *from_civil({1980, 1, 6}) + static_cast<TimeNs>(weeks) * 604'800 * kNsPerSecond +
                             static_cast<TimeNs>(one->at(row, *ms)) * kNsPerMillisecond;
-      starts_us.push_back(static_cast<double>((gps_ns - leap_seconds(gps_ns)) / 1000 - one->t_us[row]));
+      const std::int64_t utc_us = (gps_ns - leap_seconds(gps_ns)) / 1000;
+      starts_us.push_back(static_cast<double>(utc_us - one->t_us[row]));
     }
     if (!starts_us.empty()) break;
   }
