@@ -115,13 +115,21 @@ std::string source_table(const Material& m) {
     std::string means;
     for (const double mean : figures.mean)
       if (known(mean)) means += (means.empty() ? "" : ", ") + brief(mean);
-    out += "<tr><td>" +
-           escaped(source.sensor + (source.model.empty() ? ", before any model" : " " + source.model)) +
-           "</td><td>" + std::to_string(source.total()) + "</td><td>" + std::to_string(used) + "</td><td>" +
-           std::to_string(rejected) + "</td><td class=\"words\">" + others + "</td><td>" +
-           (known(figures.inside) ? brief(100.0 * figures.inside) + " %" : "") + "</td><td>" +
-           (known(figures.rms) ? brief(figures.rms) : "") + "</td><td class=\"words\">" + means +
-           "</td></tr>\n";
+    const auto cell = [&out](const std::string& content, const char* cls = "") {
+      out += "<td";
+      if (*cls != '\0') out.append(" class=\"").append(cls).append("\"");
+      out.append(">").append(content).append("</td>");
+    };
+    out += "<tr>";
+    cell(escaped(source.sensor + (source.model.empty() ? ", before any model" : " " + source.model)));
+    cell(std::to_string(source.total()));
+    cell(std::to_string(used));
+    cell(std::to_string(rejected));
+    cell(others, "words");
+    cell(known(figures.inside) ? brief(100.0 * figures.inside) + " %" : "");
+    cell(known(figures.rms) ? brief(figures.rms) : "");
+    cell(means, "words");
+    out += "</tr>\n";
   }
   return out + "</table>\n";
 }
