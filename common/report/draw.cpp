@@ -88,8 +88,9 @@ std::string plot_style() {
   for (int i = 0; i <= 6; ++i) {
     const std::string name = i == 0 ? "--bad" : "--s" + std::to_string(i);
     const std::string c = "svg .c" + std::to_string(i);
-    style += c + ".curve," + c + ".cross," + c + ".ellipse{stroke:var(" + name + ")}" + c + ".dot," + c +
-             ".band{fill:var(" + name + ")}";
+    for (const char* part : {".curve,", ".cross,"}) style.append(c).append(part);
+    style.append(c).append(".ellipse{stroke:var(").append(name).append(")}");
+    style.append(c).append(".dot,").append(c).append(".band{fill:var(").append(name).append(")}");
   }
   return style;
 }

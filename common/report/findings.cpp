@@ -105,7 +105,8 @@ class Judge {
     if (nees.mean > nees.band_95[1]) {
       say(Weight::bad,
           error + "Navigation believes to be far better than it is: NEES is " + brief(nees.mean) +
-              " in the mean, expected about 2. Sigmas cannot be trusted here.",
+              " in the mean, expected about 2, and largest at " + seconds(worst_nees_s()) +
+              ". Sigmas cannot be trusted here.",
           "nees");
     } else if (nees.mean > 4.0) {
       say(Weight::caution,
@@ -117,6 +118,17 @@ class Judge {
               " in the mean, expected about 2.",
           "nees");
     }
+  }
+
+  [[nodiscard]] double worst_nees_s() const {
+    double most = -1.0;
+    double at_s = kUnknown;
+    for (const ErrorRow& row : m_.errors) {
+      if (!(row.error.nees_horizontal > most)) continue;
+      most = row.error.nees_horizontal;
+      at_s = row.t_s;
+    }
+    return at_s;
   }
 
   void measurement(const Source& source) {

@@ -24,7 +24,7 @@ li.bad{background:var(--bad-ground)}li.caution{background:var(--caution-ground)}
 li b{display:inline-block;min-width:84px}li.bad b{color:var(--bad)}li.caution b{color:var(--caution)}
 li.good b{color:var(--good)}table{border-collapse:collapse;font-size:13px;margin:8px 0;display:block;overflow-x:auto}
 th,td{border-bottom:1px solid var(--line);padding:3px 9px;text-align:right;white-space:nowrap}
-th:first-child,td:first-child,td.words{text-align:left}td.words{white-space:normal}th{color:var(--soft);font-weight:600}
+th:first-child,td:first-child,td.words{text-align:left}td.words,th{white-space:normal}th{color:var(--soft);font-weight:600}
 .tiles{display:flex;flex-wrap:wrap;gap:10px;margin:10px 0}.tiles div{background:var(--card);border:1px solid var(--line);
 border-radius:6px;padding:8px 12px;min-width:130px}.tiles strong{display:block;font-size:18px}
 @media print{body{background:#fff;font-size:11pt}main{max-width:none;padding:0}section{border:0;padding:0;
@@ -97,7 +97,7 @@ std::string error_table(const Material& m) {
 
 std::string source_table(const Material& m) {
   std::string out =
-      "<table><tr><th>source</th><th>measurements</th><th>used</th><th>rejected</th><th>other</th>"
+      "<table><tr><th>source</th><th>all</th><th>used</th><th>rejected</th><th>other</th>"
       "<th>within 2 sigma</th><th>rms, sigmas</th><th>mean, sigmas</th></tr>\n";
   for (const Source& source : m.sources) {
     const InnovationFigures figures = figures_of(source);
@@ -114,14 +114,22 @@ std::string source_table(const Material& m) {
     }
     std::string means;
     for (const double mean : figures.mean)
-      if (known(mean)) means += (means.empty() ? "" : ", ") + brief(mean);
-    out += "<tr><td>" +
-           escaped(source.sensor + (source.model.empty() ? ", before any model" : " " + source.model)) +
-           "</td><td>" + std::to_string(source.total()) + "</td><td>" + std::to_string(used) + "</td><td>" +
-           std::to_string(rejected) + "</td><td class=\"words\">" + others + "</td><td>" +
-           (known(figures.inside) ? brief(100.0 * figures.inside) + " %" : "") + "</td><td>" +
-           (known(figures.rms) ? brief(figures.rms) : "") + "</td><td class=\"words\">" + means +
-           "</td></tr>\n";
+      if (known(mean)) means += (means.empty() ? "" : ", ") + label_of(mean, 0.01);
+    const auto cell = [&out](const std::string& content, const char* cls = "") {
+      out += "<td";
+      if (*cls != '\0') out.append(" class=\"").append(cls).append("\"");
+      out.append(">").append(content).append("</td>");
+    };
+    out += "<tr>";
+    cell(escaped(source.sensor + (source.model.empty() ? ", no model" : " " + source.model)));
+    cell(std::to_string(source.total()));
+    cell(std::to_string(used));
+    cell(std::to_string(rejected));
+    cell(others, "words");
+    cell(known(figures.inside) ? brief(100.0 * figures.inside) + " %" : "");
+    cell(known(figures.rms) ? brief(figures.rms) : "");
+    cell(means, "words");
+    out += "</tr>\n";
   }
   return out + "</table>\n";
 }

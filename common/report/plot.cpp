@@ -24,6 +24,19 @@ double quantile(std::vector<double> values, double share) {
   return *at;
 }
 
+// The multiples of `step` from `from` to `to`, at most kMostTicks.
+std::vector<double> multiples(double from, double to, double step) {
+  constexpr int kMostTicks = 40;
+  std::vector<double> out;
+  const double first = std::ceil(from / step);
+  for (int i = 0; i < kMostTicks; ++i) {
+    const double at = (first + i) * step;
+    if (at > to + step * 1e-6) break;
+    out.push_back(at);
+  }
+  return out;
+}
+
 class Drawing {
  public:
   explicit Drawing(const Plot& plot) : plot_(plot) {
@@ -115,7 +128,7 @@ class Drawing {
   [[nodiscard]] std::string grid() const {
     std::string out;
     const double x_step = round_step(x_.to - x_.from, 9);
-    for (double x = std::ceil(x_.from / x_step) * x_step; x <= x_.to + x_step * 1e-6; x += x_step) {
+    for (const double x : multiples(x_.from, x_.to, x_step)) {
       out += line_at(x_.at(x), kTop, x_.at(x), y_.pixel_from, "grid");
       out += text_at(x_.at(x), y_.pixel_from + 15, label_of(x, x_step), "middle");
     }
@@ -138,13 +151,12 @@ class Drawing {
     const double span = y_.to - y_.from;
     if (!plot_.logarithmic) {
       const double step = round_step(span, 6);
-      for (double y = std::ceil(y_.from / step) * step; y <= y_.to + step * 1e-6; y += step)
-        out.push_back({y, label_of(y, step)});
+      for (const double y : multiples(y_.from, y_.to, step)) out.push_back({y, label_of(y, step)});
       return out;
     }
     // Decades; 2 and 5 between them where there is room.
     const double every = std::max(1.0, std::ceil(span / 6.0));
-    for (double decade = std::floor(y_.from / every) * every; decade <= y_.to; decade += every) {
+    for (const double decade : multiples(y_.from - every, y_.to, every)) {
       for (const double factor : {1.0, 2.0, 5.0}) {
         if (factor > 1.0 && span > 2.6) break;
         const double y = decade + std::log10(factor);
@@ -172,8 +184,8 @@ class Drawing {
         const double high = value(band.high[i]);
         if (!std::isfinite(low) || !std::isfinite(high)) break;
         const std::string x = px(x_.at(band.x[i])) + " ";
-        there += (there.empty() ? "M" : "L") + x + px(inside(y_.at(high)));
-        back = "L" + x + px(inside(y_.at(low))) + back;
+        there.append(there.empty() ? "M" : "L").append(x).append(px(inside(y_.at(high))));
+        back.insert(0, "L" + x + px(inside(y_.at(low))));
       }
       if (!there.empty()) path += there + back + "Z";
       i += stride;
@@ -215,10 +227,10 @@ std::string to_svg(const Map& map) {
   const Axis ay{cy - h / 2.0 * metres_per_pixel, cy + h / 2.0 * metres_per_pixel, kTop + h, kTop};
   std::string out = open_svg(map.width, map.height, map.title);
   const double step = round_step(std::min(ax.to - ax.from, (ay.to - ay.from) * 1.5), 8);
-  for (double v = std::ceil(ax.from / step) * step; v <= ax.to; v += step)
+  for (const double v : multiples(ax.from, ax.to, step))
     out += line_at(ax.at(v), kTop, ax.at(v), kTop + h, "grid") +
            text_at(ax.at(v), kTop + h + 15, label_of(v, step), "middle");
-  for (double v = std::ceil(ay.from / step) * step; v <= ay.to; v += step)
+  for (const double v : multiples(ay.from, ay.to, step))
     out += line_at(kLeft, ay.at(v), kLeft + w, ay.at(v), "grid") +
            text_at(kLeft - 6, ay.at(v) + 4, label_of(v, step), "end");
   for (const Ellipse& e : map.ellipses) {

@@ -153,10 +153,14 @@ std::optional<TimeNs> ardupilot_utc_of_start(const Log& log) {
     const auto status = one->find("Status");
     for (std::size_t row = 0; week && ms && row < one->rows(); ++row) {
       const double weeks = one->at(row, *week);
-      if (!(weeks > 1000.0 && weeks < 10000.0) || !(one->at(row, status) >= 3.0)) continue;
+      const double since_ms = one->at(row, *ms);
+      if (!(weeks > 1000.0 && weeks < 10000.0) || !(since_ms >= 0.0 && since_ms <= 604'800'000.0) ||
+          !(one->at(row, status) >= 3.0))
+        continue;
       const TimeNs gps_ns = *from_civil({1980, 1, 6}) + static_cast<TimeNs>(weeks) * 604'800 * kNsPerSecond +
-                            static_cast<TimeNs>(one->at(row, *ms)) * kNsPerMillisecond;
-      starts_us.push_back(static_cast<double>((gps_ns - leap_seconds(gps_ns)) / 1000 - one->t_us[row]));
+                            static_cast<TimeNs>(since_ms) * kNsPerMillisecond;
+      const std::int64_t utc_us = (gps_ns - leap_seconds(gps_ns)) / 1000;
+      starts_us.push_back(static_cast<double>(utc_us - one->t_us[row]));
     }
     if (!starts_us.empty()) break;
   }

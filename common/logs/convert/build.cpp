@@ -12,6 +12,7 @@ constexpr double kAlike = 1.2;
 
 std::optional<double> median_step_us(const Series& series) {
   std::vector<double> steps;
+  steps.reserve(series.rows());
   for (std::size_t i = 1; i < series.t_us.size(); ++i)
     steps.push_back(static_cast<double>(series.t_us[i] - series.t_us[i - 1]));
   return median(std::move(steps));

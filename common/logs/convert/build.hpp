@@ -27,6 +27,11 @@ struct Clock {
   [[nodiscard]] SampleHeader header(std::int64_t valid_us, std::int64_t logged_us) const;
 };
 
+/// Microseconds of a log as a whole number; 0, which is no time, for what cannot be one.
+[[nodiscard]] inline std::int64_t whole_us(double t_us) {
+  return t_us > 0.0 && t_us < 9e15 ? static_cast<std::int64_t>(t_us) : 0;
+}
+
 /// One way to make a file of the data set.
 struct Candidate {
   std::string label;               ///< "vehicle_imu:0"

@@ -36,7 +36,7 @@ class Px4 {
   [[nodiscard]] SampleHeader header(const Series& series, std::size_t row,
                                     const std::optional<std::size_t>& sample) const {
     const double valid_us = series.at(row, sample);
-    return clock_.header(valid_us > 0.0 ? static_cast<std::int64_t>(valid_us) : 0, series.t_us[row]);
+    return clock_.header(whole_us(valid_us), series.t_us[row]);
   }
 
   // --- inertial unit ------------------------------------------------------------------------------------
@@ -266,7 +266,7 @@ class Px4 {
     std::optional<std::int64_t> last_us;
     for (std::size_t row = 0; row < series.rows(); ++row) {
       const double offset_us = series.at(row, relative);
-      if (!std::isfinite(offset_us) || offset_us == kNoRelativeTime) continue;
+      if (!(std::abs(offset_us) < kNoRelativeTime)) continue;
       const std::int64_t t_us = series.t_us[row] + static_cast<std::int64_t>(offset_us);
       if (last_us && t_us == *last_us) continue;
       last_us = t_us;

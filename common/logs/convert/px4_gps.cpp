@@ -75,7 +75,7 @@ void convert(const Series& series, const Clock& clock, Vehicle& out) {
   for (std::size_t row = 0; row < series.rows(); ++row) {
     const double valid_us = series.at(row, c.valid_us);
     GpsSample& sample = samples.emplace_back();
-    sample.header = clock.header(valid_us > 0.0 ? static_cast<std::int64_t>(valid_us) : 0, series.t_us[row]);
+    sample.header = clock.header(whole_us(valid_us), series.t_us[row]);
     sample.fix = fix_of(series.at(row, c.fix));
     const double latitude_deg = series.at(row, c.latitude) * c.degrees;
     const double longitude_deg = series.at(row, c.longitude) * c.degrees;
@@ -118,8 +118,9 @@ std::optional<TimeNs> px4_utc_of_start(const Log& log) {
       for (std::size_t row = 0; utc && row < one->rows(); ++row) {
         const double utc_us = one->at(row, *utc);
         if (!(utc_us > kYear2001_us && utc_us < 9e15)) continue;
-        starts_us.push_back(utc_us - static_cast<double>(one->t_us[row]) -
-                            (relative ? one->at(row, *relative) : 0.0));
+        const double offset_us = relative ? one->at(row, *relative) : 0.0;
+        if (!(std::abs(offset_us) < 1e10)) continue;
+        starts_us.push_back(utc_us - static_cast<double>(one->t_us[row]) - offset_us);
       }
     }
     if (!starts_us.empty()) break;

@@ -196,7 +196,9 @@ class Reader {
     auto [topic, instance] = base_of(d.name);
     for (const std::size_t i : type.columns) {
       const bool names_instance = (i < d.units.size() && d.units[i] == '#') || d.labels[i] == "I";
-      if (names_instance) instance = static_cast<unsigned>(raw_number(d.letters[i], payload, d.offsets[i]));
+      if (!names_instance) continue;
+      const double number = raw_number(d.letters[i], payload, d.offsets[i]);
+      if (number >= 0.0 && number < 256.0) instance = static_cast<unsigned>(number);
     }
     Series& series = series_of(type, topic, instance);
     series.t_us.push_back(t_us);
@@ -226,6 +228,11 @@ class Reader {
       if (!field || is_text(d.letters[*field])) return std::nullopt;
       return raw_number(d.letters[*field], payload, d.offsets[*field]);
     };
+    const auto letter = [&](const char* label) -> std::optional<char> {
+      const auto code = number(label);
+      if (!code || !(*code >= 0.0 && *code < 128.0)) return std::nullopt;
+      return static_cast<char>(*code);
+    };
     const auto text = [&](std::initializer_list<const char*> labels) -> std::string {
       for (const char* label : labels) {
         const auto field = d.find(label);
@@ -243,10 +250,11 @@ class Reader {
     } else if (d.name == "VER") {
       log_.info["firmware_string"] = text({"FWS"});
     } else if (d.name == "MULT") {
-      if (const auto id = number("Id"), factor = number("Mult"); id && factor)
-        letters_.multiplier[static_cast<char>(*id)] = *factor;
+      const auto id = letter("Id");
+      const auto factor = number("Mult");
+      if (id && factor) letters_.multiplier[*id] = *factor;
     } else if (d.name == "UNIT") {
-      if (const auto id = number("Id")) letters_.unit[static_cast<char>(*id)] = text({"Label"});
+      if (const auto id = letter("Id")) letters_.unit[*id] = text({"Label"});
     } else if (d.name == "FMTU") {
       if (const auto id = number("FmtType"); id && *id >= 0.0 && *id < 256.0) {
         const auto type = static_cast<std::uint8_t>(*id);
@@ -257,8 +265,8 @@ class Reader {
         }
       }
     } else if (d.name == "DSF") {
-      if (const auto dropped = number("Dp"))
-        log_.dropouts = static_cast<std::uint64_t>(std::max(0.0, *dropped));
+      const auto dropped = number("Dp");
+      if (dropped && *dropped >= 0.0 && *dropped < 1e15) log_.dropouts = static_cast<std::uint64_t>(*dropped);
     }
   }
 

@@ -42,7 +42,6 @@ Fault fault_of(char type, std::span<const std::uint8_t> payload, const Subscript
     case 'A':
       return that(payload.size() > 3 && is_name(text_of(payload.subspan(3))));
     case 'R':
-      return that(payload.size() == 2);
     case 'O':
       return that(payload.size() == 2);
     case 'L':

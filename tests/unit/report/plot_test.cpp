@@ -85,6 +85,13 @@ TEST(Plot, NothingToShowIsStillAPlot) {
   }
 }
 
+TEST(Plot, ARangeBelowTheResolutionOfNumbersEnds) {
+  Plot plot;
+  plot.curves.push_back(
+      {"a", {1.7e9, std::nextafter(1.7e9, 2e9)}, {1e300, 1e300}, 1, Curve::Shape::line, false});
+  expect_well_formed(to_svg(plot));
+}
+
 TEST(Map, MetresAreAsLongOnBothAxes) {
   Map map;
   map.curves.push_back({"way", {0, 100, 100}, {0, 0, 50}, 1, Curve::Shape::line, false});
