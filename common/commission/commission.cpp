@@ -6,8 +6,8 @@
 
 #include "commission/depth_check.hpp"
 #include "commission/dvl_check.hpp"
+#include "commission/fit/gps_fit.hpp"
 #include "commission/gps_check.hpp"
-#include "commission/gps_fit.hpp"
 #include "commission/heading_check.hpp"
 #include "commission/imu_axes.hpp"
 #include "commission/imu_noise.hpp"
@@ -21,8 +21,6 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kWindow_s = 12.0;
-// Windows of the DVL's figures: a quiet instrument wants more to fit than its start.
-constexpr double kDvlWindow_s = 24.0;
 constexpr std::size_t kFew = 16;    // windows that hypotheses are compared on
 constexpr std::size_t kMany = 250;  // and that figures come from
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
@@ -158,8 +156,7 @@ Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
                     assumed.gps.lever_B_m);
     report_gps(fit, assumed, out);
   }
-  const std::vector<Span> dvl_windows = windows_of(series, series.dvl, kDvlWindow_s, 6, kMany);
-  DvlCheck dvl = check_dvl(series, assumed, axes.reading, dvl_windows, evidence.dvl_latency_s, out.patch);
+  DvlCheck dvl = check_dvl(series, assumed, axes.reading, evidence.dvl_latency_s, out.patch);
   append(out.findings, dvl.findings);
   append(out.findings, check_heading(series, assumed, axes.reading, gps, dvl.velocity_B));
   append(out.findings, check_depth(series, assumed, axes.reading, dvl.velocity_B));

@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "commission/allan.hpp"
 #include "commission/assumed.hpp"
 #include "commission/finding.hpp"
+#include "commission/fit/allan.hpp"
 #include "dataset/dataset.hpp"
 
 /// What a log tells about the instruments of a vehicle, and what it cannot tell. Pure: the log is an

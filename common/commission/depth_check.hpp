@@ -2,7 +2,7 @@
 
 #include "commission/assumed.hpp"
 #include "commission/finding.hpp"
-#include "commission/strapdown.hpp"
+#include "commission/fit/strapdown.hpp"
 
 namespace fathom::commission {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "commission/signed_axes.hpp"
+#include "commission/fit/signed_axes.hpp"
 #include "commission/text.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -19,10 +19,29 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kPerWindow = 6.0;  // independent figures that a window counts for
-constexpr double kClaim = 15.0;     // log likelihood ratio
+constexpr double kFirst_s = 16.0;          // length of the windows at first
+constexpr std::size_t kMost = 250;         // windows
+constexpr std::size_t kLeastWindows = 12;  // for a scatter between them that means something
+constexpr double kPerWindow = 6.0;         // independent figures that a window counts for
+constexpr double kClaim = 15.0;            // log likelihood ratio
 constexpr std::array<const char*, 3> kAngles{"roll", "pitch", "yaw"};
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+// Of several lengths of window the one whose figures of the mounting are the surest.
+DvlFigures fit_best(const Series& series, const Assumed& assumed, const ImuReading& reading,
+                    const DvlFigures& first) {
+  DvlFigures best = first;
+  for (const double length_s : {8.0, 12.0, 16.0, 24.0, 36.0}) {
+    const std::vector<Span> windows = windows_of(series, series.dvl, length_s, 6, kMost);
+    if (windows.size() < kLeastWindows) continue;
+    const DvlFigures now =
+        fit_dvl(series, windows, reading, first.similarity, assumed.dvl.lever_B_m, first.latency_s);
+    if (now.done && now.similarity.turn_sigma_rad.minCoeff() > 0.0 &&
+        now.similarity.turn_sigma_rad.norm() < best.similarity.turn_sigma_rad.norm())
+      best = now;
+  }
+  return best;
+}
 
 struct Unit {
   double factor;
@@ -31,8 +50,8 @@ struct Unit {
 
 }  // namespace
 
-DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading,
-                   const std::vector<Span>& windows, double latency_s, Patch& patch) {
+DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading, double latency_s,
+                   Patch& patch) {
   DvlCheck out;
   const auto add = [&](std::string what, FindingKind kind, bool is_known, Severity severity, std::string text,
                        double value = kUnknown, const char* unit = "", double sigma = kUnknown) {
@@ -40,6 +59,7 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
         {"dvl", std::move(what), kind, value, unit, sigma, is_known, severity, std::move(text)});
   };
   if (series.dvl.size() < 10) return out;
+  const std::vector<Span> windows = windows_of(series, series.dvl, kFirst_s, 6, kMost);
   const DvlFit linear = windows.size() >= 3 ? fit_dvl_linear(series, windows, reading, latency_s) : DvlFit{};
   const Similarity plain = linear.done ? fit_similarity(linear, false) : Similarity{};
   const Similarity reflected = linear.done ? fit_similarity(linear, true) : Similarity{};
@@ -49,12 +69,14 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
   if (linear.done) {
     fit = fit_dvl(series, windows, reading, plain, assumed.dvl.lever_B_m, latency_s);
     other = fit_dvl(series, windows, reading, reflected, assumed.dvl.lever_B_m, latency_s);
-    if (fit.done && other.done)
+    if (fit.done && other.done) {
       against =
           kPerWindow * static_cast<double>(fit.windows) * std::log(other.residual_m_s / fit.residual_m_s);
+    }
   }
   const bool mirrored = other.done && (!fit.done || against < -kClaim);
   if (mirrored) std::swap(fit, other);
+  if (fit.done) fit = fit_best(series, assumed, reading, fit);
   if (!fit.done) {
     add("mounting", FindingKind::missing, false, Severity::ok,
         "How the DVL is mounted cannot be told: there is no minute under way with the DVL on the bottom. "

@@ -2,8 +2,8 @@
 
 #include "commission/assumed.hpp"
 #include "commission/commission.hpp"
-#include "commission/dvl_fit.hpp"
 #include "commission/finding.hpp"
+#include "commission/fit/dvl_fit.hpp"
 
 namespace fathom::commission {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "commission/signed_axes.hpp"
+#include "commission/fit/signed_axes.hpp"
 #include "commission/text.hpp"
 
 namespace fathom::commission {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "commission/finding.hpp"
-#include "commission/series.hpp"
+#include "commission/fit/series.hpp"
 
 namespace fathom::commission {
 

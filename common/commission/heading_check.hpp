@@ -2,8 +2,8 @@
 
 #include "commission/assumed.hpp"
 #include "commission/finding.hpp"
+#include "commission/fit/strapdown.hpp"
 #include "commission/gps_check.hpp"
-#include "commission/strapdown.hpp"
 
 namespace fathom::commission {
 

@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "commission/gps_fit.hpp"
+#include "commission/fit/gps_fit.hpp"
+#include "commission/fit/signed_axes.hpp"
 #include "commission/heading_check.hpp"
-#include "commission/signed_axes.hpp"
 #include "commission/text.hpp"
 
 namespace fathom::commission {

@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
-#include "commission/dvl_fit.hpp"
 #include "commission/finding.hpp"
+#include "commission/fit/dvl_fit.hpp"
+#include "commission/fit/strapdown.hpp"
 #include "commission/gps_check.hpp"
-#include "commission/strapdown.hpp"
 
 namespace fathom::commission {
 

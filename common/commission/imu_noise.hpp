@@ -3,11 +3,11 @@
 #include <array>
 #include <vector>
 
-#include "commission/allan.hpp"
 #include "commission/assumed.hpp"
 #include "commission/finding.hpp"
-#include "commission/rest.hpp"
-#include "commission/series.hpp"
+#include "commission/fit/allan.hpp"
+#include "commission/fit/rest.hpp"
+#include "commission/fit/series.hpp"
 
 namespace fathom::commission {
 

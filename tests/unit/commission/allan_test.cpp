@@ -1,4 +1,4 @@
-#include "commission/allan.hpp"
+#include "commission/fit/allan.hpp"
 
 #include <cmath>
 

@@ -75,5 +75,38 @@ TEST(CommissionRecorded, NamesEachSabotageThatTheLogCanTell) {
   }
 }
 
+// What the READMEs of the sets say was found by other means.
+struct Written {
+  const char* folder;
+  const char* sensor;
+  const char* what;
+  double low, high;  // its range
+};
+
+TEST(CommissionRecorded, AgreesWithWhatIsWrittenOfTheRecordings) {
+  if (!std::filesystem::exists(kDatasets)) FATHOM_DATA_IS_MISSING(kDatasets << " is not there");
+  const std::vector<Written> all = {
+      {"thor75", "gps", "latency", 0.08, 0.15},
+      {"thor75", "gps", "lever_x", 0.0, 0.25},
+      {"rtkx_drive", "gps", "lever_y", -0.05, 0.06},
+      {"rtkx_drive", "gps", "lever_z", 0.0, 0.07},
+      {"akit/traj01", "dvl", "mounting_roll", 0.059, 0.059},
+      {"akit/traj01", "dvl", "mounting_pitch", -0.066, -0.066},
+      {"akit/traj01", "dvl", "mounting_yaw", -0.204, -0.204},
+      {"akit/traj01", "dvl", "scale", 0.0, 0.004},
+      {"akit/traj01", "dvl", "lever_x", -0.07, -0.07},
+      {"akit/traj01", "dvl", "lever_y", -0.02, -0.02},
+      {"akit/traj01", "dvl", "latency", -0.05, 0.07},
+  };
+  for (const Written& one : all) {
+    const auto found = commission::commission(dataset::read(kDatasets / one.folder), {});
+    const auto* finding = find(found.findings, one.sensor, one.what);
+    ASSERT_NE(finding, nullptr) << one.folder << " " << one.what;
+    ASSERT_TRUE(finding->known) << one.folder << " " << finding->text;
+    EXPECT_GT(finding->value, one.low - 3.0 * finding->sigma - 0.001) << one.folder << " " << finding->text;
+    EXPECT_LT(finding->value, one.high + 3.0 * finding->sigma + 0.001) << one.folder << " " << finding->text;
+  }
+}
+
 }  // namespace
 }  // namespace fathom::test

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "commission/strapdown.hpp"
-#include "commission/window_fit.hpp"
+#include "commission/fit/strapdown.hpp"
+#include "commission/fit/window_fit.hpp"
 
 namespace fathom::commission {
 

@@ -1,4 +1,4 @@
-#include "commission/series.hpp"
+#include "commission/fit/series.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,12 +92,6 @@ Series series_of(const dataset::Dataset& data, const Assumed& assumed) {
     out.heading.v.push_back(last + geo::wrap_pi(sample.heading_rad - last));
     out.heading_magnetic = sample.north == North::magnetic;
     if (known(sample.variation_rad)) out.heading_variation_rad = sample.variation_rad;
-  }
-  for (const AirspeedSample& sample : data.of<AirspeedSample>()) {
-    const double t = seconds(sample);
-    if (!known(sample.baro_altitude_m) || !behind(out.baro.t_s, t)) continue;
-    out.baro.t_s.push_back(t);
-    out.baro.v.push_back(sample.baro_altitude_m);
   }
   return out;
 }

@@ -1,4 +1,4 @@
-#include "commission/rest.hpp"
+#include "commission/fit/rest.hpp"
 
 #include <algorithm>
 #include <cmath>

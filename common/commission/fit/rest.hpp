@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "commission/series.hpp"
+#include "commission/fit/series.hpp"
 
 namespace fathom::commission {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "commission/series.hpp"
+#include "commission/fit/series.hpp"
 
 namespace fathom::commission {
 

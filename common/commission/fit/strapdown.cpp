@@ -1,4 +1,4 @@
-#include "commission/strapdown.hpp"
+#include "commission/fit/strapdown.hpp"
 
 #include <algorithm>
 

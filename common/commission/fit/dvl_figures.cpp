@@ -5,7 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
-#include "commission/dvl_fit.hpp"
+#include "commission/fit/dvl_fit.hpp"
 #include "geo/so3.hpp"
 
 namespace fathom::commission {

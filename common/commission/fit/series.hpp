@@ -46,7 +46,6 @@ struct Series {
   ScalarSeries heading;  ///< rad, unwrapped
   bool heading_magnetic = false;
   double heading_variation_rad = kUnknown;  ///< as the compass reports it
-  ScalarSeries baro;                        ///< barometric height, m, up
 };
 
 /// Takes out of a data set what is known and finite, in the order of stamps; stamps as recorded, less the

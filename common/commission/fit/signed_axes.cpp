@@ -1,4 +1,4 @@
-#include "commission/signed_axes.hpp"
+#include "commission/fit/signed_axes.hpp"
 
 #include <algorithm>
 #include <cmath>

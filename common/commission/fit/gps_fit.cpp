@@ -1,4 +1,4 @@
-#include "commission/gps_fit.hpp"
+#include "commission/fit/gps_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "commission/signed_axes.hpp"
+#include "commission/fit/signed_axes.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 

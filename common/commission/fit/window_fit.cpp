@@ -1,4 +1,4 @@
-#include "commission/window_fit.hpp"
+#include "commission/fit/window_fit.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "commission/dvl_fit.hpp"
+#include "commission/fit/dvl_fit.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "commission/signed_axes.hpp"
+#include "commission/fit/signed_axes.hpp"
 #include "geo/so3.hpp"
 
 namespace fathom::commission {

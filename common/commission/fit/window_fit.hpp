@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "commission/rest.hpp"
-#include "commission/series.hpp"
+#include "commission/fit/rest.hpp"
+#include "commission/fit/series.hpp"
 
 namespace fathom::commission {
 
