@@ -13,7 +13,6 @@ namespace fathom::cli {
 namespace {
 
 using report::Material;
-using report::StateRow;
 
 constexpr double kMostRows = 4000.0;
 constexpr double kOutage_s = 5.0;
