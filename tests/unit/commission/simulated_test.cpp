@@ -57,5 +57,22 @@ TEST(CommissionSimulated, NamesEachSabotageAndNothingElse) {
   }
 }
 
+TEST(CommissionSimulated, ClaimsNothingThatCirclesInABasinCannotTell) {
+  sim::Scenario scenario = commissioning_vehicle();
+  scenario.vehicle.kind = sim::VehicleConfig::Kind::rotating_arm;
+  scenario.start.depth_m = 1.0;
+  scenario.mission = {{0.0, 0.0}, {10.0, 0.5}, {40.0, 1.5}, {80.0, 3.0}};
+  scenario.duration_s = 120.0;
+  scenario.sensors.of<GpsSample>().enabled = false;
+  const auto found = commission::commission(drive(scenario, 1), {});
+  EXPECT_EQ(wrongs(found.findings), "");
+  const Finding* roll = find(found.findings, "dvl", "mounting_roll");
+  ASSERT_NE(roll, nullptr);
+  EXPECT_FALSE(roll->known) << roll->text;
+  const Finding* depth = find(found.findings, "depth", "sign");
+  ASSERT_NE(depth, nullptr);
+  EXPECT_FALSE(depth->known) << depth->text;
+}
+
 }  // namespace
 }  // namespace fathom::test
