@@ -74,5 +74,19 @@ TEST(CommissionSimulated, ClaimsNothingThatCirclesInABasinCannotTell) {
   EXPECT_FALSE(depth->known) << depth->text;
 }
 
+TEST(CommissionSimulated, SaysThatAnInertialUnitWithoutValuesOrWithoutGravityIsWrong) {
+  for (const double value : {0.0, kUnknown, 1e300}) {
+    dataset::Dataset data;
+    for (int i = 0; i < 3000; ++i) {
+      ImuSample sample;
+      sample.header.stamp_ns = i * 10'000'000LL;
+      sample.angular_rate_B_rad_s.fill(value);
+      sample.specific_force_B_m_s2.fill(value);
+      data.of<ImuSample>().push_back(sample);
+    }
+    EXPECT_TRUE(commission::any_wrong(commission::commission(data, {}).findings)) << value;
+  }
+}
+
 }  // namespace
 }  // namespace fathom::test
