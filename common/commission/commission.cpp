@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kWindow_s = 12.0;
+constexpr std::size_t kLeastSamples = 100;
 constexpr std::size_t kFew = 16;    // windows that hypotheses are compared on
 constexpr std::size_t kMany = 250;  // and that figures come from
 constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
@@ -114,7 +115,14 @@ bool Patch::empty() const {
 Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
   Commissioning out;
   const Series series = series_of(data, assumed);
-  out.duration_s = series.imu.t_s.empty() ? 0.0 : series.imu.t_s.back();
+  if (series.imu.size() < kLeastSamples) {
+    out.findings.push_back({"imu", "samples", FindingKind::missing, static_cast<double>(series.imu.size()),
+                            "", kUnknown, false, Severity::wrong,
+                            "The inertial unit has " + std::to_string(series.imu.size()) +
+                                " samples of finite values in the order of time; nothing can be told."});
+    return out;
+  }
+  out.duration_s = series.imu.t_s.back();
   const std::vector<Span> rest = rest_spans(series);
   out.rest_s = rest.empty() ? 0.0 : rest.front().to_s - rest.front().from_s;
   ImuNoise noise = check_imu_noise(series, assumed, rest);

@@ -37,7 +37,7 @@ struct Commissioning {
   double rest_s = 0.0;  ///< the longest rest
 };
 
-/// Precondition: data has at least two inertial samples of finite values.
+/// Precondition: data has at least one inertial sample.
 [[nodiscard]] Commissioning commission(const dataset::Dataset& data, const Assumed& assumed);
 
 }  // namespace fathom::commission

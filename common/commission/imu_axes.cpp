@@ -169,6 +169,14 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
   };
   double force_found = kUnknown;
   const Unit unit = force_unit(series, force_found);
+  // Vibration and banked turns make it larger than gravity, by far less than a quarter.
+  if (!(std::abs(std::log(force_found * unit.factor / kGravity)) < 0.25)) {
+    add("accelerometer_unit", FindingKind::unit, true, Severity::wrong,
+        "The specific force is " + number(force_found, 3) +
+            " in the middle, which is gravity in no unit: 9.81 m/s^2 is expected at rest.",
+        force_found, "m/s^2");
+    return out;
+  }
   add("accelerometer_unit", FindingKind::unit, true, unit.factor == 1.0 ? Severity::ok : Severity::wrong,
       unit.factor == 1.0
           ? "The specific force is " + number(force_found, 2) + " m/s^2 in the middle, as gravity is."

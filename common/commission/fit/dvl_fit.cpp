@@ -23,6 +23,9 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 constexpr double kApart_s = 0.9;
 constexpr double kGap_s = 2.5;
 constexpr double kMargin_s = 2.0;
+// What the turn of the Earth, which is not modelled here, adds between two rows: quieter residuals decide
+// nothing.
+constexpr double kModel_m_s = 0.005;
 constexpr int kLinear = 12;          // columns of M, lever
 constexpr double kSigma_m_s = 0.05;  // beside which the lever's prior of 3 m is nothing
 
@@ -67,7 +70,7 @@ DvlFit fit_dvl_linear(const Series& series, const std::vector<Span>& windows, co
   const WindowFit::Solution solution = fit.solve();
   DvlFit out;
   out.done = solution.windows >= 2 && solution.step.allFinite();
-  out.squares = solution.squares;
+  out.squares = solution.squares + solution.freedom * kModel_m_s * kModel_m_s;
   out.freedom = solution.freedom;
   out.windows = solution.windows;
   for (int column = 0; column < 3; ++column) out.M.col(column) = solution.step.segment<3>(3 * column);

@@ -12,7 +12,7 @@ namespace fathom::commission {
 /// What IMU and DVL together tell: velocity of the inertial unit = M v_D - rate x lever, M any matrix.
 struct DvlFit {
   bool done = false;
-  double squares = 0.0;  ///< left over, m^2/s^2
+  double squares = 0.0;  ///< left over, m^2/s^2, with what the model neglects
   double freedom = 1.0;
   std::size_t windows = 0;
   Eigen::Matrix3d M = Eigen::Matrix3d::Identity();

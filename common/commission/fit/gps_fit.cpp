@@ -23,6 +23,9 @@ using Eigen::VectorXd;
 constexpr double kApart_s = 0.4;
 constexpr double kGap_s = 2.5;
 constexpr double kLeastStep_s = 0.15;  // receivers that are quicker filter: what they add is not independent
+// What the turn of the Earth, which is not modelled here, adds within a window: quieter residuals decide
+// nothing.
+constexpr double kModel_m_s = 0.015;
 constexpr double kManyCourses =
     0.6;  // length of the mean direction over ground below which the courses were many
 constexpr double kMargin_s = 2.0;  // of the integration around a window: latencies up to this

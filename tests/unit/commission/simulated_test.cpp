@@ -57,5 +57,36 @@ TEST(CommissionSimulated, NamesEachSabotageAndNothingElse) {
   }
 }
 
+TEST(CommissionSimulated, ClaimsNothingThatCirclesInABasinCannotTell) {
+  sim::Scenario scenario = commissioning_vehicle();
+  scenario.vehicle.kind = sim::VehicleConfig::Kind::rotating_arm;
+  scenario.start.depth_m = 1.0;
+  scenario.mission = {{0.0, 0.0}, {10.0, 0.5}, {40.0, 1.5}, {80.0, 3.0}};
+  scenario.duration_s = 120.0;
+  scenario.sensors.of<GpsSample>().enabled = false;
+  const auto found = commission::commission(drive(scenario, 1), {});
+  EXPECT_EQ(wrongs(found.findings), "");
+  const Finding* roll = find(found.findings, "dvl", "mounting_roll");
+  ASSERT_NE(roll, nullptr);
+  EXPECT_FALSE(roll->known) << roll->text;
+  const Finding* depth = find(found.findings, "depth", "sign");
+  ASSERT_NE(depth, nullptr);
+  EXPECT_FALSE(depth->known) << depth->text;
+}
+
+TEST(CommissionSimulated, SaysThatAnInertialUnitWithoutValuesOrWithoutGravityIsWrong) {
+  for (const double value : {0.0, kUnknown, 1e300}) {
+    dataset::Dataset data;
+    for (int i = 0; i < 3000; ++i) {
+      ImuSample sample;
+      sample.header.stamp_ns = i * 10'000'000LL;
+      sample.angular_rate_B_rad_s.fill(value);
+      sample.specific_force_B_m_s2.fill(value);
+      data.of<ImuSample>().push_back(sample);
+    }
+    EXPECT_TRUE(commission::any_wrong(commission::commission(data, {}).findings)) << value;
+  }
+}
+
 }  // namespace
 }  // namespace fathom::test
