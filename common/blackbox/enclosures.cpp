@@ -105,9 +105,16 @@ std::vector<Enclosure> enclosures_of(const std::string& service, const CommandLi
   out.push_back({folder + "config.json", "application/json", now_ns, *file});
   const std::string checkpoint = checkpoint_path(*file, line);
   if (checkpoint.empty()) return out;
-  if (const auto state = read_small(fs::path(line.folder) / checkpoint))
-    out.push_back({folder + "checkpoint", "application/octet-stream", now_ns, *state});
+  out.push_back({folder + "checkpoint",
+                 "application/octet-stream",
+                 now_ns,
+                 {},
+                 (fs::path(line.folder) / checkpoint).string()});
   return out;
+}
+
+std::optional<record::Bytes> read_enclosed(const std::string& path) {
+  return read_small(path);
 }
 
 }  // namespace fathom::blackbox

@@ -30,8 +30,12 @@ struct CommandLine {
 
 /// What is kept of a service: its command line, its configuration file, its checkpoint. Files that cannot be
 /// read, and those of more than 4 MB, are left out.
+/// The checkpoint is one that changes.
 ///   services/NAME/command.json, services/NAME/config.json, services/NAME/checkpoint
 [[nodiscard]] std::vector<Enclosure> enclosures_of(const std::string& service, const CommandLine& line,
                                                    TimeNs now_ns);
+
+/// The content of a file that may be enclosed; nothing where it cannot be.
+[[nodiscard]] std::optional<record::Bytes> read_enclosed(const std::string& path);
 
 }  // namespace fathom::blackbox

@@ -41,6 +41,9 @@ struct Enclosure {
   std::string media_type;
   TimeNs created_ns = 0;
   record::Bytes data;
+  /// Not empty: a file that changes. It is read anew some seconds after this was put in and after each file's
+  /// begin, so that what it is about is in the same file; `data` is not used.
+  std::string path{};
 };
 
 }  // namespace fathom::blackbox

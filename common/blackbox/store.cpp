@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "blackbox/enclosures.hpp"
 #include "record/idl.hpp"
 
 namespace fathom::blackbox {
@@ -12,10 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr DurationNs kRetryNs = 2 * kNsPerSecond;  // after a failure to begin a file
-constexpr std::size_t kMostLatched = 4096;         // keys come from the network: bounded
-constexpr std::uint16_t kMostChannels = 8192;      // likewise writers
-constexpr std::uint64_t kMostMarks = 10'000;       // of a file
+constexpr DurationNs kRetryNs = 2 * kNsPerSecond;     // after a failure to begin a file
+constexpr DurationNs kSettled_ns = 3 * kNsPerSecond;  // then a file that changes is of this recording
+constexpr std::size_t kMostLatched = 4096;            // keys come from the network: bounded
+constexpr std::uint16_t kMostChannels = 8192;         // likewise writers
+constexpr std::uint64_t kMostMarks = 10'000;          // of a file
 
 std::string file_stamp(TimeNs now_ns) {
   std::string text = to_iso8601(now_ns, 0);
@@ -106,7 +108,24 @@ void Store::add(const Event& event) {
 void Store::add(Enclosure enclosure) {
   Enclosure& kept = enclosures_[enclosure.name];
   kept = std::move(enclosure);
-  if (writer_) enclose(kept);
+  if (!kept.path.empty()) again_ns_[kept.name] = kept.created_ns + kSettled_ns;
+  if (writer_ && kept.path.empty()) enclose(kept);
+}
+
+void Store::enclose_again(TimeNs now_ns) {
+  for (auto due = again_ns_.begin(); due != again_ns_.end();) {
+    if (due->second > now_ns) {
+      ++due;
+      continue;
+    }
+    Enclosure one = enclosures_.at(due->first);
+    due = again_ns_.erase(due);
+    const auto data = read_enclosed(one.path);
+    if (!data) continue;
+    one.data = *data;
+    one.created_ns = now_ns;
+    enclose(one);
+  }
 }
 
 void Store::enclose(const Enclosure& one) {
@@ -165,7 +184,12 @@ void Store::begin(TimeNs now_ns) {
   ++counts_.files;
   counts_.file = path_.string();
   say_(false, "recording to " + path_.string());
-  for (const auto& [name, one] : enclosures_) enclose(one);
+  for (const auto& [name, one] : enclosures_) {
+    if (one.path.empty())
+      enclose(one);
+    else
+      again_ns_[name] = now_ns + kSettled_ns;
+  }
   for (auto& [key, entry] : latched_) {
     Sample again = entry.first;
     again.log_ns = now_ns;
@@ -175,6 +199,7 @@ void Store::begin(TimeNs now_ns) {
 
 void Store::settle(TimeNs now_ns) {
   if (!writer_) return;
+  enclose_again(now_ns);
   std::string why = writer_->flush();
   if (why.empty() && !dropped_.empty()) {
     record::TextMap told;

@@ -66,6 +66,8 @@ class Store {
   void write(Sample& sample, std::uint32_t sequence);
   void keep_latched(const Sample& sample, std::uint32_t sequence);
   void enclose(const Enclosure& one);
+  /// Those that change, when it is time.
+  void enclose_again(TimeNs now_ns);
   void end_file();
   void note_lost(const std::string& topic, const Dropped& one);
   void fail(const std::string& why);
@@ -81,6 +83,7 @@ class Store {
   StoreCounts counts_;
   std::vector<Known> known_;
   std::map<std::string, Enclosure> enclosures_;
+  std::map<std::string, TimeNs> again_ns_;  // when those that change are read
   /// Last samples of latched topics, by topic and key; with their sequence.
   std::map<std::pair<std::string, std::string>, std::pair<Sample, std::uint32_t>> latched_;
   std::map<std::string, Dropped> dropped_;             // not yet told in a file

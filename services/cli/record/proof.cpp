@@ -1,5 +1,7 @@
 #include "cli/record/proof.hpp"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdio>
@@ -7,10 +9,13 @@
 #include <utility>
 #include <variant>
 
+#include "cli/command.hpp"
+
 namespace fathom::cli {
 namespace {
 
 constexpr DurationNs kKept_ns = 60 * kNsPerSecond;  // that samples wait for the list that names them
+constexpr DurationNs kAgain_ns = 5 * kNsPerSecond;  // after a state
 constexpr std::size_t kMostUnheard = 4096;          // states that wait for the recorded ones
 constexpr std::size_t kMostWaiting = 1U << 20U;
 
@@ -60,8 +65,14 @@ class Difference {
 
 }  // namespace
 
-Proof::Proof(const config::FusionConfig& config)
-    : engine_(config::engine_config(config)), instance_(config.instance) {
+Proof::Proof(const config::FusionConfig& config, std::span<const std::byte> state)
+    : engine_(config::engine_config(config)) {
+  if (const std::string why = engine_.restore(state); !why.empty())
+    throw Failure(ExitCode::bad_input, "checkpoint: holds no state of this engine: " + why);
+  from_ns_ = engine_.nav_state().header.stamp_ns;
+}
+
+Proof::Proof(const config::FusionConfig& config) : engine_(config::engine_config(config)) {
   if (config::starts_from_state(config.start.mode)) engine_.start_from(config::initial_state(config));
 }
 
@@ -122,6 +133,20 @@ void Proof::add(const Verdict& recorded) {
 }
 
 void Proof::go_on() {
+  if (from_ns_) {
+    // Whatever came before that inertial sample is in the state. What came after it may be, and then counts
+    // as a duplicate.
+    const auto at = std::find_if(entries_.begin(), entries_.end(), [&](const auto& entry) {
+      return !entry.second.is_order && entry.second.source == SourceKind::imu &&
+             entry.second.stamp_ns == *from_ns_;
+    });
+    if (at == entries_.end()) return;
+    begin_ns_ = *from_ns_;
+    next_ = at->first + 1;
+    first_ = next_;
+    entries_.erase(entries_.begin(), std::next(at));
+    from_ns_.reset();
+  }
   while (difference_.empty() && !entries_.empty() && entries_.begin()->first == next_) {
     if (!give(entries_.begin()->second)) return;
     entries_.erase(entries_.begin());
@@ -168,6 +193,10 @@ bool Proof::give(const IntakeEntry& entry) {
 void Proof::collect() {
   for (Verdict verdict; engine_.next_verdict(verdict);) {
     if (verdict.source == SourceKind::imu) verdict.writer = imu_writer_;
+    // In the state that was begun with, and given again.
+    if (verdict.kind == VerdictKind::duplicate && begin_ns_ > 0 &&
+        verdict.header.stamp_ns < begin_ns_ + kAgain_ns)
+      continue;
     const auto found = verdicts_recorded_.find(key_of(verdict));
     if (found == verdicts_recorded_.end()) {
       verdicts_computed_[key_of(verdict)].push_back(verdict);
@@ -240,6 +269,7 @@ void Proof::compare(const Verdict& recorded, const Verdict& computed) {
 void Proof::finish() {
   go_on();
   if (!difference_.empty()) return;
+  if (from_ns_) return differ("the checkpoint is of a moment that is not in the recording");
   if (!entries_.empty()) {
     const auto& [number, entry] = *entries_.begin();
     if (number != next_)
@@ -255,7 +285,7 @@ void Proof::finish() {
       static_cast<std::uint64_t>(std::distance(computed_.begin(), computed_.lower_bound(last_state_)));
   const TimeNs end_ns = engine_.nav_state().header.stamp_ns;
   for (const auto& [sequence, state] : recorded_) {
-    if (state.header.stamp_ns <= end_ns)
+    if (state.header.stamp_ns <= end_ns && state.header.stamp_ns > begin_ns_)
       return differ("navigation state " + std::to_string(sequence) + " at " +
                     to_iso8601(state.header.stamp_ns, 6) + " follows from nothing that fusion took");
   }

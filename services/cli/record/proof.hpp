@@ -2,8 +2,10 @@
 
 #include <cstdint>
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 
@@ -21,7 +23,10 @@ namespace fathom::cli {
 /// verdicts may come before or after what they follow from.
 class Proof {
  public:
+  /// From the beginning of a run that made its state itself.
   explicit Proof(const config::FusionConfig& config);
+  /// From a state that it had under way. Throws Failure when it is none of this engine.
+  Proof(const config::FusionConfig& config, std::span<const std::byte> state);
 
   void add(const AnySample& sample);
   void add(const Command& order);
@@ -33,9 +38,9 @@ class Proof {
 
   /// The first difference, in words; empty as long as there is none.
   [[nodiscard]] const std::string& difference() const { return difference_; }
-  [[nodiscard]] std::uint64_t states() const { return states_; }      ///< that were equal
-  [[nodiscard]] std::uint64_t verdicts() const { return verdicts_; }  ///< likewise
-  [[nodiscard]] std::uint64_t taken() const { return next_; }         ///< samples and orders
+  [[nodiscard]] std::uint64_t states() const { return states_; }        ///< that were equal
+  [[nodiscard]] std::uint64_t verdicts() const { return verdicts_; }    ///< likewise
+  [[nodiscard]] std::uint64_t taken() const { return next_ - first_; }  ///< samples and orders
   /// States that were computed and are not in the recording, before the last one that is.
   [[nodiscard]] std::uint64_t unheard() const { return unheard_; }
 
@@ -55,12 +60,14 @@ class Proof {
   static VerdictKey key_of(const Verdict& verdict);
 
   estimation::FusionEngine engine_;
-  Name instance_;
+  std::optional<TimeNs> from_ns_;  ///< of the state that is begun with, until its inertial sample was found
   std::map<Key, AnySample> samples_;  // of the last minute
   std::map<Key, Command> orders_;
   TimeNs newest_ns_ = 0;
   std::map<std::uint64_t, IntakeEntry> entries_;  // not given yet, by their numbers
   std::uint64_t next_ = 0;
+  std::uint64_t first_ = 0;
+  TimeNs begin_ns_ = std::numeric_limits<TimeNs>::min();
   Name imu_writer_;
   std::map<std::uint64_t, NavState> computed_;  // not compared yet, by sequence
   std::map<std::uint64_t, NavState> recorded_;

@@ -1,10 +1,12 @@
 #include "cli/record/verify.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "cli/command.hpp"
 #include "cli/record/proof.hpp"
 #include "cli/recording.hpp"
+#include "fusion/checkpoint/checkpoint.hpp"
 #include "runtime/build_info.hpp"
 #include "samples/status/health.hpp"
 
@@ -21,7 +24,11 @@ namespace {
 /// A run of a fusion service: all that one process said.
 struct Run {
   std::string service;
+  bool from_its_begin = false;
+  std::string why_not;           ///< from its begin
+  std::vector<TimeNs> inertial;  ///< stamps of what it took
   std::unique_ptr<Proof> proof;
+  std::string from;      ///< where it begins, for people
   std::string no_proof;  ///< why there is none
 };
 
@@ -44,6 +51,7 @@ class Verification {
 
   ExitCode run() {
     for (File& file : files_) find_runs(file);
+    for (auto& [process, run] : runs_) begin(run);
     if (runs_.empty()) {
       throw Failure(ExitCode::bad_input,
                     name_ + ": no fusion service says in it what it took (fathom/v1/intake)");
@@ -69,9 +77,8 @@ class Verification {
   void find_runs(File& file) {
     file.reader.read({{"fathom/v1/intake"}},
                      [&](const record::Channel& channel, const record::Message& message) {
-                       if (runs_.contains(process_of(channel))) return true;
                        const auto intake = bus::from_cdr<IntakeRecord>(message.data);
-                       if (intake) begin(file, runs_[process_of(channel)], *intake);
+                       if (intake) look(runs_[process_of(channel)], *intake);
                        return true;
                      });
     file.reader.read({{"fathom/v1/service_status"}},
@@ -85,16 +92,47 @@ class Verification {
                      });
   }
 
-  void begin(File& file, Run& run, const IntakeRecord& intake) {
-    run.service = intake.header.sensor.str();
-    if (intake.resumed) {
-      run.no_proof = "it went on from a state of another run, which is not in the recording";
-    } else if (intake.first != 0) {
-      run.no_proof = "it had taken " + std::to_string(intake.first) + " samples before the recording began";
-    } else {
+  static void look(Run& run, const IntakeRecord& intake) {
+    if (run.service.empty()) {
+      run.service = intake.header.sensor.str();
+      run.from_its_begin = !intake.resumed && intake.first == 0;
+      run.why_not = intake.resumed ? "it went on from a state of another run"
+                                   : "it had taken " + std::to_string(intake.first) +
+                                         " samples before the recording began";
+    }
+    for (const IntakeEntry& entry : intake.entries) {
+      if (!entry.is_order && entry.source == SourceKind::imu) run.inertial.push_back(entry.stamp_ns);
+    }
+  }
+
+  /// From its begin, or from the first checkpoint of its own that is in the recording.
+  void begin(Run& run) {
+    run.no_proof = run.why_not + ", and no checkpoint of it is in the recording";
+    for (File& file : files_) {
+      if (!file.reader.attachment("services/" + run.service + "/config.json")) continue;
       const auto loaded = recorded_configuration(file.reader, file.name, run.service);
       own_hashes_[run.service] = loaded.hash;
-      run.proof = std::make_unique<Proof>(loaded.value);
+      if (run.from_its_begin) {
+        run.proof = std::make_unique<Proof>(loaded.value);
+        return;
+      }
+      for (const record::AttachmentIndex& index : file.reader.contents().attachments) {
+        if (index.name != "services/" + run.service + "/checkpoint") continue;
+        const auto bytes = file.reader.attachment(index);
+        if (!bytes) continue;
+        const auto checkpoint = fusion::decode(std::as_bytes(std::span(bytes.value())));
+        if (!checkpoint) continue;
+        const TimeNs stamp_ns = checkpoint.value().label.stamp_ns;
+        if (std::find(run.inertial.begin(), run.inertial.end(), stamp_ns) == run.inertial.end()) continue;
+        run.proof = std::make_unique<Proof>(loaded.value, checkpoint.value().archive);
+        run.from = ", from its checkpoint of " + to_iso8601(stamp_ns) + " on";
+        return;
+      }
+    }
+    if (run.from_its_begin) {
+      throw Failure(ExitCode::bad_input, name_ + ": the configuration of " + run.service +
+                                             " is not in the recording, expected services/" + run.service +
+                                             "/config.json");
     }
   }
 
@@ -104,7 +142,7 @@ class Verification {
     if (channel.topic == "fathom/v1/intake") {
       const auto intake = bus::from_cdr<IntakeRecord>(message.data);
       if (proof == nullptr || !intake) return;
-      if (intake->resumed) {
+      if (intake->resumed && own->second.from_its_begin) {
         own->second.no_proof = "it took up a state of another fusion";
         own->second.proof.reset();
       } else {
@@ -153,7 +191,7 @@ class Verification {
   ExitCode answer(const record::Outcome& outcome) {
     ExitCode code = ExitCode::done;
     for (auto& [process, run] : runs_) {
-      const std::string who = name_ + ": " + run.service + " (" + process.substr(0, 8) + "): ";
+      const std::string who = name_ + ": " + run.service + " (" + process.substr(8, 8) + "): ";
       std::string line;
       if (run.proof) run.proof->finish();
       if (!run.proof) {
@@ -164,7 +202,7 @@ class Verification {
       } else {
         line = "equal to the last bit: " + std::to_string(run.proof->states()) + " navigation states and " +
                std::to_string(run.proof->verdicts()) + " verdicts follow from " +
-               std::to_string(run.proof->taken()) + " samples and orders";
+               std::to_string(run.proof->taken()) + " samples and orders" + run.from;
         if (run.proof->unheard() > 0)
           line += "; " + std::to_string(run.proof->unheard()) + " further states are not in the recording";
       }

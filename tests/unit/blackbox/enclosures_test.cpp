@@ -40,7 +40,9 @@ TEST(Enclosures, HoldConfigurationAndCheckpoint) {
   EXPECT_EQ(all[0].name, "services/fusion/command.json");
   EXPECT_EQ(all[1].name, "services/fusion/config.json");
   EXPECT_EQ(all[2].name, "services/fusion/checkpoint");
-  EXPECT_EQ(all[2].data, (record::Bytes{'b', 'y', 't', 'e', 's'}));
+  EXPECT_EQ(all[2].path, folder / "state");
+  EXPECT_EQ(blackbox::read_enclosed(all[2].path), (record::Bytes{'b', 'y', 't', 'e', 's'}));
+  EXPECT_EQ(blackbox::read_enclosed(folder / "absent"), std::nullopt);
   EXPECT_EQ(blackbox::enclosures_of("fusion", {"x", "/", {"--config", "absent"}}, 5).size(), 1U);
 }
 
