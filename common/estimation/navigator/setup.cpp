@@ -1,7 +1,5 @@
 #include "estimation/navigator/setup.hpp"
 
-#include "estimation/description/units.hpp"
-
 #include <algorithm>
 
 namespace fathom::estimation {
@@ -10,6 +8,7 @@ using Eigen::Vector3d;
 
 namespace {
 
+constexpr double kStandardGravity_m_s2 = 9.80665;
 /// A step longer than the nominal one by half is one with a sample missing.
 constexpr double kMissedSample = 1.5;
 

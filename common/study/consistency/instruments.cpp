@@ -36,8 +36,7 @@ InertialUnit::InertialUnit(const ImuGrade& grade, std::uint64_t seed)
                  grade.angle_walk_rad_sqrt_s, grade.in_run_s)),
       accelerometer_(draw(grade.accel_bias_m_s2, grade.accel_in_run_m_s2, grade.accel_scale,
                           grade.misalignment_rad, grade.velocity_walk_m_s_sqrt_s, grade.in_run_s)) {
-  for (int i = 0; i < 3; ++i)
-    g_sensitivity_.col(i) = draw3(random_, grade.gyro_g_sensitivity_rad_s_per_m_s2);
+  for (int i = 0; i < 3; ++i) g_sensitivity_.col(i) = draw3(random_, grade.gyro_g_sensitivity_rad_s_per_m_s2);
 }
 
 InertialUnit::Triad InertialUnit::draw(double bias, double in_run, double scale, double misalignment,
