@@ -152,8 +152,8 @@ Sizes sizes() {
 }
 
 /// Of the topics on the way, as a run of the survey with this program has them.
-constexpr int kImuReaders = 3;
-constexpr int kNavReaders = 5;
+constexpr int kImuReaders = 4;
+constexpr int kNavReaders = 6;
 
 /// Raw samples come a little faster than inertial ones, so that the two do not meet, or miss, each other all
 /// the time.
