@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
+#include "commission/fit/latency.hpp"
 #include "commission/heading_check.hpp"
 #include "commission/text.hpp"
 
@@ -74,15 +76,11 @@ Findings check_depth(const Series& series, const Assumed& assumed, const ImuRead
     sunk.v.push_back(before);
     last = speed;
   }
-  Slope best = compare(series.depth, sunk, 0.0);
-  double latency = 0.0;
-  for (int step = -30; step <= 30; ++step) {
-    const Slope now = compare(series.depth, sunk, 0.05 * step);
-    if (now.count >= 8 && now.squares < best.squares) {
-      best = now;
-      latency = 0.05 * step;
-    }
-  }
+  const double latency = scan_latency(0.05, 30, [&](double latency_s) {
+    const Slope slope = compare(series.depth, sunk, latency_s);
+    return slope.count >= 8 ? slope.squares : std::numeric_limits<double>::infinity();
+  });
+  const Slope best = compare(series.depth, sunk, latency);
   if (best.count < 8 || !(std::abs(best.value) > 10.0 * best.sigma)) {
     add("sign", FindingKind::sign, false, Severity::ok,
         "Sign and unit of the depth cannot be told: there is no dive and ascent with the DVL on the bottom. "
@@ -120,10 +118,9 @@ Findings check_depth(const Series& series, const Assumed& assumed, const ImuRead
   const double h = 0.1;
   const double left = compare(series.depth, sunk, latency - h).squares;
   const double right = compare(series.depth, sunk, latency + h).squares;
-  const double curvature = (left - 2.0 * best.squares + right) / (h * h);
-  if (curvature > 0.0) {
-    const double offset = latency - (right - left) / (2.0 * h) / curvature;
-    const double sigma = std::sqrt(2.0 * best.squares / static_cast<double>(best.count) / curvature);
+  if (const auto fit = parabola(latency, h, left, best.squares, right, static_cast<double>(best.count))) {
+    const double offset = fit->latency_s;
+    const double sigma = fit->sigma_s;
     const bool is_known = sigma < 0.15;
     const bool wrong = is_known && std::abs(offset) > 5.0 * sigma && std::abs(offset) > 0.5;
     add("latency", FindingKind::latency, is_known, wrong ? Severity::wrong : Severity::ok,

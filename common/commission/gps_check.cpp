@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/median.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "commission/text.hpp"
 

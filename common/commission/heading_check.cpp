@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include <Eigen/Cholesky>
 
+#include "base/median.hpp"
+#include "commission/fit/latency.hpp"
 #include "commission/text.hpp"
 #include "geo/wgs84.hpp"
 
@@ -131,15 +134,11 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
   };
   if (series.heading.size() < 20) return out;
   const ScalarSeries gyro = turn_by_gyro(series, reading);
-  Turns best = compare(series.heading, gyro, 0.0);
-  double latency = 0.0;
-  for (int step = -60; step <= 60; ++step) {
-    const Turns now = compare(series.heading, gyro, 0.025 * step);
-    if (now.count >= 8 && now.squares < best.squares) {
-      best = now;
-      latency = 0.025 * step;
-    }
-  }
+  const double latency = scan_latency(0.025, 60, [&](double latency_s) {
+    const Turns turns = compare(series.heading, gyro, latency_s);
+    return turns.count >= 8 ? turns.squares : std::numeric_limits<double>::infinity();
+  });
+  const Turns best = compare(series.heading, gyro, latency);
   if (best.count < 8 || !(std::abs(best.slope) > 8.0 * best.sigma) || best.turned < 1.0) {
     add("sense", FindingKind::sign, false, Severity::ok,
         "Whether the compass turns the right way cannot be told: the vehicle turned too little. A full turn "
@@ -155,10 +154,9 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
   const double h = 0.05;
   const double left = compare(series.heading, gyro, latency - h).squares;
   const double right = compare(series.heading, gyro, latency + h).squares;
-  const double curvature = (left - 2.0 * best.squares + right) / (h * h);
-  if (curvature > 0.0) {
-    const double offset = latency - (right - left) / (2.0 * h) / curvature;
-    const double sigma = std::sqrt(2.0 * best.squares / static_cast<double>(best.count) / curvature);
+  if (const auto fit = parabola(latency, h, left, best.squares, right, static_cast<double>(best.count))) {
+    const double offset = fit->latency_s;
+    const double sigma = fit->sigma_s;
     const bool is_known = sigma < 0.1;
     const bool wrong = is_known && std::abs(offset) > 5.0 * sigma && std::abs(offset) > 0.3;
     add("latency", FindingKind::latency, is_known, wrong ? Severity::wrong : Severity::ok,

@@ -10,7 +10,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "base/median.hpp"
+#include "base/standard_gravity.hpp"
 #include "commission/fit/gps_fit.hpp"
+#include "commission/fit/latency.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "commission/heading_check.hpp"
 #include "commission/text.hpp"
@@ -21,7 +24,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kGravity = 9.80665;
 constexpr double kReject = 15.0;     // log likelihood ratio: e^-15 in some 400 hypotheses is no chance
 constexpr double kPerWindow = 6.0;   // independent figures that a window counts for at most
 constexpr double kDeparture = 10.0;  // log odds against an instrument that is not as configured
@@ -67,13 +69,13 @@ Unit force_unit(const Series& series, double& found) {
   const double dt =
       (series.imu.t_s.back() - series.imu.t_s.front()) / static_cast<double>(series.imu.size() - 1);
   const std::array<Unit, 4> units{{{1.0, "m/s^2"},
-                                   {kGravity, "g"},
-                                   {kGravity / 1000.0, "mg"},
+                                   {kStandardGravity_m_s2, "g"},
+                                   {kStandardGravity_m_s2 / 1000.0, "mg"},
                                    {1.0 / dt, "m/s (increments of one interval)"}}};
   Unit best = units[0];
   for (const Unit& unit : units)
-    if (std::abs(std::log(found * unit.factor / kGravity)) <
-        std::abs(std::log(found * best.factor / kGravity)))
+    if (std::abs(std::log(found * unit.factor / kStandardGravity_m_s2)) <
+        std::abs(std::log(found * best.factor / kStandardGravity_m_s2)))
       best = unit;
   return best;
 }
@@ -136,29 +138,14 @@ Explanation explain(const std::vector<Class>& classes, const Vector3d& mean_forc
 
 double scan_gps_latency(const Series& series, const GpsCheck& gps, const std::vector<Span>& windows,
                         const ImuReading& reading) {
-  double best = 0.0;
-  double least = std::numeric_limits<double>::max();
-  for (int step = -15; step <= 15; ++step) {
-    const double squares = gps_squares(series, gps.velocity_N, windows, reading, 0.1 * step);
-    if (squares < least) {
-      least = squares;
-      best = 0.1 * step;
-    }
-  }
-  return best;
+  return scan_latency(0.1, 15, [&](double latency_s) {
+    return gps_squares(series, gps.velocity_N, windows, reading, latency_s);
+  });
 }
 
 double scan_dvl_latency(const Series& series, const std::vector<Span>& windows, const ImuReading& reading) {
-  double best = 0.0;
-  double least = std::numeric_limits<double>::max();
-  for (int step = -15; step <= 15; ++step) {
-    const DvlFit fit = fit_dvl_linear(series, windows, reading, 0.1 * step);
-    if (fit.squares < least) {
-      least = fit.squares;
-      best = 0.1 * step;
-    }
-  }
-  return best;
+  return scan_latency(
+      0.1, 15, [&](double latency_s) { return fit_dvl_linear(series, windows, reading, latency_s).squares; });
 }
 
 ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence& evidence) {
@@ -170,7 +157,7 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
   double force_found = kUnknown;
   const Unit unit = force_unit(series, force_found);
   // Vibration and banked turns make it larger than gravity, by far less than a quarter.
-  if (!(std::abs(std::log(force_found * unit.factor / kGravity)) < 0.25)) {
+  if (!(std::abs(std::log(force_found * unit.factor / kStandardGravity_m_s2)) < 0.25)) {
     add("accelerometer_unit", FindingKind::unit, true, Severity::wrong,
         "The specific force is " + number(force_found, 3) +
             " in the middle, which is gravity in no unit: 9.81 m/s^2 is expected at rest.",

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/median.hpp"
 #include "commission/text.hpp"
 
 namespace fathom::commission {

@@ -42,10 +42,10 @@ void write_point(std::ostream& out, const Point& p) {
 void write_gpx(std::ostream& out, const std::string& title, const std::vector<Track>& tracks) {
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       << "<gpx version=\"1.1\" creator=\"fathom\" xmlns=\"http://www.topografix.com/GPX/1/1\">\n"
-      << "<metadata><name>" << escaped(title)
+      << "<metadata><name>" << plain(title)
       << "</name><desc>elevations are above the WGS-84 ellipsoid</desc></metadata>\n";
   for (const Track& track : tracks) {
-    out << "<trk><name>" << escaped(track.name) << "</name>\n";
+    out << "<trk><name>" << plain(track.name) << "</name>\n";
     for (const Stretch& stretch : stretches(track)) {
       out << "<trkseg>\n";
       for (std::size_t i = stretch.begin; i < stretch.end; ++i) write_point(out, track.points[i]);

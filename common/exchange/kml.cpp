@@ -16,7 +16,7 @@ std::string place(const Place& p) {
 }
 
 void placemark(std::ostream& out, const std::string& name, const Point& point) {
-  out << "<Placemark><name>" << escaped(name) << "</name><TimeStamp><when>" << to_iso8601(point.utc_ns, 3)
+  out << "<Placemark><name>" << plain(name) << "</name><TimeStamp><when>" << to_iso8601(point.utc_ns, 3)
       << "</when></TimeStamp><Point><altitudeMode>absolute</altitudeMode><coordinates>"
       << place({point.longitude_deg, point.latitude_deg, point.altitude_m})
       << "</coordinates></Point></Placemark>\n";
@@ -26,7 +26,7 @@ void placemark(std::ostream& out, const std::string& name, const Point& point) {
 
 void write_kml(std::ostream& out, const std::string& title, const std::vector<Track>& tracks) {
   out << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n"
-      << "<Document><name>" << escaped(title)
+      << "<Document><name>" << plain(title)
       << "</name><description>fathom; altitudes are above the WGS-84 ellipsoid</description>\n";
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     out << "<Style id=\"track" << i << "\"><LineStyle><color>" << kColours[i % kColours.size()]
@@ -35,10 +35,10 @@ void write_kml(std::ostream& out, const std::string& title, const std::vector<Tr
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const Track& track = tracks[i];
     if (track.points.empty()) continue;
-    out << "<Folder><name>" << escaped(track.name) << "</name>\n";
+    out << "<Folder><name>" << plain(track.name) << "</name>\n";
     for (const Line& line : lines_of(track)) {
       if (line.size() < 2) continue;
-      out << "<Placemark><name>" << escaped(track.name) << "</name><TimeSpan><begin>"
+      out << "<Placemark><name>" << plain(track.name) << "</name><TimeSpan><begin>"
           << to_iso8601(track.points.front().utc_ns, 3) << "</begin><end>"
           << to_iso8601(track.points.back().utc_ns, 3) << "</end></TimeSpan><styleUrl>#track" << i
           << "</styleUrl><LineString><altitudeMode>absolute</altitudeMode><coordinates>\n";

@@ -3,6 +3,8 @@
 #include <array>
 #include <charconv>
 
+#include "base/markup.hpp"
+
 namespace fathom::exchange {
 
 std::string decimals(double value, int count) {
@@ -14,27 +16,11 @@ std::string decimals(double value, int count) {
   return out;
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '&':
-        out += "&amp;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E ? '?' : c;
-    }
-  }
-  return out;
+std::string plain(std::string_view text) {
+  std::string out(text);
+  for (char& c : out)
+    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E) c = '?';
+  return escaped(out);
 }
 
 }  // namespace fathom::exchange

@@ -8,7 +8,7 @@ namespace fathom::exchange {
 /// With a fixed count of decimals, never "-0.00".
 [[nodiscard]] std::string decimals(double value, int count);
 
-/// Text between tags and in attributes. Characters that XML cannot hold become '?'.
-[[nodiscard]] std::string escaped(std::string_view text);
+/// Escaped text of ASCII alone: other characters become '?'.
+[[nodiscard]] std::string plain(std::string_view text);
 
 }  // namespace fathom::exchange

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/little_endian.hpp"
 #include "record/wire.hpp"
 
 namespace fathom::record {
@@ -48,7 +49,7 @@ Bytes closing(const Contents& contents, std::uint32_t data_crc) {
   append(out, footer);
   const std::size_t crc_at = out.size() - sizeof footer.summary_crc;
   const std::uint32_t crc = crc32(View(out).subspan(summary_at, crc_at - summary_at));
-  for (std::size_t i = 0; i < sizeof crc; ++i) out[crc_at + i] = static_cast<std::uint8_t>(crc >> (8 * i));
+  store_le<std::uint32_t>(out, crc_at, crc);
   out.insert(out.end(), kMagic.begin(), kMagic.end());
   return out;
 }

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/little_endian.hpp"
 #include "base/result.hpp"
 #include "base/time.hpp"
 #include "record/bytes.hpp"
@@ -44,9 +45,7 @@ class Encoder {
  private:
   template <std::unsigned_integral T>
   void put(T value) {
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      out_.push_back(static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * i)));
-    }
+    append_le<T>(out_, value);
   }
   void put(TimeNs value) { put(static_cast<std::uint64_t>(value)); }
   void put_text(const std::string& text) {
@@ -62,10 +61,7 @@ class Encoder {
       put(key);
       put(value);
     }
-    const std::size_t size = out_.size() - at - sizeof(std::uint32_t);
-    for (std::size_t i = 0; i < sizeof(std::uint32_t); ++i) {
-      out_[at + i] = static_cast<std::uint8_t>(size >> (8 * i));
-    }
+    store_le<std::uint32_t>(out_, at, static_cast<std::uint32_t>(out_.size() - at - sizeof(std::uint32_t)));
   }
 
   Bytes& out_;
@@ -135,10 +131,8 @@ class Decoder {
            "ends after " + std::to_string(left_.size()) + " bytes, expected " + std::to_string(sizeof(T)));
       return false;
     }
-    std::uint64_t raw = 0;
-    for (std::size_t i = 0; i < sizeof(T); ++i) raw |= static_cast<std::uint64_t>(left_[i]) << (8 * i);
+    value = load_le<T>(left_, 0);
     left_ = left_.subspan(sizeof(T));
-    value = static_cast<T>(raw);
     return true;
   }
   template <std::unsigned_integral Length>
@@ -178,10 +172,7 @@ void append(Bytes& out, const Record& record) {
   Encoder encoder(out);
   fields(encoder, record);
   out[at] = static_cast<std::uint8_t>(Record::kOp);
-  const std::uint64_t length = out.size() - at - kRecordHead;
-  for (std::size_t i = 0; i < sizeof length; ++i) {
-    out[at + 1 + i] = static_cast<std::uint8_t>(length >> (8 * i));
-  }
+  store_le<std::uint64_t>(out, at + 1, out.size() - at - kRecordHead);
 }
 
 /// The record behind the content of one, without opcode and length. Further bytes are left alone, as the

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <utility>
 
+#include "base/little_endian.hpp"
 #include "record/wire.hpp"
 
 namespace fathom::record {
@@ -114,7 +115,7 @@ std::string Writer::attach(Attachment attachment) {
   append(out_, attachment);
   const std::size_t crc_at = out_.size() - sizeof attachment.crc;
   const std::uint32_t crc = crc32(View(out_).subspan(kRecordHead, crc_at - kRecordHead));
-  for (std::size_t i = 0; i < sizeof crc; ++i) out_[crc_at + i] = static_cast<std::uint8_t>(crc >> (8 * i));
+  store_le<std::uint32_t>(out_, crc_at, crc);
   const std::uint64_t offset = sink_->size();
   if (std::string why = put(out_); !why.empty()) return why;
   contents_.attachments.push_back({offset, out_.size(), attachment.log_time, attachment.create_time,

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include "base/markup.hpp"
+
 namespace fathom::report {
 
 double round_step(double range, int most) {
@@ -40,24 +42,6 @@ std::string brief(double value) {
     std::snprintf(text.data(), text.size(), "%.3g", value);
   }
   return text.data();
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
 }
 
 std::string standalone(const std::string& svg) {

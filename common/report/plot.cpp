@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/markup.hpp"
 #include "report/draw.hpp"
 
 namespace fathom::report {
@@ -48,8 +49,8 @@ class Drawing {
   std::string svg() const {
     std::string out = open_svg(plot_.width, plot_.height, plot_.title);
     for (const Span& span : plot_.spans) {
-      const double from = std::clamp(x_.at(span.begin), x_.pixel_from, x_.pixel_to);
-      const double to = std::clamp(x_.at(span.end), x_.pixel_from, x_.pixel_to);
+      const double from = std::clamp(x_.at(abscissa(span.begin)), x_.pixel_from, x_.pixel_to);
+      const double to = std::clamp(x_.at(abscissa(span.end)), x_.pixel_from, x_.pixel_to);
       if (!(to > from)) continue;
       out += "<rect class=\"span\" x=\"" + px(from) + "\" y=\"" + px(kTop) + "\" width=\"" + px(to - from) +
              "\" height=\"" + px(y_.pixel_from - kTop) + "\"/>";
@@ -66,7 +67,7 @@ class Drawing {
       std::vector<double> px_x;
       std::vector<double> px_y;
       for (std::size_t i = 0; i < curve.x.size(); ++i) {
-        px_x.push_back(x_.at(curve.x[i]));
+        px_x.push_back(x_.at(abscissa(curve.x[i])));
         px_y.push_back(std::isfinite(value(curve.y[i])) ? inside(y_.at(value(curve.y[i])))
                                                         : curve.y[i] * NAN);
       }
@@ -82,10 +83,12 @@ class Drawing {
   }
 
  private:
-  [[nodiscard]] double value(double y) const {
-    if (!plot_.logarithmic) return y;
-    return y > 0.0 ? std::log10(y) : NAN;
+  [[nodiscard]] static double scaled(double value, bool logarithmic) {
+    if (!logarithmic) return value;
+    return value > 0.0 ? std::log10(value) : NAN;
   }
+  [[nodiscard]] double value(double y) const { return scaled(y, plot_.logarithmic); }
+  [[nodiscard]] double abscissa(double x) const { return scaled(x, plot_.logarithmic_x); }
   [[nodiscard]] double inside(double pixel) const { return std::clamp(pixel, kTop, y_.pixel_from); }
 
   void choose_ranges() {
@@ -96,19 +99,19 @@ class Drawing {
       y.add(plot_.most > 0.0 && !plot_.logarithmic ? std::clamp(v, -plot_.most, plot_.most) : v);
     };
     for (const Curve& curve : plot_.curves) {
-      for (const double v : curve.x) x.add(v);
+      for (const double v : curve.x) x.add(abscissa(v));
       for (const double v : curve.y) see(v);
     }
     for (const Band& band : plot_.bands) {
-      for (const double v : band.x) x.add(v);
+      for (const double v : band.x) x.add(abscissa(v));
       // Its few widest places would make everything else flat.
       see(quantile(band.low, 0.03));
       see(quantile(band.high, 0.97));
     }
     for (const Level& level : plot_.levels) see(level.y);
     if (plot_.x_from < plot_.x_to) {
-      x.add(plot_.x_from);
-      x.add(plot_.x_to);
+      x.add(abscissa(plot_.x_from));
+      x.add(abscissa(plot_.x_to));
     }
     if (x.empty()) x = {0.0, 1.0};
     if (y.empty()) y = {0.0, 1.0};
@@ -127,12 +130,11 @@ class Drawing {
 
   [[nodiscard]] std::string grid() const {
     std::string out;
-    const double x_step = round_step(x_.to - x_.from, 9);
-    for (const double x : multiples(x_.from, x_.to, x_step)) {
-      out += line_at(x_.at(x), kTop, x_.at(x), y_.pixel_from, "grid");
-      out += text_at(x_.at(x), y_.pixel_from + 15, label_of(x, x_step), "middle");
+    for (const Tick& tick : ticks(x_, plot_.logarithmic_x, 9)) {
+      out += line_at(x_.at(tick.at), kTop, x_.at(tick.at), y_.pixel_from, "grid");
+      out += text_at(x_.at(tick.at), y_.pixel_from + 15, tick.text, "middle");
     }
-    for (const Tick& tick : y_ticks()) {
+    for (const Tick& tick : ticks(y_, plot_.logarithmic, 6)) {
       out += line_at(x_.pixel_from, y_.at(tick.at), x_.pixel_to, y_.at(tick.at), "grid");
       out += text_at(x_.pixel_from - 6, y_.at(tick.at) + 4, tick.text, "end");
     }
@@ -146,27 +148,28 @@ class Drawing {
     double at = 0.0;
     std::string text;
   };
-  [[nodiscard]] std::vector<Tick> y_ticks() const {
+  /// About `most` of them.
+  [[nodiscard]] static std::vector<Tick> ticks(const Axis& axis, bool logarithmic, int most) {
     std::vector<Tick> out;
-    const double span = y_.to - y_.from;
-    if (!plot_.logarithmic) {
-      const double step = round_step(span, 6);
-      for (const double y : multiples(y_.from, y_.to, step)) out.push_back({y, label_of(y, step)});
+    const double span = axis.to - axis.from;
+    if (!logarithmic) {
+      const double step = round_step(span, most);
+      for (const double at : multiples(axis.from, axis.to, step)) out.push_back({at, label_of(at, step)});
       return out;
     }
     // Decades; 2 and 5 between them where there is room.
-    const double every = std::max(1.0, std::ceil(span / 6.0));
-    for (const double decade : multiples(y_.from - every, y_.to, every)) {
+    const double every = std::max(1.0, std::ceil(span / most));
+    for (const double decade : multiples(axis.from - every, axis.to, every)) {
       for (const double factor : {1.0, 2.0, 5.0}) {
         if (factor > 1.0 && span > 2.6) break;
-        const double y = decade + std::log10(factor);
-        if (y >= y_.from && y <= y_.to) out.push_back({y, brief(std::pow(10.0, y))});
+        const double at = decade + std::log10(factor);
+        if (at >= axis.from && at <= axis.to) out.push_back({at, brief(std::pow(10.0, at))});
       }
     }
     if (out.size() < 2) {
       out.clear();
-      for (const double y : {y_.from + span * 0.1, y_.from + span * 0.5, y_.to - span * 0.1})
-        out.push_back({y, brief(std::pow(10.0, y))});
+      for (const double at : {axis.from + span * 0.1, axis.from + span * 0.5, axis.to - span * 0.1})
+        out.push_back({at, brief(std::pow(10.0, at))});
     }
     return out;
   }
@@ -183,7 +186,7 @@ class Drawing {
         const double low = value(band.low[i]);
         const double high = value(band.high[i]);
         if (!std::isfinite(low) || !std::isfinite(high)) break;
-        const std::string x = px(x_.at(band.x[i])) + " ";
+        const std::string x = px(x_.at(abscissa(band.x[i]))) + " ";
         there.append(there.empty() ? "M" : "L").append(x).append(px(inside(y_.at(high))));
         back.insert(0, "L" + x + px(inside(y_.at(low))));
       }

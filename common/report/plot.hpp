@@ -47,8 +47,9 @@ struct Plot {
   std::vector<Span> spans;  ///< shaded stretches of x
   std::string span_name;
   std::vector<Level> levels;
-  bool logarithmic = false;  ///< y; what is not positive is left out
-  double x_from = 0.0;       ///< shown at least, where below x_to: plots under each other line up
+  bool logarithmic = false;    ///< y; what is not positive is left out
+  bool logarithmic_x = false;  ///< likewise x
+  double x_from = 0.0;         ///< shown at least, where below x_to: plots under each other line up
   double x_to = 0.0;
   double least_height = 0.0;  ///< of the range of y: noise of a quiet quantity does not fill the plot
   double most = 0.0;          ///< |y| beyond is drawn at the edge; 0: everything is shown
@@ -88,6 +89,5 @@ struct Map {
 [[nodiscard]] std::string label_of(double value, double step);
 /// Three significant digits.
 [[nodiscard]] std::string brief(double value);
-[[nodiscard]] std::string escaped(const std::string& text);
 
 }  // namespace fathom::report

@@ -22,6 +22,9 @@ class Failure : public std::runtime_error {
   ExitCode code_;
 };
 
+/// Throws Failure where the file cannot be written.
+void write_text(const std::string& path, const std::string& text);
+
 // A sub-command is one file NAME.cpp with one function
 //
 //   void add_NAME(CLI::App& app, ExitCode& exit_code);

@@ -11,10 +11,11 @@
 #include <variant>
 #include <vector>
 
+#include "archive/checkpoint.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "estimation/engine/fusion_engine.hpp"
-#include "fusion/checkpoint/checkpoint.hpp"
+#include "fusion/checkpoint/build_name.hpp"
 #include "fusion/checkpoint/keeper.hpp"
 #include "fusion/checkpoint/start.hpp"
 #include "fusion/intake/arrival.hpp"
@@ -45,7 +46,7 @@ bus::WriterOptions slow_options(const config::FusionConfig& config) {
   return options;
 }
 
-CheckpointLabel label_of(host::ServiceHost& host) {
+archive::CheckpointLabel label_of(host::ServiceHost& host) {
   return {host.common().vehicle, host.name(), host.config_hash(), build_of_this_executable(),
           host.clock().utc_ns()};
 }
@@ -56,7 +57,8 @@ struct Started {
   Resumption resumption;
 };
 
-Started started(host::ServiceHost& host, const config::FusionConfig& config, const CheckpointLabel& own) {
+Started started(host::ServiceHost& host, const config::FusionConfig& config,
+                const archive::CheckpointLabel& own) {
   Started out{estimation::FusionEngine(config::engine_config(config)), {}};
   out.resumption = resume(out.engine, config.checkpoint, own);
   host.log().write(out.resumption.refused ? runtime::LogLevel::warning : runtime::LogLevel::info,
@@ -101,7 +103,7 @@ struct FusionService::Impl {
 
   std::unique_ptr<ReplicaLink> replica_link(const config::FusionConfig& config) {
     if (!config.standby.enabled) return nullptr;
-    CheckpointLabel shared = label;
+    archive::CheckpointLabel shared = label;
     shared.configuration = config::estimation_hash(config);
     return std::make_unique<ReplicaLink>(host, config, std::move(shared), replica_hooks());
   }
@@ -345,7 +347,7 @@ struct FusionService::Impl {
   host::ServiceHost& host;
   const Name vehicle;
 
-  const CheckpointLabel label;
+  const archive::CheckpointLabel label;
 
   std::mutex forecast_mutex;  // guards the taken forecast; locked before the other mutex
   std::mutex mutex;           // guards what follows up to the writers

@@ -3,13 +3,13 @@
 
 #include <zlib.h>
 
+#include "archive/checkpoint.hpp"
 #include "driver.hpp"
-#include "fusion/checkpoint/checkpoint.hpp"
 #include "state_fuzz.hpp"
 
 namespace {
 
-using fathom::fusion::CheckpointLabel;
+using fathom::archive::CheckpointLabel;
 
 constexpr std::size_t kSummed = 16;  // behind magic word, format and checksum
 
@@ -43,7 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fathom::test::EngineState whole = states()[(data[0] & 0x7FU) % states().size()];
   const std::span input(data + 1, size - 1);
   std::vector<std::byte> file;
-  fathom::fusion::encode(label(), whole.image, file);
+  fathom::archive::encode(label(), whole.image, file);
   if ((data[0] & 0x80U) != 0) {
     file.resize(kSummed);
     const auto bytes = std::as_bytes(input);
@@ -53,12 +53,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     file = forged(whole, input);
   }
   make_right(file);
-  const auto found = fathom::fusion::decode(file);
+  const auto found = fathom::archive::decode(file);
   if (!found) {
     if (found.error().message.empty()) fail("refused without a reason");
     return 0;
   }
-  (void)fathom::fusion::objection(found.value().label, label(), 60.0);
+  (void)fathom::archive::objection(found.value().label, label(), 60.0);
   hand_over(whole, found.value().archive);
   return 0;
 }

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string_view>
 
-#include "codec/bytes.hpp"
+#include "base/little_endian.hpp"
 #include "codec/framer.hpp"
 #include "codec/imu/vectornav_layout.hpp"
 #include "codec/text/numbers.hpp"

@@ -1,6 +1,6 @@
 #include "codec/imu/vectornav_layout.hpp"
 
-#include "codec/bytes.hpp"
+#include "base/little_endian.hpp"
 
 namespace fathom::codec::vectornav {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "codec/bytes.hpp"
+#include "base/little_endian.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 
 namespace fathom::codec {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "codec/bytes.hpp"
+#include "base/little_endian.hpp"
 
 namespace fathom::codec {
 namespace {

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "base/median.hpp"
 #include "commission/fit/dvl_fit.hpp"
 #include "geo/so3.hpp"
 

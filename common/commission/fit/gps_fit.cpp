@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "base/median.hpp"
+#include "base/standard_gravity.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -31,7 +33,7 @@ constexpr double kManyCourses =
 constexpr double kMargin_s = 2.0;  // of the integration around a window: latencies up to this
 
 double gravity_of(const Series& series) {
-  return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : 9.80665;
+  return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : kStandardGravity_m_s2;
 }
 
 Vector3d mean_of(const std::vector<Vector3d>& some) {

@@ -104,11 +104,4 @@ std::optional<double> at(const ScalarSeries& series, double t_s, double longest_
   return interpolate<double>(series, t_s, longest_gap_s);
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return kUnknown;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 }  // namespace fathom::commission

@@ -57,6 +57,5 @@ struct Series {
 [[nodiscard]] std::optional<double> at(const ScalarSeries& series, double t_s, double longest_gap_s);
 
 /// Middle value; unknown of nothing.
-[[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace fathom::commission

@@ -4,11 +4,12 @@
 
 #include <numbers>
 
+#include "base/standard_gravity.hpp"
+
 namespace fathom::estimation {
 
 inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 inline constexpr double kRadPerSecond_per_degPerHour = kRadPerDeg / 3600.0;
-inline constexpr double kStandardGravity_m_s2 = 9.80665;
 inline constexpr double kPerSqrtSecond_per_perSqrtHour = 1.0 / 60.0;
 
 }  // namespace fathom::estimation

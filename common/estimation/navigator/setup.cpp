@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "base/standard_gravity.hpp"
+
 namespace fathom::estimation {
 
 using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kStandardGravity_m_s2 = 9.80665;
 /// A step longer than the nominal one by half is one with a sample missing.
 constexpr double kMissedSample = 1.5;
 

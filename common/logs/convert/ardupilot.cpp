@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/median.hpp"
 #include "logs/convert/ardupilot_gps.hpp"
 #include "logs/convert/build.hpp"
 
@@ -193,7 +194,7 @@ class ArduPilot {
     std::vector<double> sizes;
     for (std::size_t row = 0; row < series.rows(); ++row)
       sizes.push_back(std::hypot(series.at(row, xyz[0]), series.at(row, xyz[1]), series.at(row, xyz[2])));
-    const double gauss = median(std::move(sizes)).value_or(0.0) > kMostGauss ? 1e-3 : 1.0;
+    const double gauss = median(std::move(sizes)) > kMostGauss ? 1e-3 : 1.0;
     for (std::size_t row = 0; row < series.rows(); ++row) {
       table.stamps_ns.push_back(clock_.at(series.t_us[row]));
       for (const std::size_t i : xyz) table.values.push_back(series.at(row, i) * gauss * kTeslaPerGauss);

@@ -5,6 +5,9 @@
 #include <numbers>
 #include <utility>
 
+#include "base/median.hpp"
+#include "geo/wgs84.hpp"
+
 namespace fathom::logs {
 namespace {
 
@@ -126,7 +129,7 @@ void convert(const Log& log, const Series& series, const Clock& clock, Vehicle& 
     if (yaw && known(accuracies.yaw_deg())) {
       HeadingSample& heading = headings.emplace_back();
       heading.header = sample.header;
-      heading.heading_rad = wrapped_heading(series.at(row, *yaw) * kRadPerDeg);
+      heading.heading_rad = geo::wrap_two_pi(series.at(row, *yaw) * kRadPerDeg);
       heading.sigma_rad = accuracies.yaw_deg() * kRadPerDeg;
     }
   }
@@ -164,9 +167,9 @@ std::optional<TimeNs> ardupilot_utc_of_start(const Log& log) {
     }
     if (!starts_us.empty()) break;
   }
-  const auto start_us = median(std::move(starts_us));
-  if (!start_us) return std::nullopt;
-  return static_cast<TimeNs>(std::llround(*start_us)) * 1000;
+  const double start_us = median(std::move(starts_us));
+  if (!known(start_us)) return std::nullopt;
+  return static_cast<TimeNs>(std::llround(start_us)) * 1000;
 }
 
 void ardupilot_gps(const Log& log, const Clock& clock, const ConvertOptions& options, Vehicle& out) {

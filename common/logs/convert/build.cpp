@@ -4,13 +4,16 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/median.hpp"
+#include "base/standard_gravity.hpp"
+
 namespace fathom::logs {
 namespace {
 
 constexpr std::int64_t kStale_us = 10'000'000;
 constexpr double kAlike = 1.2;
 
-std::optional<double> median_step_us(const Series& series) {
+double median_step_us(const Series& series) {
   std::vector<double> steps;
   steps.reserve(series.rows());
   for (std::size_t i = 1; i < series.t_us.size(); ++i)
@@ -21,7 +24,10 @@ std::optional<double> median_step_us(const Series& series) {
 const Candidate& pick(const std::vector<Candidate>& candidates, bool finest) {
   if (!finest) return candidates.front();
   std::vector<double> steps;
-  for (const Candidate& one : candidates) steps.push_back(median_step_us(*one.series).value_or(1e12));
+  for (const Candidate& one : candidates) {
+    const double step_us = median_step_us(*one.series);
+    steps.push_back(known(step_us) ? step_us : 1e12);
+  }
   const double best = *std::min_element(steps.begin(), steps.end());
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (steps[i] <= best * kAlike) return candidates[i];
@@ -118,7 +124,8 @@ std::vector<ImuSample> joined(const Triad& gyro, const Triad& accel, const Clock
 double standard_altitude_m(double pressure_Pa) {
   if (!(pressure_Pa > 0.0)) return kUnknown;
   // International Standard Atmosphere below 11 km: 288.15 K, 6.5 K/km.
-  return 288.15 / 0.0065 * (1.0 - std::pow(pressure_Pa / 101325.0, 287.05287 * 0.0065 / 9.80665));
+  return 288.15 / 0.0065 *
+         (1.0 - std::pow(pressure_Pa / 101325.0, 287.05287 * 0.0065 / kStandardGravity_m_s2));
 }
 
 void attach_baro(const Table& baro, std::size_t altitude_column, std::vector<AirspeedSample>& airspeed,
@@ -144,20 +151,6 @@ void attach_baro(const Table& baro, std::size_t altitude_column, std::vector<Air
     if (sample.header.stamp_ns - baro.stamps_ns[next - 1] > from_seconds(longest_s)) continue;
     sample.baro_altitude_m = altitude_m(next - 1);
   }
-}
-
-std::optional<double> median(std::vector<double> values) {
-  if (values.empty()) return std::nullopt;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-double wrapped_heading(double angle_rad) {
-  constexpr double kTurn = 2.0 * std::numbers::pi;
-  const double wrapped = std::fmod(angle_rad, kTurn);
-  const double positive = wrapped < 0.0 ? wrapped + kTurn : wrapped;
-  return positive < kTurn ? positive : 0.0;
 }
 
 }  // namespace fathom::logs

@@ -79,10 +79,4 @@ struct Triad {
 void attach_baro(const Table& baro, std::size_t altitude_column, std::vector<AirspeedSample>& airspeed,
                  double longest_s = 1.0);
 
-/// The middle one; nothing of nothing.
-[[nodiscard]] std::optional<double> median(std::vector<double> values);
-
-/// [0, 2 pi).
-[[nodiscard]] double wrapped_heading(double angle_rad);
-
 }  // namespace fathom::logs

@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/median.hpp"
 #include "logs/convert/build.hpp"
 #include "logs/convert/px4_gps.hpp"
 
@@ -201,7 +202,7 @@ class Px4 {
     if (pressure && series.columns[*pressure] == "pressure") {
       std::vector<double> all;
       for (std::size_t row = 0; row < series.rows(); ++row) all.push_back(series.at(row, *pressure));
-      if (median(std::move(all)).value_or(0.0) < kMostHectopascal) scale = 100.0;
+      if (median(std::move(all)) < kMostHectopascal) scale = 100.0;
     }
     for (std::size_t row = 0; row < series.rows(); ++row) {
       const double pressure_Pa = series.at(row, pressure) * scale;

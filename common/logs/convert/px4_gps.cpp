@@ -4,6 +4,9 @@
 #include <numbers>
 #include <utility>
 
+#include "base/median.hpp"
+#include "geo/wgs84.hpp"
+
 namespace fathom::logs {
 namespace {
 
@@ -98,7 +101,7 @@ void convert(const Series& series, const Clock& clock, Vehicle& out) {
     if (const double heading_rad = series.at(row, c.heading); c.heading && std::isfinite(heading_rad)) {
       HeadingSample& heading = headings.emplace_back();
       heading.header = sample.header;
-      heading.heading_rad = wrapped_heading(heading_rad);
+      heading.heading_rad = geo::wrap_two_pi(heading_rad);
       heading.sigma_rad = positive(series.at(row, c.heading_sigma));
     }
   }
@@ -125,9 +128,9 @@ std::optional<TimeNs> px4_utc_of_start(const Log& log) {
     }
     if (!starts_us.empty()) break;
   }
-  const auto start_us = median(std::move(starts_us));
-  if (!start_us) return std::nullopt;
-  return static_cast<TimeNs>(std::llround(*start_us)) * 1000;
+  const double start_us = median(std::move(starts_us));
+  if (!known(start_us)) return std::nullopt;
+  return static_cast<TimeNs>(std::llround(start_us)) * 1000;
 }
 
 void px4_gps(const Log& log, const Clock& clock, const ConvertOptions& options, Vehicle& out) {

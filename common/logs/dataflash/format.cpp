@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "logs/little_endian.hpp"
+#include "base/little_endian.hpp"
 
 namespace fathom::logs::dataflash {
 namespace {
@@ -115,33 +115,33 @@ std::optional<Defined> parse_format(std::span<const std::uint8_t> payload) {
 double raw_number(char letter, std::span<const std::uint8_t> payload, std::size_t offset) {
   switch (letter) {
     case 'b':
-      return load<std::int8_t>(payload, offset);
+      return load_le<std::int8_t>(payload, offset);
     case 'B':
     case 'M':
-      return load<std::uint8_t>(payload, offset);
+      return load_le<std::uint8_t>(payload, offset);
     case 'h':
     case 'c':
-      return load<std::int16_t>(payload, offset);
+      return load_le<std::int16_t>(payload, offset);
     case 'H':
     case 'C':
-      return load<std::uint16_t>(payload, offset);
+      return load_le<std::uint16_t>(payload, offset);
     case 'i':
     case 'e':
     case 'L':
-      return load<std::int32_t>(payload, offset);
+      return load_le<std::int32_t>(payload, offset);
     case 'I':
     case 'E':
-      return load<std::uint32_t>(payload, offset);
+      return load_le<std::uint32_t>(payload, offset);
     case 'f':
-      return static_cast<double>(load<float>(payload, offset));
+      return static_cast<double>(load_le<float>(payload, offset));
     case 'd':
-      return load<double>(payload, offset);
+      return load_le<double>(payload, offset);
     case 'q':
-      return static_cast<double>(load<std::int64_t>(payload, offset));
+      return static_cast<double>(load_le<std::int64_t>(payload, offset));
     case 'Q':
-      return static_cast<double>(load<std::uint64_t>(payload, offset));
+      return static_cast<double>(load_le<std::uint64_t>(payload, offset));
     case 'g': {
-      const auto bits = load<std::uint16_t>(payload, offset);
+      const auto bits = load_le<std::uint16_t>(payload, offset);
       const double sign = (bits & 0x8000U) != 0 ? -1.0 : 1.0;
       const unsigned exponent = (bits >> 10U) & 0x1FU;
       const double fraction = static_cast<double>(bits & 0x3FFU) / 1024.0;

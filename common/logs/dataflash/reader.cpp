@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/little_endian.hpp"
 #include "logs/dataflash/format.hpp"
 #include "logs/file_window.hpp"
-#include "logs/little_endian.hpp"
 
 namespace fathom::logs::dataflash {
 namespace {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <utility>
 
-#include "logs/little_endian.hpp"
+#include "base/little_endian.hpp"
 
 namespace fathom::logs::ulog {
 namespace {
@@ -103,28 +103,28 @@ std::size_t size_of(Basic type) {
 double number(Basic type, std::span<const std::uint8_t> bytes, std::size_t offset) {
   switch (type) {
     case Basic::i8:
-      return load<std::int8_t>(bytes, offset);
+      return load_le<std::int8_t>(bytes, offset);
     case Basic::u8:
     case Basic::character:
-      return load<std::uint8_t>(bytes, offset);
+      return load_le<std::uint8_t>(bytes, offset);
     case Basic::boolean:
-      return load<std::uint8_t>(bytes, offset) != 0 ? 1.0 : 0.0;
+      return load_le<std::uint8_t>(bytes, offset) != 0 ? 1.0 : 0.0;
     case Basic::i16:
-      return load<std::int16_t>(bytes, offset);
+      return load_le<std::int16_t>(bytes, offset);
     case Basic::u16:
-      return load<std::uint16_t>(bytes, offset);
+      return load_le<std::uint16_t>(bytes, offset);
     case Basic::i32:
-      return load<std::int32_t>(bytes, offset);
+      return load_le<std::int32_t>(bytes, offset);
     case Basic::u32:
-      return load<std::uint32_t>(bytes, offset);
+      return load_le<std::uint32_t>(bytes, offset);
     case Basic::i64:
-      return static_cast<double>(load<std::int64_t>(bytes, offset));
+      return static_cast<double>(load_le<std::int64_t>(bytes, offset));
     case Basic::u64:
-      return static_cast<double>(load<std::uint64_t>(bytes, offset));
+      return static_cast<double>(load_le<std::uint64_t>(bytes, offset));
     case Basic::f32:
-      return static_cast<double>(load<float>(bytes, offset));
+      return static_cast<double>(load_le<float>(bytes, offset));
     case Basic::f64:
-      return load<double>(bytes, offset);
+      return load_le<double>(bytes, offset);
   }
   return 0.0;
 }

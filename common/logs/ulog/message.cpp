@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "logs/little_endian.hpp"
+#include "base/little_endian.hpp"
 
 namespace fathom::logs::ulog {
 namespace {
@@ -24,7 +24,7 @@ bool is_level(std::uint8_t level) {
 
 Fault fault_of_data(std::span<const std::uint8_t> payload, const Subscriptions& subscriptions) {
   if (payload.size() < 2) return Fault::malformed;
-  const auto found = subscriptions.find(load<std::uint16_t>(payload, 0));
+  const auto found = subscriptions.find(load_le<std::uint16_t>(payload, 0));
   if (found == subscriptions.end() || !found->second.layout) return Fault::unknown_id;
   const std::size_t length = payload.size() - 2;
   const Layout& layout = *found->second.layout;
@@ -75,7 +75,7 @@ Message look(std::span<const std::uint8_t> bytes, const Subscriptions& subscript
     message.fault = Fault::cut;
     return message;
   }
-  const std::size_t length = load<std::uint16_t>(bytes, 0);
+  const std::size_t length = load_le<std::uint16_t>(bytes, 0);
   message.type = static_cast<char>(bytes[2]);
   if (kHeaderSize + length > bytes.size()) {
     message.fault = Fault::cut;

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/little_endian.hpp"
 #include "logs/file_window.hpp"
-#include "logs/little_endian.hpp"
 #include "logs/ulog/message.hpp"
 
 namespace fathom::logs::ulog {
@@ -40,7 +40,7 @@ class Reader {
                      ": offset 0: no ULog header, expected 55 4C 6F 67 01 12 35, a version and a time");
     }
     log_.info["ulog_version"] = std::to_string(header[7]);
-    log_.info["start_us"] = std::to_string(load<std::uint64_t>(header, 8));
+    log_.info["start_us"] = std::to_string(load_le<std::uint64_t>(header, 8));
     std::uint64_t begin = kFileHeader;
     for (const std::uint64_t end : section_ends()) {
       section(begin, end);
@@ -75,7 +75,7 @@ class Reader {
       }
       const bool appended = (first.payload[8] & 1U) != 0;
       for (std::size_t i = 0; appended && i < 3; ++i) {
-        const auto offset = load<std::uint64_t>(first.payload, 16 + 8 * i);
+        const auto offset = load_le<std::uint64_t>(first.payload, 16 + 8 * i);
         if (offset == 0) continue;
         const std::uint64_t least = ends.empty() ? kFileHeader + first.size() : ends.back();
         if (offset < least || offset >= file_.size()) {
@@ -122,7 +122,7 @@ class Reader {
   // Data whose id, length and time all fit: garbage is not like that.
   bool timely(const Message& message) {
     if (message.type != 'D') return false;
-    const Layout& layout = *subscriptions_[load<std::uint16_t>(message.payload, 0)].layout;
+    const Layout& layout = *subscriptions_[load_le<std::uint16_t>(message.payload, 0)].layout;
     if (!layout.timestamp) return false;
     const double t_us = number(layout.timestamp->type, message.payload.subspan(2), layout.timestamp->offset);
     return std::abs(t_us - last_us_) < kHour_us;
@@ -147,11 +147,11 @@ class Reader {
         return;
       case Fault::unknown_id:
         log_.losses.add(offset, message.size(),
-                        "data of the id " + std::to_string(load<std::uint16_t>(message.payload, 0)) +
+                        "data of the id " + std::to_string(load_le<std::uint16_t>(message.payload, 0)) +
                             ", which no subscription with a format names");
         return;
       case Fault::wrong_length: {
-        const Subscription& of = subscriptions_[load<std::uint16_t>(message.payload, 0)];
+        const Subscription& of = subscriptions_[load_le<std::uint16_t>(message.payload, 0)];
         if (message.payload.size() - 2 > of.layout->size) {
           take(offset, message);  // what it has beyond its format is not ours to know
           return;
@@ -226,14 +226,14 @@ class Reader {
           log_.parameters[pair->key.name] = *value;
         break;
       case 'L':
-        say(payload[0], load<std::uint64_t>(payload, 1), text_of(payload.subspan(9)));
+        say(payload[0], load_le<std::uint64_t>(payload, 1), text_of(payload.subspan(9)));
         break;
       case 'C':
-        say(payload[0], load<std::uint64_t>(payload, 3), text_of(payload.subspan(11)));
+        say(payload[0], load_le<std::uint64_t>(payload, 3), text_of(payload.subspan(11)));
         break;
       case 'O':
         ++log_.dropouts;
-        log_.dropout_ms += load<std::uint16_t>(payload, 0);
+        log_.dropout_ms += load_le<std::uint16_t>(payload, 0);
         break;
       default:
         break;  // synchronisation, flags, defaults of parameters
@@ -259,7 +259,7 @@ class Reader {
       if (wanted_.contains(one.topic)) one.series = series_of(one);
     }
     log_.messages[one.topic];
-    subscriptions_[load<std::uint16_t>(payload, 1)] = std::move(one);
+    subscriptions_[load_le<std::uint16_t>(payload, 1)] = std::move(one);
   }
 
   // Subscriptions that came before their format.
@@ -290,7 +290,7 @@ class Reader {
   }
 
   void take_data(std::uint64_t offset, std::span<const std::uint8_t> payload) {
-    const Subscription& of = subscriptions_[load<std::uint16_t>(payload, 0)];
+    const Subscription& of = subscriptions_[load_le<std::uint16_t>(payload, 0)];
     ++log_.messages[of.topic];
     const auto body = payload.subspan(2);
     const auto& timestamp = of.layout->timestamp;

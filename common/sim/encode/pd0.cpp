@@ -5,14 +5,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "codec/bytes.hpp"
+#include "base/little_endian.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/pd0_layout.hpp"
 
 namespace fathom::sim::encode {
 namespace {
 
-using codec::append_le;
 namespace pd0_ = codec::pd0;
 
 using Part = std::vector<std::uint8_t>;

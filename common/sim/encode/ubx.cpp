@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "codec/bytes.hpp"
+#include "base/little_endian.hpp"
 #include "codec/satellite/ubx.hpp"
 
 namespace fathom::sim::encode {
@@ -73,7 +73,7 @@ std::vector<std::uint8_t> ubx_frame(std::uint8_t message_class, std::uint8_t mes
   for (const std::uint8_t byte : {codec::kUbxSync1, codec::kUbxSync2, message_class, message_id}) {
     frame.push_back(byte);
   }
-  codec::append_le<std::uint16_t>(frame, static_cast<std::uint16_t>(payload.size()));
+  append_le<std::uint16_t>(frame, static_cast<std::uint16_t>(payload.size()));
   frame.insert(frame.end(), payload.begin(), payload.end());
   const auto [a, b] = codec::ubx_checksum(std::span<const std::uint8_t>(frame).subspan(2));
   frame.push_back(a);
@@ -94,31 +94,31 @@ std::vector<std::uint8_t> ubx_nav_pvt(const GpsSample& sample, TimeNs utc_ns) {
   std::vector<std::uint8_t> p;
   p.reserve(92);
   const std::int64_t gps_ns = utc_ns - kGpsEpoch + kLeapSeconds;
-  codec::append_le<std::uint32_t>(p, static_cast<std::uint32_t>(gps_ns % kWeek / kNsPerMillisecond));
-  codec::append_le<std::uint16_t>(p, static_cast<std::uint16_t>(civil.year));
+  append_le<std::uint32_t>(p, static_cast<std::uint32_t>(gps_ns % kWeek / kNsPerMillisecond));
+  append_le<std::uint16_t>(p, static_cast<std::uint16_t>(civil.year));
   for (const int field : {civil.month, civil.day, civil.hour, civil.minute, civil.second}) {
     p.push_back(static_cast<std::uint8_t>(field));
   }
   p.push_back(0x07);  // date and time valid, fully resolved
-  codec::append_le<std::uint32_t>(p, 30);
-  codec::append_le<std::int32_t>(p, static_cast<std::int32_t>(civil.nanosecond));
+  append_le<std::uint32_t>(p, 30);
+  append_le<std::int32_t>(p, static_cast<std::int32_t>(civil.nanosecond));
   p.push_back(fix_type(sample.fix));
   p.push_back(fix_flags(sample.fix));
   p.push_back(0);
   p.push_back(static_cast<std::uint8_t>(std::clamp(sample.satellites, 0, 255)));
-  codec::append_le<std::int32_t>(p, scaled(sample.longitude_rad * kDegreesPerRadian, 1e7));
-  codec::append_le<std::int32_t>(p, scaled(sample.latitude_rad * kDegreesPerRadian, 1e7));
-  codec::append_le<std::int32_t>(p, scaled(sample.altitude_m, 1e3));
-  codec::append_le<std::int32_t>(p, scaled(sample.altitude_msl_m, 1e3));
-  codec::append_le<std::uint32_t>(p, accuracy(std::hypot(sigma[0], sigma[1])));
-  codec::append_le<std::uint32_t>(p, accuracy(sigma[2]));
-  for (const double component : v) codec::append_le<std::int32_t>(p, scaled(component, 1e3));
-  codec::append_le<std::int32_t>(p, scaled(speed_m_s, 1e3));
-  codec::append_le<std::int32_t>(p, scaled(course_deg, 1e5));
-  codec::append_le<std::uint32_t>(p, accuracy(std::max({speed_sigma[0], speed_sigma[1], speed_sigma[2]})));
-  codec::append_le<std::uint32_t>(p, 0);
+  append_le<std::int32_t>(p, scaled(sample.longitude_rad * kDegreesPerRadian, 1e7));
+  append_le<std::int32_t>(p, scaled(sample.latitude_rad * kDegreesPerRadian, 1e7));
+  append_le<std::int32_t>(p, scaled(sample.altitude_m, 1e3));
+  append_le<std::int32_t>(p, scaled(sample.altitude_msl_m, 1e3));
+  append_le<std::uint32_t>(p, accuracy(std::hypot(sigma[0], sigma[1])));
+  append_le<std::uint32_t>(p, accuracy(sigma[2]));
+  for (const double component : v) append_le<std::int32_t>(p, scaled(component, 1e3));
+  append_le<std::int32_t>(p, scaled(speed_m_s, 1e3));
+  append_le<std::int32_t>(p, scaled(course_deg, 1e5));
+  append_le<std::uint32_t>(p, accuracy(std::max({speed_sigma[0], speed_sigma[1], speed_sigma[2]})));
+  append_le<std::uint32_t>(p, 0);
   const double dilution = known(sample.hdop) ? std::clamp(sample.hdop * 100.0, 0.0, 9999.0) : 9999.0;
-  codec::append_le<std::uint16_t>(p, static_cast<std::uint16_t>(dilution));
+  append_le<std::uint16_t>(p, static_cast<std::uint16_t>(dilution));
   p.push_back(located ? 0 : 1);  // invalidLlh
   p.resize(92, 0);
   return ubx_frame(0x01, 0x07, p);

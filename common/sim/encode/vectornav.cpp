@@ -4,14 +4,13 @@
 #include <cassert>
 #include <numbers>
 
-#include "codec/bytes.hpp"
+#include "base/little_endian.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/vectornav_layout.hpp"
 
 namespace fathom::sim::encode {
 namespace {
 
-using codec::append_le;
 namespace vn = codec::vectornav;
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;

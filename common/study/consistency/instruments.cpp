@@ -5,13 +5,13 @@
 
 #include <Eigen/Geometry>
 
+#include "base/standard_gravity.hpp"
+
 namespace fathom::study {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double kStandardGravity_m_s2 = 9.80665;
 
 Vector3d vector(const std::array<double, 3>& a) {
   return {a[0], a[1], a[2]};

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "base/clock.hpp"
+#include "base/median.hpp"
 #include "base/unknown.hpp"
 
 namespace fathom::cli {
@@ -18,14 +18,6 @@ struct BenchRow {
   double floor = kUnknown;
   double ratio = kUnknown;
 };
-
-/// Of a copy; NaN when empty.
-inline double median(std::vector<double> values) {
-  if (values.empty()) return kUnknown;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Microseconds that `work` takes.
 template <class Work>

@@ -1,6 +1,5 @@
 #include "commission/commission.hpp"
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +16,7 @@
 #include "cli/commission/assume.hpp"
 #include "cli/commission/page.hpp"
 #include "cli/commission/patch.hpp"
+#include "cli/log.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/json/error.hpp"
 #include "dataset/dataset.hpp"
@@ -80,13 +80,6 @@ void print(const commission::Commissioning& found) {
         [](const Finding& f) { return f.severity != Severity::wrong && !f.known; });
 }
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written: " + std::strerror(errno));
-}
-
 // Written beside the old one and checked before it takes its place.
 void replace_file(const std::string& path, const Json& config) {
   const std::string beside = path + ".commissioned";
@@ -107,30 +100,18 @@ ExitCode run_commission(const CommissionOptions& options) {
   if (options.apply && options.config.empty())
     throw Failure(ExitCode::bad_configuration,
                   "commission: --apply needs --config: the file that it corrects");
-  if (!std::filesystem::is_directory(options.log))
-    throw Failure(ExitCode::bad_input,
-                  options.log + ": not a folder; expected a data set, a folder with imu.csv and others");
   commission::Assumed assumed;
   Json config = Json::object();
   Name vehicle = "auv";
   if (!options.config.empty()) {
-    config::LoadedConfig<config::FusionConfig> loaded;
-    try {
-      loaded = config::load_service_config<config::FusionConfig>({options.config, options.sets});
-    } catch (const config::ConfigError& error) {
-      throw Failure(ExitCode::bad_configuration, error.what());
-    }
+    const config::LoadedConfig<config::FusionConfig> loaded =
+        configuration_for(options.log, options.config, options.sets);
     assumed = assumed_by(loaded.value);
     vehicle = Name(loaded.value.common.vehicle);
     std::ifstream file(options.config, std::ios::binary);
     config = Json::parse(file);
   }
-  dataset::Dataset data;
-  try {
-    data = dataset::read(options.log, {dataset::kDefaultEpochNs, vehicle});
-  } catch (const dataset::DatasetError& error) {
-    throw Failure(ExitCode::bad_input, error.what());
-  }
+  const dataset::Dataset data = read_dataset(options.log, vehicle);
   const auto& imu = data.of<ImuSample>();
   if (imu.size() < 100 || imu.back().header.stamp_ns - imu.front().header.stamp_ns < 5 * kNsPerSecond)
     throw Failure(ExitCode::bad_input,

@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "archive/checkpoint.hpp"
 #include "bus/cdr.hpp"
 #include "cli/command.hpp"
 #include "cli/record/proof.hpp"
 #include "cli/recording.hpp"
-#include "fusion/checkpoint/checkpoint.hpp"
 #include "runtime/build_info.hpp"
 #include "samples/status/health.hpp"
 
@@ -120,7 +120,7 @@ class Verification {
         if (index.name != "services/" + run.service + "/checkpoint") continue;
         const auto bytes = file.reader.attachment(index);
         if (!bytes) continue;
-        const auto checkpoint = fusion::decode(std::as_bytes(std::span(bytes.value())));
+        const auto checkpoint = archive::decode(std::as_bytes(std::span(bytes.value())));
         if (!checkpoint) continue;
         const TimeNs stamp_ns = checkpoint.value().label.stamp_ns;
         if (std::find(run.inertial.begin(), run.inertial.end(), stamp_ns) == run.inertial.end()) continue;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/median.hpp"
 #include "dataset/score.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 
@@ -94,10 +95,7 @@ void look_at_inertial(const std::vector<ImuSample>& samples, Material& out) {
   for (std::size_t i = 1; i < samples.size(); ++i)
     steps.push_back(to_seconds(samples[i].header.stamp_ns - samples[i - 1].header.stamp_ns));
   if (steps.empty()) return;
-  std::vector<double> sorted = steps;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  out.imu_step_s = *middle;
+  out.imu_step_s = median(steps);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     if (steps[i] > kGapSteps * out.imu_step_s)
       out.imu_gaps.push_back({seconds_of(samples[i].header.stamp_ns), steps[i]});

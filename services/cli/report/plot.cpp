@@ -1,10 +1,8 @@
 #include "report/plot.hpp"
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -94,12 +92,7 @@ void add_plot(CLI::App& app, ExitCode&) {
     } catch (const dataset::DatasetError& error) {
       throw Failure(ExitCode::bad_input, error.what());
     }
-    std::ofstream file(options->out, std::ios::binary);
-    file << report::standalone(svg);
-    file.close();
-    if (!file) {
-      throw Failure(ExitCode::runtime_failure, options->out + ": cannot be written: " + std::strerror(errno));
-    }
+    write_text(options->out, report::standalone(svg));
   });
 }
 

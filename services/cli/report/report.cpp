@@ -1,8 +1,6 @@
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,11 +8,10 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
+#include "cli/log.hpp"
 #include "cli/report/gather.hpp"
 #include "cli/solve/outage.hpp"
 #include "cli/solve/run.hpp"
-#include "config/fusion/fusion_config.hpp"
-#include "dataset/dataset.hpp"
 #include "report/material.hpp"
 #include "runtime/build_info.hpp"
 
@@ -31,19 +28,9 @@ struct ReportOptions {
 };
 
 report::Material make(const ReportOptions& options) {
-  config::LoadedConfig<config::FusionConfig> loaded =
-      config::load_service_config<config::FusionConfig>({options.config, options.sets});
-  dataset::Dataset data;
-  try {
-    data = dataset::read(options.directory, {dataset::kDefaultEpochNs, Name(loaded.value.common.vehicle)});
-  } catch (const dataset::DatasetError& error) {
-    throw Failure(ExitCode::bad_input, error.what());
-  }
-  if (data.of<ImuSample>().empty()) {
-    throw Failure(ExitCode::bad_input,
-                  options.directory + "/imu.csv: no inertial samples, expected at least one row");
-  }
-  adopt_sensor_names(data, loaded.value);
+  const config::LoadedConfig<config::FusionConfig> loaded =
+      configuration_for(options.directory, options.config, options.sets);
+  const dataset::Dataset data = read_log(options.directory, loaded.value);
   const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
   SolveRun solve_run;
   solve_run.config = &loaded.value;
@@ -90,12 +77,7 @@ void add_report(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::IsMember({"reference"}));
   command->callback([options, &exit_code] {
     const report::Material material = make(*options);
-    std::ofstream file(options->out, std::ios::binary);
-    file << report::page(material);
-    file.close();
-    if (!file) {
-      throw Failure(ExitCode::runtime_failure, options->out + ": cannot be written: " + std::strerror(errno));
-    }
+    write_text(options->out, report::page(material));
     bool any = false;
     for (const report::StateRow& row : material.states) any = any || known(row.latitude_rad);
     for (const report::Finding& one : report::findings(material)) std::printf("%s\n", one.text.c_str());

@@ -10,18 +10,6 @@
 #include "estimation/engine/fusion_engine.hpp"
 
 namespace fathom::cli {
-namespace {
-
-template <class T>
-void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig& config) {
-  for (const estimation::SensorConfig& sensor : config.engine.sensors) {
-    if (sensor.kind != kind) continue;
-    for (T& sample : stream) sample.header.sensor = Name(sensor.sensor);
-    return;
-  }
-}
-
-}  // namespace
 
 void InnovationFigures::add(const Verdict& verdict) {
   constexpr double kDeviation95 = 1.959963984540054;
@@ -105,11 +93,6 @@ double gps_latency_s(const NavDetail& detail) {
     if (detail.states[i].name == Name("gps_latency_s") && known(detail.states[i].value))
       return detail.states[i].value;
   return 0.0;
-}
-
-void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config) {
-  for_each_aiding_kind(
-      [&](auto kind) { rename(data.of<typename decltype(kind)::Sample>(), kind.kSource, config); });
 }
 
 estimation::InitialState start_from_reference(const dataset::Dataset& data,

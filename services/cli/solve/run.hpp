@@ -97,10 +97,6 @@ struct SolveResult {
 /// Hands every sample to the engine in the order of its arrival: what the fusion service does on the network.
 [[nodiscard]] SolveResult run(const SolveRun& solve_run);
 
-/// Gives each stream the name of the first configured sensor of its kind, so that one configuration serves
-/// the vehicle and its recordings.
-void adopt_sensor_names(dataset::Dataset& data, const config::FusionConfig& config);
-
 /// The state at the first row of the reference at or after the first inertial sample, with the configured
 /// sigmas. Throws Failure when the reference cannot give it.
 [[nodiscard]] estimation::InitialState start_from_reference(const dataset::Dataset& data,

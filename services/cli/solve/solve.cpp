@@ -1,8 +1,6 @@
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,10 +10,10 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
+#include "cli/log.hpp"
 #include "cli/solve/calibrate.hpp"
 #include "cli/solve/course.hpp"
 #include "cli/solve/fixes.hpp"
-#include "cli/solve/from_recording.hpp"
 #include "cli/solve/metrics.hpp"
 #include "cli/solve/outage.hpp"
 #include "cli/solve/run.hpp"
@@ -61,47 +59,14 @@ class Thinning {
   std::optional<TimeNs> next_ns_;
 };
 
-dataset::Dataset read_dataset(const std::string& directory, const config::FusionConfig& config) {
-  dataset::Dataset data;
-  try {
-    data = dataset::read(directory, {dataset::kDefaultEpochNs, Name(config.common.vehicle)});
-  } catch (const dataset::DatasetError& error) {
-    throw Failure(ExitCode::bad_input, error.what());
-  }
-  if (data.of<ImuSample>().empty()) {
-    throw Failure(ExitCode::bad_input,
-                  directory + "/imu.csv: no inertial samples, expected at least one row");
-  }
-  adopt_sensor_names(data, config);
-  return data;
-}
-
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written: " + std::strerror(errno));
-}
-
 SolveReport solve(const SolveOptions& options) {
   std::optional<OutageRequest> outages;
   if (!options.outages.empty()) outages = parse_outages(options.outages);
 
-  config::LoadedConfig<config::FusionConfig> loaded;
-  try {
-    loaded = options.config.empty() && is_recording(options.directory)
-                 ? configuration_in(options.directory, options.sets)
-                 : config::load_service_config<config::FusionConfig>({options.config, options.sets});
-  } catch (const config::ConfigError& error) {
-    throw Failure(ExitCode::bad_configuration, error.what());
-  }
-  const dataset::Dataset data = is_recording(options.directory)
-                                    ? read_recording(options.directory, loaded.value)
-                                    : read_dataset(options.directory, loaded.value);
-  // t_s counts from here: of a recording, from the second of its first inertial sample.
-  const TimeNs epoch_ns = is_recording(options.directory)
-                              ? data.of<ImuSample>().front().header.stamp_ns / kNsPerSecond * kNsPerSecond
-                              : dataset::kDefaultEpochNs;
+  const config::LoadedConfig<config::FusionConfig> loaded =
+      configuration_for(options.directory, options.config, options.sets);
+  const dataset::Dataset data = read_log(options.directory, loaded.value);
+  const TimeNs epoch_ns = time_zero_of(options.directory, data);
   const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
 
   SolveRun solve_run;

@@ -1,3 +1,5 @@
+#include "fusion/checkpoint/build_name.hpp"
+
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -6,7 +8,6 @@
 
 #include <zlib.h>
 
-#include "fusion/checkpoint/checkpoint.hpp"
 #include "runtime/build_info.hpp"
 
 namespace fathom::fusion {

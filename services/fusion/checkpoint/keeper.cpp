@@ -3,11 +3,12 @@
 #include <chrono>
 #include <utility>
 
+#include "fusion/checkpoint/file.hpp"
 #include "fusion/checkpoint/start.hpp"
 
 namespace fathom::fusion {
 
-CheckpointKeeper::CheckpointKeeper(const config::CheckpointConfig& config, CheckpointLabel label,
+CheckpointKeeper::CheckpointKeeper(const config::CheckpointConfig& config, archive::CheckpointLabel label,
                                    runtime::Log& log, Save save)
     : config_(config), label_(std::move(label)), log_(log), save_(std::move(save)), thread_([this] {
         run();

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "archive/checkpoint.hpp"
 #include "config/fusion/fusion_config.hpp"
-#include "fusion/checkpoint/checkpoint.hpp"
 #include "runtime/log.hpp"
 
 namespace fathom::fusion {
@@ -29,7 +29,7 @@ class CheckpointKeeper {
   using Save = std::function<bool(TimeNs& stamp_ns, std::vector<std::byte>& archive)>;
 
   /// `label` without its stamp.
-  CheckpointKeeper(const config::CheckpointConfig& config, CheckpointLabel label, runtime::Log& log,
+  CheckpointKeeper(const config::CheckpointConfig& config, archive::CheckpointLabel label, runtime::Log& log,
                    Save save);
   ~CheckpointKeeper();
   CheckpointKeeper(const CheckpointKeeper&) = delete;
@@ -42,7 +42,7 @@ class CheckpointKeeper {
   void write();
 
   config::CheckpointConfig config_;
-  CheckpointLabel label_;
+  archive::CheckpointLabel label_;
   runtime::Log& log_;
   Save save_;
   std::vector<std::byte> archive_;  // of the keeper's thread; the capacity is kept

@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <system_error>
 
+#include "fusion/checkpoint/file.hpp"
+
 namespace fathom::fusion {
 namespace {
 
@@ -16,11 +18,11 @@ fs::path beside(const fs::path& checkpoint, const char* ending) {
 }
 
 /// Why the bytes of `file` are not gone on from; empty when they are.
-std::string taken_up(estimation::FusionEngine& engine, const fs::path& file, const CheckpointLabel& own,
-                     double max_age_s, CheckpointLabel& found) {
+std::string taken_up(estimation::FusionEngine& engine, const fs::path& file,
+                     const archive::CheckpointLabel& own, double max_age_s, archive::CheckpointLabel& found) {
   const auto bytes = read_file(file);
   if (!bytes) return bytes.error().message;
-  const auto checkpoint = decode(bytes.value());
+  const auto checkpoint = archive::decode(bytes.value());
   if (!checkpoint) return checkpoint.error().message;
   found = checkpoint.value().label;
   if (std::string why = objection(found, own, max_age_s); !why.empty()) return why;
@@ -31,7 +33,7 @@ std::string taken_up(estimation::FusionEngine& engine, const fs::path& file, con
 }  // namespace
 
 Resumption resume(estimation::FusionEngine& engine, const config::CheckpointConfig& config,
-                  const CheckpointLabel& own) {
+                  const archive::CheckpointLabel& own) {
   Resumption out;
   out.how = "started afresh";
   if (config.path.empty()) return out;
@@ -51,7 +53,7 @@ Resumption resume(estimation::FusionEngine& engine, const config::CheckpointConf
     out.how += ": checkpoint " + config.path + " is not there";
     return out;
   }
-  CheckpointLabel found;
+  archive::CheckpointLabel found;
   const std::string why = taken_up(engine, file, own, config.max_age_s, found);
   if (!why.empty()) {
     out.refused = true;

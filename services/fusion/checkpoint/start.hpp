@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
+#include "archive/checkpoint.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "estimation/engine/fusion_engine.hpp"
-#include "fusion/checkpoint/checkpoint.hpp"
 
 namespace fathom::fusion {
 
@@ -22,7 +22,7 @@ struct Resumption {
 /// The file is called PATH.tried until the first new checkpoint is written. So a state that ends the process
 /// is tried a second time, because something else may have ended it, and not a third time.
 [[nodiscard]] Resumption resume(estimation::FusionEngine& engine, const config::CheckpointConfig& config,
-                                const CheckpointLabel& own);
+                                const archive::CheckpointLabel& own);
 
 /// Removes PATH.tried after a new checkpoint was written.
 void forget_trial(const std::filesystem::path& checkpoint);

@@ -61,7 +61,7 @@ bus::ReaderOptions nav_state_options(const host::ServiceHost& host, const config
 }  // namespace
 
 struct ReplicaLink::Impl {
-  Impl(host::ServiceHost& the_host, const config::FusionConfig& config, CheckpointLabel the_label,
+  Impl(host::ServiceHost& the_host, const config::FusionConfig& config, archive::CheckpointLabel the_label,
        Hooks the_hooks)
       : host(the_host),
         label(std::move(the_label)),
@@ -224,7 +224,7 @@ struct ReplicaLink::Impl {
     }
     if (!hooks.save(state)) return;
     encode(state, archive);
-    CheckpointLabel stamped = label;
+    archive::CheckpointLabel stamped = label;
     stamped.stamp_ns = state.stamp_ns;
     encode(stamped, archive, bytes);
     part.header = host.header();
@@ -250,11 +250,11 @@ struct ReplicaLink::Impl {
     }
     auto whole = assembler.add(part, info.writer_guid);
     if (!whole) return;
-    auto found = decode(whole->bytes);
+    auto found = archive::decode(whole->bytes);
     if (!found) return refuse(from, found.error().message, true);
     found.value().label.service = label.service;  // another instance of the same service
     // The age of the state does not matter. The comparison with the leader's states follows afterwards.
-    CheckpointLabel own = label;
+    archive::CheckpointLabel own = label;
     own.stamp_ns = found.value().label.stamp_ns;
     const std::string why = objection(found.value().label, own, 0.0);
     if (!why.empty()) return refuse(from, why);
@@ -282,7 +282,7 @@ struct ReplicaLink::Impl {
   }
 
   host::ServiceHost& host;
-  const CheckpointLabel label;
+  const archive::CheckpointLabel label;
   const std::int32_t strength;
   Hooks hooks;
   const SystemClock steady;
@@ -320,8 +320,8 @@ struct ReplicaLink::Impl {
   std::thread thread;  // last: it uses everything above
 };
 
-ReplicaLink::ReplicaLink(host::ServiceHost& host, const config::FusionConfig& config, CheckpointLabel label,
-                         Hooks hooks)
+ReplicaLink::ReplicaLink(host::ServiceHost& host, const config::FusionConfig& config,
+                         archive::CheckpointLabel label, Hooks hooks)
     : impl_(std::make_unique<Impl>(host, config, std::move(label), std::move(hooks))) {}
 ReplicaLink::~ReplicaLink() = default;
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "archive/checkpoint.hpp"
 #include "base/result.hpp"
 #include "config/fusion/fusion_config.hpp"
-#include "fusion/checkpoint/checkpoint.hpp"
 #include "fusion/replica/shared_state.hpp"
 #include "host/service_host.hpp"
 #include "samples/nav_state.hpp"
@@ -42,7 +42,7 @@ class ReplicaLink {
   };
 
   /// `label` as of a checkpoint. Its hash of the configuration leaves out what replicas differ in.
-  ReplicaLink(host::ServiceHost& host, const config::FusionConfig& config, CheckpointLabel label,
+  ReplicaLink(host::ServiceHost& host, const config::FusionConfig& config, archive::CheckpointLabel label,
               Hooks hooks);
   ~ReplicaLink();
   ReplicaLink(const ReplicaLink&) = delete;

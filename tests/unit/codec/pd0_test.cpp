@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/little_endian.hpp"
 #include "capture.hpp"
-#include "codec/bytes.hpp"
 #include "codec/dvl/pd0_layout.hpp"
 
 namespace fathom::codec {

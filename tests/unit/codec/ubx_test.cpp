@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "codec/bytes.hpp"
+#include "base/little_endian.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 #include "support/codec/decode_run.hpp"
 

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/little_endian.hpp"
 #include "capture.hpp"
-#include "codec/bytes.hpp"
 
 namespace fathom::codec {
 namespace {

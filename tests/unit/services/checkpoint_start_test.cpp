@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fusion/checkpoint/file.hpp"
 #include "fusion/checkpoint/start.hpp"
 #include "support/survey_run.hpp"
 #include "support/temporary_folder.hpp"
@@ -28,7 +29,7 @@ class CheckpointStart : public ::testing::Test {
   }
   /// With a right checksum, whatever the archive is.
   void write(const std::vector<std::byte>& held, const std::string& build = "0.1.0-89abcdef") {
-    CheckpointLabel label = own;
+    archive::CheckpointLabel label = own;
     label.stamp_ns -= kNsPerSecond;
     label.build = build;
     std::vector<std::byte> bytes;
@@ -46,7 +47,7 @@ class CheckpointStart : public ::testing::Test {
   const SurveyRun run{{.duration_s = 20.0}};
   FusionEngine before{SurveyRun::config()};
   std::vector<std::byte> archive;
-  CheckpointLabel own;
+  archive::CheckpointLabel own;
 };
 
 TEST_F(CheckpointStart, GoesOn) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,7 +8,7 @@
 #include "base/result.hpp"
 #include "base/time.hpp"
 
-namespace fathom::fusion {
+namespace fathom::archive {
 
 /// The label of a checkpoint: whose state it holds, and of when.
 struct CheckpointLabel {
@@ -36,16 +35,4 @@ void encode(const CheckpointLabel& label, std::span<const std::byte> archive, st
 [[nodiscard]] std::string objection(const CheckpointLabel& found, const CheckpointLabel& own,
                                     double max_age_s);
 
-/// Reads the whole file. The error says why it cannot be read.
-[[nodiscard]] Result<std::vector<std::byte>> read_file(const std::filesystem::path& path);
-
-/// Writes a new file beside `path` and renames it, so that readers find either the old file or the new one.
-/// With `sync` the file is on the disk when this returns. Missing folders are made. Returns why it failed, or
-/// nothing.
-[[nodiscard]] std::string replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
-                                       bool sync);
-
-/// Identity of this executable: its release and a checksum of its file.
-[[nodiscard]] std::string build_of_this_executable();
-
-}  // namespace fathom::fusion
+}  // namespace fathom::archive

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace fathom {
+
+/// Of the third General Conference on Weights and Measures, 1901: what data sheets call 1 g.
+inline constexpr double kStandardGravity_m_s2 = 9.80665;
+
+}  // namespace fathom

@@ -1,0 +1,104 @@
+#include "cli/log.hpp"
+
+#include <cstdio>
+
+#include "bus/cdr.hpp"
+#include "cli/command.hpp"
+#include "cli/recording.hpp"
+#include "config/json/error.hpp"
+
+namespace fathom::cli {
+namespace {
+
+constexpr const char* kTruth = "fathom/v1/truth";
+
+template <class T>
+void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig& config) {
+  for (const estimation::SensorConfig& sensor : config.engine.sensors) {
+    if (sensor.kind != kind) continue;
+    for (T& sample : stream) sample.header.sensor = Name(sensor.sensor);
+    return;
+  }
+}
+
+dataset::Dataset read_recording(const std::string& file, const config::FusionConfig& config) {
+  record::Reader reader = open_recording(file);
+  const Name vehicle(config.common.vehicle);
+  const Name unit(config.imu_sensor);
+  dataset::Dataset data;
+  std::uint64_t foreign = 0;
+  const auto take = [&]<class T>(const record::Message& message, std::vector<T>& into) {
+    const auto sample = bus::from_cdr<T>(message.data);
+    if (!sample) {
+      ++foreign;
+    } else if (sample->header.vehicle == vehicle) {
+      into.push_back(*sample);
+    }
+  };
+  record::Selection selection;
+  selection.topics.emplace_back(kTruth);
+  for_each_kind([&](auto kind) { selection.topics.emplace_back(kind.kTopic); });
+  const record::Outcome outcome =
+      reader.read(selection, [&](const record::Channel& channel, const record::Message& message) {
+        if (channel.topic == kTruth) take(message, data.reference);
+        for_each_kind([&](auto kind) {
+          if (channel.topic == kind.kTopic) take(message, data.of<typename decltype(kind)::Sample>());
+        });
+        return true;
+      });
+  std::erase_if(data.of<ImuSample>(), [&](const ImuSample& one) { return one.header.sensor != unit; });
+  for (const std::string& problem : outcome.problems)
+    std::fprintf(stderr, "fathom: %s: %s\n", file.c_str(), problem.c_str());
+  if (foreign > 0) {
+    std::fprintf(stderr, "fathom: %s: %llu samples are none of their topics' types\n", file.c_str(),
+                 static_cast<unsigned long long>(foreign));
+  }
+  if (data.of<ImuSample>().empty()) {
+    throw Failure(ExitCode::bad_input, file + ": no inertial samples of unit " + unit.str() + " of vehicle " +
+                                           vehicle.str() + ", expected at least one");
+  }
+  return data;
+}
+
+}  // namespace
+
+bool is_recording(const std::string& path) {
+  return path.ends_with(".mcap");
+}
+
+config::LoadedConfig<config::FusionConfig> configuration_for(const std::string& log, const std::string& file,
+                                                             const std::vector<std::string>& sets) {
+  try {
+    if (!file.empty() || !is_recording(log))
+      return config::load_service_config<config::FusionConfig>({file, sets});
+    record::Reader reader = open_recording(log);
+    return recorded_configuration(reader, log, "fusion", sets);
+  } catch (const config::ConfigError& error) {
+    throw Failure(ExitCode::bad_configuration, error.what());
+  }
+}
+
+dataset::Dataset read_dataset(const std::string& directory, Name vehicle) {
+  try {
+    return dataset::read(directory, {dataset::kDefaultEpochNs, vehicle});
+  } catch (const dataset::DatasetError& error) {
+    throw Failure(ExitCode::bad_input, error.what());
+  }
+}
+
+dataset::Dataset read_log(const std::string& log, const config::FusionConfig& config) {
+  if (is_recording(log)) return read_recording(log, config);
+  dataset::Dataset data = read_dataset(log, Name(config.common.vehicle));
+  if (data.of<ImuSample>().empty())
+    throw Failure(ExitCode::bad_input, log + "/imu.csv: no inertial samples, expected at least one row");
+  for_each_aiding_kind(
+      [&](auto kind) { rename(data.of<typename decltype(kind)::Sample>(), kind.kSource, config); });
+  return data;
+}
+
+TimeNs time_zero_of(const std::string& log, const dataset::Dataset& data) {
+  if (!is_recording(log)) return dataset::kDefaultEpochNs;
+  return data.of<ImuSample>().front().header.stamp_ns / kNsPerSecond * kNsPerSecond;
+}
+
+}  // namespace fathom::cli

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/fusion/fusion_config.hpp"
+#include "dataset/dataset.hpp"
+
+/// What a vehicle recorded: the folder of a data set, or a recording.
+namespace fathom::cli {
+
+/// Whether a path names a recording rather than the folder of a data set.
+[[nodiscard]] bool is_recording(const std::string& path);
+
+/// The configuration of a file with overrides; of an empty name the one of the fusion service in the
+/// recording. Throws Failure.
+[[nodiscard]] config::LoadedConfig<config::FusionConfig> configuration_for(
+    const std::string& log, const std::string& file, const std::vector<std::string>& sets);
+
+/// The data set in a folder. Throws Failure.
+[[nodiscard]] dataset::Dataset read_dataset(const std::string& directory, Name vehicle);
+
+/// What the instruments of the configured vehicle said, with at least one inertial sample. In a data set each
+/// stream has the name of the first configured sensor of its kind. In a recording sensors keep their names,
+/// of inertial units the configured one is read, and the truth is the reference; damaged parts are named on
+/// standard error. Throws Failure.
+[[nodiscard]] dataset::Dataset read_log(const std::string& log, const config::FusionConfig& config);
+
+/// From when t_s counts: in a recording from the second of its first inertial sample.
+[[nodiscard]] TimeNs time_zero_of(const std::string& log, const dataset::Dataset& data);
+
+}  // namespace fathom::cli
