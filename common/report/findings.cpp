@@ -174,34 +174,34 @@ class Judge {
   }
 
   void spread(const Source& source) {
-    const InnovationFigures figures = figures_of(source);
-    if (source.of(VerdictKind::used) < kEnough || figures.count < kEnough) return;
+    const InnovationTally& figures = source.innovations;
+    if (source.of(VerdictKind::used) < kEnough || figures.components() < kEnough) return;
     const std::string who = name_of(source) + ": ";
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!(std::abs(figures.mean[i]) > kBiased_sigmas)) continue;
+    for (std::size_t i = 0; i < InnovationTally::kComponents; ++i) {
+      if (!(std::abs(figures.used_mean(i)) > kBiased_sigmas)) continue;
       say(Weight::caution,
-          who + "innovations of component " + std::to_string(i + 1) + " are " + brief(figures.mean[i]) +
+          who + "innovations of component " + std::to_string(i + 1) + " are " + brief(figures.used_mean(i)) +
               " sigmas in the mean, expected 0. A lever, a mounting angle, a scale, a latency or an offset "
               "may be "
               "wrong.",
           "innovations");
       break;
     }
-    if (figures.rms > kTooWide && figures.inside >= kFewInside) {
+    if (figures.used_rms() > kTooWide && figures.share_within_95() >= kFewInside) {
       say(Weight::caution,
           who +
               "most innovations are as their sigmas say, and a few that were used lie far outside (root mean "
               "square " +
-              brief(figures.rms) + " sigmas, expected 1). Look at these.",
+              brief(figures.used_rms()) + " sigmas, expected 1). Look at these.",
           "innovations");
-    } else if (figures.inside < kFewInside) {
+    } else if (figures.share_within_95() < kFewInside) {
       say(Weight::caution,
-          who + "innovations scatter more than their sigmas say (" + percent(figures.inside) +
-              " lie within two sigmas, expected 95 %). The configured sigma may be too small.",
+          who + "innovations scatter more than their sigmas say (" + percent(figures.share_within_95()) +
+              " lie within their 95 %). The configured sigma may be too small.",
           "innovations");
-    } else if (figures.rms < kTooNarrow) {
+    } else if (figures.used_rms() < kTooNarrow) {
       say(Weight::caution,
-          who + "innovations scatter " + brief(figures.rms) +
+          who + "innovations scatter " + brief(figures.used_rms()) +
               " of what their sigmas say. The configured sigma may be too large.",
           "innovations");
     }

@@ -29,6 +29,7 @@ StateRow row_of(const NavState& state, double t_s) {
 void Source::add(const Verdict& verdict, double t_s) {
   const auto what = static_cast<std::size_t>(verdict.kind);
   if (what < kVerdictKinds) ++counts[what];
+  innovations.add(verdict);
   if (total() % stride != 0) return;
   if (judged.size() >= kMostJudged) {
     stride *= 2;
@@ -49,35 +50,6 @@ std::uint64_t Source::total() const {
   std::uint64_t sum = 0;
   for (const std::uint64_t count : counts) sum += count;
   return sum;
-}
-
-InnovationFigures figures_of(const Source& source) {
-  InnovationFigures out;
-  std::uint64_t components = 0;
-  std::uint64_t inside = 0;
-  std::uint64_t used = 0;
-  double squares = 0.0;
-  std::array<double, 3> sums{};
-  std::array<std::uint64_t, 3> counts{};
-  for (const Judged& one : source.judged) {
-    for (std::size_t i = 0; i < one.dimensions; ++i) {
-      const double n = static_cast<double>(one.normalised[i]);
-      if (!std::isfinite(n)) continue;
-      ++components;
-      inside += std::abs(n) <= 2.0 ? 1U : 0U;
-      if (one.kind != VerdictKind::used) continue;
-      ++used;
-      squares += n * n;
-      sums[i] += n;
-      ++counts[i];
-    }
-  }
-  out.count = components;
-  if (components > 0) out.inside = static_cast<double>(inside) / static_cast<double>(components);
-  if (used > 0) out.rms = std::sqrt(squares / static_cast<double>(used));
-  for (std::size_t i = 0; i < 3; ++i)
-    if (counts[i] > 0) out.mean[i] = sums[i] / static_cast<double>(counts[i]);
-  return out;
 }
 
 }  // namespace fathom::report

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dataset/score.hpp"
+#include "samples/innovation_tally.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/verdict.hpp"
 
@@ -53,6 +54,7 @@ struct Source {
   std::string sensor;
   std::string model;
   std::array<std::uint64_t, kVerdictKinds> counts{};
+  InnovationTally innovations;
   std::vector<Judged> judged;  ///< at most kMostJudged, evenly thinned beyond
   std::uint64_t stride = 1;
   static constexpr std::size_t kMostJudged = 400'000;
@@ -117,15 +119,5 @@ struct Finding {
 
 /// A whole page, without anything from elsewhere.
 [[nodiscard]] std::string page(const Material& material);
-
-/// Share of the components of used and rejected measurements within two sigmas; mean and root mean square of
-/// the components of those that were used.
-struct InnovationFigures {
-  std::uint64_t count = 0;
-  double inside = kUnknown;
-  double rms = kUnknown;
-  std::array<double, 3> mean{kUnknown, kUnknown, kUnknown};
-};
-[[nodiscard]] InnovationFigures figures_of(const Source& source);
 
 }  // namespace fathom::report

@@ -73,9 +73,9 @@ std::string error_table(const Material& m) {
 std::string source_table(const Material& m) {
   std::string out =
       "<table><tr><th>source</th><th>all</th><th>used</th><th>rejected</th><th>other</th>"
-      "<th>within 2 sigma</th><th>rms, sigmas</th><th>mean, sigmas</th></tr>\n";
+      "<th>within 95 %</th><th>rms, sigmas</th><th>mean, sigmas</th></tr>\n";
   for (const Source& source : m.sources) {
-    const InnovationFigures figures = figures_of(source);
+    const InnovationTally& figures = source.innovations;
     const std::uint64_t used = source.of(VerdictKind::used);
     const std::uint64_t rejected = source.of(VerdictKind::rejected) + source.of(VerdictKind::disputed);
     std::string others;
@@ -88,8 +88,9 @@ std::string source_table(const Material& m) {
                 std::string(to_string(kind));
     }
     std::string means;
-    for (const double mean : figures.mean)
-      if (known(mean)) means += (means.empty() ? "" : ", ") + label_of(mean, 0.01);
+    for (std::size_t i = 0; i < InnovationTally::kComponents; ++i)
+      if (const double mean = figures.used_mean(i); known(mean))
+        means += (means.empty() ? "" : ", ") + label_of(mean, 0.01);
     const auto cell = [&out](const std::string& content, const char* cls = "") {
       out += "<td";
       if (*cls != '\0') out.append(" class=\"").append(cls).append("\"");
@@ -101,8 +102,8 @@ std::string source_table(const Material& m) {
     cell(std::to_string(used));
     cell(std::to_string(rejected));
     cell(others, "words");
-    cell(known(figures.inside) ? brief(100.0 * figures.inside) + " %" : "");
-    cell(known(figures.rms) ? brief(figures.rms) : "");
+    cell(known(figures.share_within_95()) ? brief(100.0 * figures.share_within_95()) + " %" : "");
+    cell(known(figures.used_rms()) ? brief(figures.used_rms()) : "");
     cell(means, "words");
     out += "</tr>\n";
   }

@@ -152,7 +152,10 @@ class Gatherer {
       return one.kind == verdict.source && one.sensor == sensor && one.model == model;
     });
     if (found == out_.sources.end()) {
-      out_.sources.push_back({verdict.source, sensor, model, {}, {}, 1});
+      report::Source& fresh = out_.sources.emplace_back();
+      fresh.kind = verdict.source;
+      fresh.sensor = sensor;
+      fresh.model = model;
       found = std::prev(out_.sources.end());
     }
     found->add(verdict, seconds_of(verdict.header.stamp_ns));

@@ -53,11 +53,11 @@ json verdicts(const VerdictCounts& counts) {
   return out;
 }
 
-json innovations(const std::map<std::string, InnovationFigures>& all) {
+json innovations(const std::map<std::string, InnovationTally>& all) {
   json out = json::object();
   for (const auto& [name, one] : all)
-    out[name] = {{"count", one.count},
-                 {"mean_normalised_squared", number(one.mean())},
+    out[name] = {{"count", one.measurements()},
+                 {"mean_normalised_squared", number(one.mean_square())},
                  {"within_95", number(one.share_within_95())}};
   return out;
 }
@@ -222,9 +222,9 @@ std::string to_text(const SolveReport& report) {
           p.reference_late_s, p.offset_B_m[0], p.offset_B_m[1], p.rms_m, p.nees_horizontal);
   }
   for (const auto& [name, one] : report.result.innovations)
-    if (one.components > 0)
+    if (one.components() > 0)
       out += line("innovations of %s: mean square %.2f sigma^2 (1 where sigmas hold), %.1f %% within 95 %%",
-                  name.c_str(), one.mean(), 100.0 * one.share_within_95());
+                  name.c_str(), one.mean_square(), 100.0 * one.share_within_95());
   if (known(report.heading.aligned_after_s))
     out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
   if (const HeadingErrors& course = report.heading.course; course.count() > 0)

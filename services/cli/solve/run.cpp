@@ -11,27 +11,6 @@
 
 namespace fathom::cli {
 
-void InnovationFigures::add(const Verdict& verdict) {
-  constexpr double kDeviation95 = 1.959963984540054;
-  if (verdict.kind != VerdictKind::used && verdict.kind != VerdictKind::rejected) return;
-  ++count;
-  for (std::uint32_t i = 0; i < verdict.dimensions; ++i) {
-    const double ratio = verdict.innovation[i] / verdict.innovation_sigma[i];
-    if (!known(ratio)) continue;
-    ++components;
-    squared_sum += ratio * ratio;
-    if (std::abs(ratio) <= kDeviation95) ++within_95;
-  }
-}
-
-double InnovationFigures::mean() const {
-  return components > 0 ? squared_sum / static_cast<double>(components) : kUnknown;
-}
-
-double InnovationFigures::share_within_95() const {
-  return components > 0 ? static_cast<double>(within_95) / static_cast<double>(components) : kUnknown;
-}
-
 void SolveResult::add(const Verdict& verdict) {
   if (!verdict.is_final) return;
   ++verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];

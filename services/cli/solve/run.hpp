@@ -14,6 +14,7 @@
 #include "dataset/dataset.hpp"
 #include "estimation/engine_config.hpp"
 #include "samples/forecast.hpp"
+#include "samples/innovation_tally.hpp"
 #include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/verdict.hpp"
@@ -66,22 +67,9 @@ void for_each_sample(const SolveRun& solve_run, Consumer&& consumer) {
 /// The state that the run or its configuration gives to start from, if any.
 [[nodiscard]] std::optional<estimation::InitialState> start_of(const SolveRun& solve_run);
 
-/// How far the measurements of one aiding model lay from what was predicted just before, in squares of the
-/// predicted sigma. A filter whose sigmas hold has a mean of one per component.
-struct InnovationFigures {
-  std::uint64_t count = 0;
-  std::uint64_t components = 0;
-  double squared_sum = 0.0;     ///< of the components, each by its own sigma
-  std::uint64_t within_95 = 0;  ///< components within 1.96 sigma
-
-  void add(const Verdict& verdict);
-  [[nodiscard]] double mean() const;
-  [[nodiscard]] double share_within_95() const;
-};
-
 struct SolveResult {
   VerdictCounts verdicts;
-  std::map<std::string, InnovationFigures> innovations;  ///< by sensor and model
+  std::map<std::string, InnovationTally> innovations;  ///< by sensor and model
   std::uint64_t imu_samples = 0;
   std::uint64_t nav_states = 0;
   double wall_s = 0.0;

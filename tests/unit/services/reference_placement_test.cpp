@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/solve/run.hpp"
 #include "sim/random.hpp"
 
 namespace fathom::cli {
@@ -48,26 +47,6 @@ TEST(ReferencePlacement, FindsClockAndPointAndWhatIsLeft) {
 TEST(ReferencePlacement, DoesNotTellClockFromPointAtOneSpeed) {
   EXPECT_FALSE(known(drive(false, true).figures().reference_late_s));
   EXPECT_FALSE(known(drive(false, false).figures().reference_late_s));
-}
-
-TEST(InnovationFigures, AreOneWhereSigmasHold) {
-  sim::Random random(2, "innovations");
-  InnovationFigures figures;
-  for (int i = 0; i < 2000; ++i) {
-    Verdict verdict;
-    verdict.kind = VerdictKind::used;
-    verdict.dimensions = 3;
-    for (std::size_t j = 0; j < 3; ++j) {
-      verdict.innovation_sigma[j] = 0.5 + static_cast<double>(j);
-      verdict.innovation[j] = verdict.innovation_sigma[j] * random.normal();
-    }
-    figures.add(verdict);
-    verdict.kind = VerdictKind::late;  // was not compared
-    figures.add(verdict);
-  }
-  EXPECT_EQ(figures.count, 2000U);
-  EXPECT_NEAR(figures.mean(), 1.0, 0.06);
-  EXPECT_NEAR(figures.share_within_95(), 0.95, 0.01);
 }
 
 }  // namespace
