@@ -214,29 +214,33 @@ void Proof::differ(const std::string& what) {
 }
 
 void Proof::compare(const NavState& recorded, const NavState& computed) {
+  // A field that is added to the sample does not compile here until it is compared.
+  const auto& [header, mode, alignment, latitude_rad, longitude_rad, altitude_m, depth_m,
+               altitude_above_bottom_m, velocity_N_m_s, q_NB, rpy_rad, angular_rate_B_rad_s,
+               specific_force_B_m_s2, position_covariance_N_m2, velocity_covariance_N_m2_s2, rpy_sigma_rad,
+               gps_outage_s, dvl_outage_s, reset_counter, last_reset_delta_N_m] = recorded;
   Difference d;
-  last_state_ = std::max(last_state_, recorded.header.sequence);
-  d.header(recorded.header, computed.header);
-  d.field("mode", recorded.mode, computed.mode);
-  d.field("alignment", recorded.alignment, computed.alignment);
-  d.field("latitude_rad", recorded.latitude_rad, computed.latitude_rad);
-  d.field("longitude_rad", recorded.longitude_rad, computed.longitude_rad);
-  d.field("altitude_m", recorded.altitude_m, computed.altitude_m);
-  d.field("depth_m", recorded.depth_m, computed.depth_m);
-  d.field("altitude_above_bottom_m", recorded.altitude_above_bottom_m, computed.altitude_above_bottom_m);
-  d.field("velocity_N_m_s", recorded.velocity_N_m_s, computed.velocity_N_m_s);
-  d.field("q_NB", recorded.q_NB, computed.q_NB);
-  d.field("rpy_rad", recorded.rpy_rad, computed.rpy_rad);
-  d.field("angular_rate_B_rad_s", recorded.angular_rate_B_rad_s, computed.angular_rate_B_rad_s);
-  d.field("specific_force_B_m_s2", recorded.specific_force_B_m_s2, computed.specific_force_B_m_s2);
-  d.field("position_covariance_N_m2", recorded.position_covariance_N_m2, computed.position_covariance_N_m2);
-  d.field("velocity_covariance_N_m2_s2", recorded.velocity_covariance_N_m2_s2,
-          computed.velocity_covariance_N_m2_s2);
-  d.field("rpy_sigma_rad", recorded.rpy_sigma_rad, computed.rpy_sigma_rad);
-  d.field("gps_outage_s", recorded.gps_outage_s, computed.gps_outage_s);
-  d.field("dvl_outage_s", recorded.dvl_outage_s, computed.dvl_outage_s);
-  d.field("reset_counter", recorded.reset_counter, computed.reset_counter);
-  d.field("last_reset_delta_N_m", recorded.last_reset_delta_N_m, computed.last_reset_delta_N_m);
+  last_state_ = std::max(last_state_, header.sequence);
+  d.header(header, computed.header);
+  d.field("mode", mode, computed.mode);
+  d.field("alignment", alignment, computed.alignment);
+  d.field("latitude_rad", latitude_rad, computed.latitude_rad);
+  d.field("longitude_rad", longitude_rad, computed.longitude_rad);
+  d.field("altitude_m", altitude_m, computed.altitude_m);
+  d.field("depth_m", depth_m, computed.depth_m);
+  d.field("altitude_above_bottom_m", altitude_above_bottom_m, computed.altitude_above_bottom_m);
+  d.field("velocity_N_m_s", velocity_N_m_s, computed.velocity_N_m_s);
+  d.field("q_NB", q_NB, computed.q_NB);
+  d.field("rpy_rad", rpy_rad, computed.rpy_rad);
+  d.field("angular_rate_B_rad_s", angular_rate_B_rad_s, computed.angular_rate_B_rad_s);
+  d.field("specific_force_B_m_s2", specific_force_B_m_s2, computed.specific_force_B_m_s2);
+  d.field("position_covariance_N_m2", position_covariance_N_m2, computed.position_covariance_N_m2);
+  d.field("velocity_covariance_N_m2_s2", velocity_covariance_N_m2_s2, computed.velocity_covariance_N_m2_s2);
+  d.field("rpy_sigma_rad", rpy_sigma_rad, computed.rpy_sigma_rad);
+  d.field("gps_outage_s", gps_outage_s, computed.gps_outage_s);
+  d.field("dvl_outage_s", dvl_outage_s, computed.dvl_outage_s);
+  d.field("reset_counter", reset_counter, computed.reset_counter);
+  d.field("last_reset_delta_N_m", last_reset_delta_N_m, computed.last_reset_delta_N_m);
   if (d.text().empty()) {
     ++states_;
   } else {
@@ -246,18 +250,23 @@ void Proof::compare(const NavState& recorded, const NavState& computed) {
 }
 
 void Proof::compare(const Verdict& recorded, const Verdict& computed) {
+  // A field that is added to the sample does not compile here until it is compared.
+  const auto& [header, source, model, writer, kind, dimensions, innovation, innovation_sigma, test_ratio,
+               limit, revision, previous, is_final] = recorded;
   Difference d;
-  d.header(recorded.header, computed.header);
-  d.field("model", recorded.model, computed.model);
-  d.field("writer", recorded.writer, computed.writer);
-  d.field("kind", recorded.kind, computed.kind);
-  d.field("dimensions", recorded.dimensions, computed.dimensions);
-  d.field("innovation", recorded.innovation, computed.innovation);
-  d.field("innovation_sigma", recorded.innovation_sigma, computed.innovation_sigma);
-  d.field("test_ratio", recorded.test_ratio, computed.test_ratio);
-  d.field("limit", recorded.limit, computed.limit);
-  d.field("previous", recorded.previous, computed.previous);
-  d.field("is_final", recorded.is_final, computed.is_final);
+  d.header(header, computed.header);
+  d.field("source", source, computed.source);
+  d.field("model", model, computed.model);
+  d.field("writer", writer, computed.writer);
+  d.field("kind", kind, computed.kind);
+  d.field("dimensions", dimensions, computed.dimensions);
+  d.field("innovation", innovation, computed.innovation);
+  d.field("innovation_sigma", innovation_sigma, computed.innovation_sigma);
+  d.field("test_ratio", test_ratio, computed.test_ratio);
+  d.field("limit", limit, computed.limit);
+  d.field("revision", revision, computed.revision);
+  d.field("previous", previous, computed.previous);
+  d.field("is_final", is_final, computed.is_final);
   if (d.text().empty()) {
     ++verdicts_;
   } else {
