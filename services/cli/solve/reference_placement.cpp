@@ -9,11 +9,15 @@ namespace {
 
 /// A second's worth of states says nothing about a clock.
 constexpr std::size_t kLeastRows = 100;
-/// Ratio of the eigenvalues of the normal matrix, its columns of one length, above which the three are not
+/// Ratio of the eigenvalues of the normal matrix, its columns of one length, above which the five are not
 /// told apart: a vehicle that keeps its speed has its clock error for an offset forward.
 constexpr double kLargestCondition = 50.0;
 
-using Matrix23 = Eigen::Matrix<double, 2, 3>;
+// Clock, point forward and right, constant error north and east.
+constexpr int kUnknowns = 5;
+using Design = Eigen::Matrix<double, 2, kUnknowns>;
+using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+using Solution = Eigen::Matrix<double, kUnknowns, 1>;
 
 }  // namespace
 
@@ -34,29 +38,29 @@ Placement ReferencePlacement::figures() const {
   Placement out;
   out.count = rows_.size();
   if (rows_.size() < kLeastRows) return out;
-  // error = v tau + C d
+  // error = v tau + C d + b
   const auto design = [](const Row& row) {
-    Matrix23 a;
-    a << row.velocity_N_m_s[0], row.heading[0], -row.heading[1],  //
-        row.velocity_N_m_s[1], row.heading[1], row.heading[0];
+    Design a;
+    a << row.velocity_N_m_s[0], row.heading[0], -row.heading[1], 1.0, 0.0,  //
+        row.velocity_N_m_s[1], row.heading[1], row.heading[0], 0.0, 1.0;
     return a;
   };
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  Normal normal = Normal::Zero();
+  Solution right = Solution::Zero();
   for (const Row& row : rows_) {
-    const Matrix23 a = design(row);
+    const Design a = design(row);
     normal += a.transpose() * a;
     right += a.transpose() * Eigen::Vector2d(row.error_N_m[0], row.error_N_m[1]);
   }
-  const Eigen::Vector3d scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> parts(scale.asDiagonal() * normal *
-                                                             scale.asDiagonal());
-  if (!(parts.eigenvalues()(0) * kLargestCondition > parts.eigenvalues()(2))) return out;
-  const Eigen::Vector3d found = normal.ldlt().solve(right);
+  const Solution scale = normal.diagonal().cwiseSqrt().cwiseMax(1e-12).cwiseInverse();
+  const Eigen::SelfAdjointEigenSolver<Normal> parts(scale.asDiagonal() * normal * scale.asDiagonal());
+  if (!(parts.eigenvalues()(0) * kLargestCondition > parts.eigenvalues()(kUnknowns - 1))) return out;
+  const Solution found = normal.ldlt().solve(right);
   double sum2 = 0.0;
   double nees = 0.0;
   for (const Row& row : rows_) {
-    const Eigen::Vector2d left = Eigen::Vector2d(row.error_N_m[0], row.error_N_m[1]) - design(row) * found;
+    const Eigen::Vector2d left =
+        Eigen::Vector2d(row.error_N_m[0], row.error_N_m[1]) - design(row).leftCols<3>() * found.head<3>();
     Eigen::Matrix2d p;
     p << row.p_m2[0], row.p_m2[1], row.p_m2[1], row.p_m2[2];
     sum2 += left.squaredNorm();

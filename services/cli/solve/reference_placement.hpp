@@ -24,7 +24,8 @@ struct Placement {
 class ReferencePlacement {
  public:
   void add(const NavState& state, const dataset::NavError& error);
-  /// Least squares over all. Nothing where the vehicle did not move and turn enough to tell.
+  /// Least squares over all, with a constant error north and east beside them, which is no placement and
+  /// stays in what is left. Nothing where the vehicle did not change speed and heading enough to tell.
   [[nodiscard]] Placement figures() const;
 
  private:
