@@ -68,9 +68,11 @@ bool is_recording(const std::string& path) {
 
 config::LoadedConfig<config::FusionConfig> configuration_for(const std::string& log, const std::string& file,
                                                              const std::vector<std::string>& sets) {
+  if (file.empty() && !is_recording(log))
+    throw Failure(ExitCode::bad_configuration,
+                  "--config is required: a data set has no configuration of its own; see --help");
   try {
-    if (!file.empty() || !is_recording(log))
-      return config::load_service_config<config::FusionConfig>({file, sets});
+    if (!file.empty()) return config::load_service_config<config::FusionConfig>({file, sets});
     record::Reader reader = open_recording(log);
     return recorded_configuration(reader, log, "fusion", sets);
   } catch (const config::ConfigError& error) {

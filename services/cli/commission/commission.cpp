@@ -102,16 +102,19 @@ ExitCode run_commission(const CommissionOptions& options) {
                   "commission: --apply needs --config: the file that it corrects");
   commission::Assumed assumed;
   Json config = Json::object();
-  Name vehicle = "auv";
-  if (!options.config.empty()) {
+  dataset::Dataset data;
+  if (!options.config.empty() || is_recording(options.log)) {
     const config::LoadedConfig<config::FusionConfig> loaded =
         configuration_for(options.log, options.config, options.sets);
     assumed = assumed_by(loaded.value);
-    vehicle = Name(loaded.value.common.vehicle);
-    std::ifstream file(options.config, std::ios::binary);
-    config = Json::parse(file);
+    data = read_log(options.log, loaded.value);
+    if (!options.config.empty()) {
+      std::ifstream file(options.config, std::ios::binary);
+      config = Json::parse(file);
+    }
+  } else {
+    data = read_dataset(options.log, "auv");
   }
-  const dataset::Dataset data = read_dataset(options.log, vehicle);
   const auto& imu = data.of<ImuSample>();
   if (imu.size() < 100 || imu.back().header.stamp_ns - imu.front().header.stamp_ns < 5 * kNsPerSecond)
     throw Failure(ExitCode::bad_input,
@@ -149,11 +152,14 @@ void add_commission(CLI::App& app, ExitCode& exit_code) {
       "water, dives. What it cannot tell is said, with the manoeuvre that would. Exit code 1 when something "
       "is\n"
       "wrong. The data set: common/dataset/README.md.");
-  command->add_option("log", options->log, "data set: a folder with imu.csv and others, plain or .gz")
+  command
+      ->add_option("log", options->log,
+                   "data set: a folder with imu.csv and others, plain or .gz; or a recording (.mcap)")
       ->required();
-  command->add_option(
-      "--config", options->config,
-      "configuration of fusion that the log is held against; without one: nothing is turned or late");
+  command->add_option("--config", options->config,
+                      "configuration of fusion that the log is held against; without one: that of a "
+                      "recording, else nothing is "
+                      "turned or late");
   command->add_option("--set", options->sets, "override of the configuration: key.sub=value, may be repeated")
       ->allow_extra_args(false);
   command->add_flag("--json", options->json, "findings as JSON");

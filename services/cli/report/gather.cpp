@@ -22,10 +22,6 @@ constexpr double kGapSteps = 5.0;
 /// Ages of an outage for which its forecast is kept, s.
 constexpr std::array<double, 12> kAges_s{5, 10, 15, 20, 30, 45, 60, 120, 300, 600, 1800, 7200};
 
-double seconds_of(TimeNs stamp_ns) {
-  return to_seconds(stamp_ns - dataset::kDefaultEpochNs);
-}
-
 double horizontal_sigma_m(const NavState& state) {
   return std::sqrt(state.position_covariance_N_m2[0] + state.position_covariance_N_m2[4]);
 }
@@ -87,7 +83,8 @@ class OutageWatch {
   std::vector<report::Outage> outages_;
 };
 
-void look_at_inertial(const std::vector<ImuSample>& samples, Material& out) {
+void look_at_inertial(const std::vector<ImuSample>& samples, TimeNs epoch_ns, Material& out) {
+  const auto seconds_of = [epoch_ns](TimeNs stamp_ns) { return to_seconds(stamp_ns - epoch_ns); };
   out.imu_samples = samples.size();
   out.begin_s = seconds_of(samples.front().header.stamp_ns);
   out.end_s = seconds_of(samples.back().header.stamp_ns);
@@ -103,30 +100,31 @@ void look_at_inertial(const std::vector<ImuSample>& samples, Material& out) {
 }
 
 template <class Sample>
-std::vector<report::Place> places(const std::vector<Sample>& samples) {
+std::vector<report::Place> places(const std::vector<Sample>& samples, TimeNs epoch_ns) {
   const std::size_t stride = std::max<std::size_t>(1, samples.size() / static_cast<std::size_t>(kMostRows));
   std::vector<report::Place> out;
   for (std::size_t i = 0; i < samples.size(); i += stride)
-    out.push_back(
-        {seconds_of(samples[i].header.stamp_ns), samples[i].latitude_rad, samples[i].longitude_rad});
+    out.push_back({to_seconds(samples[i].header.stamp_ns - epoch_ns), samples[i].latitude_rad,
+                   samples[i].longitude_rad});
   return out;
 }
 
 class Gatherer {
  public:
-  explicit Gatherer(const SolveRun& solve_run) : truth_(solve_run.data->reference) {
+  Gatherer(const SolveRun& solve_run, TimeNs epoch_ns)
+      : epoch_ns_(epoch_ns), truth_(solve_run.data->reference) {
     const dataset::Dataset& data = *solve_run.data;
-    look_at_inertial(data.of<ImuSample>(), out_);
+    look_at_inertial(data.of<ImuSample>(), epoch_ns_, out_);
     step_s_ = std::max(0.1, (out_.end_s - out_.begin_s) / kMostRows);
     for_each_kind([&](auto kind) {
       const std::size_t rows = data.of<typename decltype(kind)::Sample>().size();
       if (rows > 0) out_.samples[std::string(kind.kWord)] = rows;
     });
-    out_.reference = places(data.reference);
+    out_.reference = places(data.reference, epoch_ns_);
     std::vector<GpsSample> fixes;
     for (const GpsSample& fix : data.of<GpsSample>())
       if (fix.fix != GpsFix::none && !solve_run.removes(fix)) fixes.push_back(fix);
-    out_.fixes = places(fixes);
+    out_.fixes = places(fixes, epoch_ns_);
   }
 
   void add(const NavState& state, estimation::FusionEngine& engine) {
@@ -171,6 +169,9 @@ class Gatherer {
   }
 
  private:
+  [[nodiscard]] double seconds_of(TimeNs stamp_ns) const { return to_seconds(stamp_ns - epoch_ns_); }
+
+  TimeNs epoch_ns_;
   Material out_;
   dataset::TruthTrack truth_;
   dataset::Scorer scorer_;
@@ -180,8 +181,8 @@ class Gatherer {
 
 }  // namespace
 
-Material gather(const SolveRun& solve_run) {
-  Gatherer gatherer(solve_run);
+Material gather(const SolveRun& solve_run, TimeNs epoch_ns) {
+  Gatherer gatherer(solve_run, epoch_ns);
   SolveRun own = solve_run;
   own.on_state = [&](const NavState& state, estimation::FusionEngine& engine) {
     gatherer.add(state, engine);

@@ -9,6 +9,6 @@ namespace fathom::cli {
 
 /// Runs the engine over the data and keeps what a report shows. `solve_run.on_state` and `on_verdict` are not
 /// used.
-[[nodiscard]] report::Material gather(const SolveRun& solve_run);
+[[nodiscard]] report::Material gather(const SolveRun& solve_run, TimeNs epoch_ns);
 
 }  // namespace fathom::cli

@@ -31,6 +31,7 @@ report::Material make(const ReportOptions& options) {
   const config::LoadedConfig<config::FusionConfig> loaded =
       configuration_for(options.directory, options.config, options.sets);
   const dataset::Dataset data = read_log(options.directory, loaded.value);
+  const TimeNs epoch_ns = time_zero_of(options.directory, data);
   const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
   SolveRun solve_run;
   solve_run.config = &loaded.value;
@@ -40,15 +41,14 @@ report::Material make(const ReportOptions& options) {
   if (options.start == "reference")
     solve_run.start = start_from_reference(data, loaded.value, options.directory);
   if (!options.outages.empty()) {
-    solve_run.gps_removed =
-        first_windows(data, parse_outages(options.outages), dataset::kDefaultEpochNs, options.directory);
+    solve_run.gps_removed = first_windows(data, parse_outages(options.outages), epoch_ns, options.directory);
   }
-  report::Material material = gather(solve_run);
+  report::Material material = gather(solve_run, epoch_ns);
   const std::filesystem::path folder = std::filesystem::path(options.directory).lexically_normal();
   material.title =
       "Navigation of " + (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   material.source = options.directory;
-  material.config = options.config;
+  material.config = options.config.empty() ? "its own configuration" : options.config;
   material.config_hash = loaded.hash;
   material.version = "fathom " + std::string(runtime::version());
   return material;
@@ -59,15 +59,18 @@ report::Material make(const ReportOptions& options) {
 void add_report(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ReportOptions>();
   CLI::App* command = app.add_subcommand(
-      "report", "Runs a data set through the fusion engine and writes one HTML page about the run.");
+      "report",
+      "Runs a data set or a recording through the fusion engine and writes one HTML page about the run.");
   command->footer(
       "The page says first what to look at, then shows the track, errors against reference.csv where there "
       "is\n"
       "one, sigmas, innovations, outages with their forecasts, and alignment. It needs nothing from "
       "elsewhere,\n"
       "and is readable by day, by night and on paper.");
-  command->add_option("directory", options->directory, "data set, as of fathom solve")->required();
-  command->add_option("--config", options->config, "configuration of the fusion service")->required();
+  command->add_option("directory", options->directory, "data set, or a recording (.mcap), as of fathom solve")
+      ->required();
+  command->add_option("--config", options->config,
+                      "configuration of the fusion service; of a recording without it: its own");
   command->add_option("--set", options->sets, "override: key.sub=value, may be repeated")
       ->allow_extra_args(false);
   command->add_option("--out", options->out, "the page (HTML)")->required();

@@ -201,8 +201,6 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
                       "gave and write them, each with its sigma (JSON)");
   command->add_flag("--json", options->json, "print the metrics as JSON");
   command->callback([options, &exit_code] {
-    if (options->config.empty() && !is_recording(options->directory))
-      throw Failure(ExitCode::bad_configuration, "--config is required; see --help");
     const SolveReport report = solve(*options);
     if (!options->metrics.empty()) write_text(options->metrics, to_json(report));
     std::fputs((options->json ? to_json(report) : to_text(report)).c_str(), stdout);
