@@ -19,12 +19,6 @@ using estimation::StartMode;
 constexpr double kDive_s = 180.0;
 
 constexpr GpsFigures kMarineGps{};
-constexpr GpsFigures kAirborneGps{.rate_hz = 5.0,
-                                  .noise_m = 0.5,
-                                  .drift_m = 1.5,
-                                  .drift_s = 200.0,
-                                  .velocity_m_s = 0.1,
-                                  .lever_B_m = {0.5, 0.0, -0.3}};
 /// An aircraft crabs.
 constexpr double kAirborneCourse_rad = 15.0 * kDegree;
 

@@ -3,22 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-
 #include "estimation/engine/fusion_engine.hpp"
-#include "samples/uncertainty.hpp"
-#include "study/consistency/cells.hpp"
-#include "study/consistency/instruments.hpp"
+#include "study/consistency/cell_run.hpp"
+#include "study/consistency/errors.hpp"
 
 namespace fathom::study {
 namespace {
-
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
 
 constexpr std::array<std::string_view, 6> kConfigurations{"gps_ins15", "gps_ins24", "gps_ins36",
                                                           "standard",  "hybrid25",  "full"};
@@ -34,50 +26,8 @@ constexpr std::string_view kHeadingError = "heading_error";
 constexpr std::string_view kHorizontalError = "horizontal_error";
 constexpr std::string_view kAligned = "time_to_aligned";
 
-constexpr TimeNs kEpoch_ns = 1'700'000'000 * kNsPerSecond;
 constexpr double kScoreEvery_s = 10.0;
 constexpr double kLongestForecast_s = 120.0;
-
-/// Errors at one instant, each with its normalised square.
-struct Errors {
-  double tilt_rad = 0.0;
-  double heading_rad = 0.0;
-  double horizontal_m = 0.0;
-  double tilt = 0.0;
-  double heading = 0.0;
-  double velocity = 0.0;
-  double position = 0.0;
-  bool covered = false;
-};
-
-double normalised(const Vector3d& error, const std::array<double, 9>& covariance) {
-  const Matrix3d p = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(covariance.data());
-  return error.dot(p.inverse() * error);
-}
-
-Matrix3d axes_of(const std::array<double, 4>& q) {
-  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-}
-
-Errors errors_of(const NavState& nav, const Eigen::Matrix<double, 9, 9>& covariance, const Pose& truth) {
-  Errors out;
-  const Eigen::AngleAxisd turn(truth.axes_NB * axes_of(nav.q_NB).transpose());
-  const Eigen::Vector2d tilt = (turn.angle() * turn.axis()).head<2>();
-  const Eigen::Matrix2d p = covariance.block<2, 2>(6, 6);
-  out.tilt_rad = tilt.norm();
-  out.tilt = tilt.dot(p.inverse() * tilt);
-  const double heading = std::atan2(truth.axes_NB(1, 0), truth.axes_NB(0, 0));
-  out.heading_rad = std::remainder(nav.rpy_rad[2] - heading, 2.0 * std::numbers::pi);
-  out.heading = std::pow(out.heading_rad / nav.rpy_sigma_rad[2], 2);
-  const Vector3d velocity = Vector3d(nav.velocity_N_m_s.data()) - truth.velocity_N_m_s;
-  out.velocity = normalised(velocity, nav.velocity_covariance_N_m2_s2);
-  const Vector3d position =
-      ecef::offset_N_m(truth.place, {nav.latitude_rad, nav.longitude_rad, nav.altitude_m});
-  out.position = normalised(position, nav.position_covariance_N_m2);
-  out.horizontal_m = position.head<2>().norm();
-  out.covered = out.horizontal_m <= horizontal_95_m(nav.position_covariance_N_m2);
-  return out;
-}
 
 /// One configuration in one run.
 class Contender {
@@ -146,19 +96,6 @@ class Contender {
   std::vector<Errors> errors_;
 };
 
-/// When an instrument with a rate of its own speaks, in inertial steps.
-class Beat {
- public:
-  Beat(double imu_rate_hz, double rate_hz)
-      : every_(std::max(1L, std::lround(imu_rate_hz / rate_hz))), period_s_(every_ / imu_rate_hz) {}
-  [[nodiscard]] bool strikes(long step) const { return step % every_ == 0; }
-  [[nodiscard]] double period_s() const { return period_s_; }
-
- private:
-  long every_;
-  double period_s_;
-};
-
 class Consistency final : public Study {
  public:
   [[nodiscard]] std::string_view name() const override { return "consistency"; }
@@ -201,47 +138,19 @@ void Consistency::run(const RunRequest& request, Scores& scores) const {
   const auto cells = consistency_cells();
   const Cell& cell = *std::find_if(cells.begin(), cells.end(),
                                    [&](const Cell& one) { return one.name == request.case_name; });
-  const std::uint64_t seed = request.seed;
-  const Manoeuvres manoeuvres = cell.motion(seed);
-  sim::Random random(seed, "place");
-  const double latitude = (cell.latitude_deg + random.uniform(-1.0, 1.0)) * std::numbers::pi / 180.0;
-  TruthPath path(manoeuvres, {latitude, random.uniform(-3.0, 3.0), cell.height_m});
-
+  CellRun run(cell, request.seed);
   std::vector<Contender> contenders;
   contenders.reserve(kConfigurations.size());
   for (const std::string_view one : kConfigurations)
-    if (request.wants(one) && suits(cell, one)) contenders.emplace_back(one, cell, path.pose(), seed);
+    if (request.wants(one) && suits(cell, one)) contenders.emplace_back(one, cell, run.pose(), request.seed);
   if (contenders.empty()) return;
-
-  InertialUnit imu(*cell.inertial, seed);
-  GpsReceiver gps(cell.gps, seed);
-  DopplerLog dvl(cell.dvl, seed);
-  DepthGauge depth(kDepthGauge, kSurfaceHeight_m, seed);
-  Compass compass(kCompass, seed);
-  const double dt_s = 1.0 / cell.imu_rate_hz;
-  const Beat gps_beat(cell.imu_rate_hz, cell.gps.rate_hz);
-  const Beat dvl_beat(cell.imu_rate_hz, cell.dvl.rate_hz);
-  const Beat depth_beat(cell.imu_rate_hz, kDepthGauge.rate_hz);
-  const Beat compass_beat(cell.imu_rate_hz, kCompass.rate_hz);
 
   const auto steps = std::lround(cell.duration_s * cell.imu_rate_hz);
   for (long step = 0; step < steps; ++step) {
-    ImuSample inertial = imu.read(path.advance(dt_s), dt_s);
-    const TimeNs stamp_ns = kEpoch_ns + from_seconds(static_cast<double>(step + 1) * dt_s);
-    const auto hand_out = [&](auto sample, std::string_view sensor) {
-      sample.header.vehicle = std::string_view("auv");
-      sample.header.sensor = sensor;
-      sample.header.stamp_ns = sample.header.received_ns = stamp_ns;
-      sample.header.sequence = static_cast<std::uint64_t>(step + 1);
+    run.step([&](const auto& sample) {
       for (Contender& one : contenders) one.take(sample);
-    };
-    if (gps_beat.strikes(step) && path.time_s() < cell.outage_from_s)
-      hand_out(gps.read(path.pose(), gps_beat.period_s()), "gps");
-    if (cell.under_water && dvl_beat.strikes(step)) hand_out(dvl.read(path.pose()), "dvl");
-    if (cell.under_water && depth_beat.strikes(step)) hand_out(depth.read(path.pose()), "depth");
-    if (compass_beat.strikes(step)) hand_out(compass.read(path.pose()), "heading");
-    hand_out(inertial, "imu");
-    for (Contender& one : contenders) one.look(path.time_s(), [&] { return path.pose(); });
+    });
+    for (Contender& one : contenders) one.look(run.time_s(), [&] { return run.pose(); });
   }
   for (const Contender& one : contenders) one.report(scores);
 }

@@ -57,6 +57,14 @@ struct GpsFigures {
   std::array<double, 3> lever_B_m{0.3, 0.0, -0.5};
 };
 
+/// On an aircraft or a car.
+inline constexpr GpsFigures kAirborneGps{.rate_hz = 5.0,
+                                         .noise_m = 0.5,
+                                         .drift_m = 1.5,
+                                         .drift_s = 200.0,
+                                         .velocity_m_s = 0.1,
+                                         .lever_B_m = {0.5, 0.0, -0.3}};
+
 struct DvlFigures {
   double rate_hz = 5.0;
   double noise_m_s = 0.006;
