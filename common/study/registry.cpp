@@ -5,6 +5,7 @@
 #include "study/gps_outage/gps_outage.hpp"
 #include "study/hydro/hydro_study.hpp"
 #include "study/rotating_arm/rotating_arm.hpp"
+#include "study/starts/starts.hpp"
 #include "study/survey/survey.hpp"
 
 namespace fathom::study {
@@ -14,6 +15,7 @@ const std::vector<std::unique_ptr<const Study>>& study_registry() {
     std::vector<std::unique_ptr<const Study>> studies;
     studies.push_back(std::make_unique<const AlignmentStudy>());
     studies.push_back(make_consistency_study());
+    studies.push_back(make_starts_study());
     studies.push_back(make_gps_outage_study());
     studies.push_back(make_rotating_arm_study());
     studies.push_back(make_survey_study());
