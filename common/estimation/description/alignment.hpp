@@ -61,16 +61,17 @@ void describe(Walk<AlignmentConfig>& s) {
       .unit("m/s")
       .range(0.1, 1000);
   s.field("in_motion_heading_sigma_deg", &C::in_motion_heading_sigma_rad,
-          "uncertainty of a heading taken from the course")
+          "uncertainty of a heading taken from the course: how far the vehicle may crab")
       .unit("deg")
       .range(0.01, 180)
       .scaled(kRadPerDeg);
   s.field("in_motion_tilt_sigma_deg", &C::in_motion_tilt_sigma_rad,
-          "uncertainty of roll and pitch levelled in motion")
+          "uncertainty of roll and pitch that are levelled under way without GPS")
       .unit("deg")
       .range(0.01, 57)
       .scaled(kRadPerDeg);
-  s.field("in_motion_averaging_s", &C::in_motion_averaging_s, "window of levelling in motion")
+  s.field("in_motion_averaging_s", &C::in_motion_averaging_s,
+          "window of levelling in motion; between two velocities of GPS where there are any")
       .unit("s")
       .range(0.1, 600);
   s.field("aligned_tilt_sigma_deg", &C::aligned_tilt_sigma_rad,

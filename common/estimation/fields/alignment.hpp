@@ -5,6 +5,7 @@
 #include "estimation/alignment/drop_alignment.hpp"
 #include "estimation/alignment/rest_window.hpp"
 #include "estimation/alignment/under_way.hpp"
+#include "estimation/alignment/velocity_window.hpp"
 
 /// Fields of the parts that find the attitude. What is made from the configuration is left out.
 namespace fathom::estimation {
@@ -31,6 +32,41 @@ void RestWindow::fields(Archive& archive, Self& self) {
   archive("heading_cosine", self.heading_cosine_, fathom::archive::finite());
   if constexpr (Archive::kReads)
     archive.expect((self.count_ > 0) == (self.duration_s_ > 0.0), "duration_s", "the time of its samples");
+}
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, InertialSpan>
+void fields(Archive& archive, Self& self) {
+  archive("duration_s", self.duration_s, fathom::archive::at_least_zero());
+  archive("q_start_now", self.q_start_now);
+  archive("dv_m_s", self.dv_m_s, fathom::archive::finite());
+  archive("by_accel_bias", self.by_accel_bias, fathom::archive::finite());
+  archive("turn_by_bias", self.turn_by_bias, fathom::archive::finite());
+  archive("dv_by_gyro_bias", self.dv_by_gyro_bias, fathom::archive::finite());
+}
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, VelocityMark>
+void fields(Archive& archive, Self& self) {
+  archive("v_N_m_s", self.v_N_m_s, fathom::archive::finite());
+  archive("sigma_m_s", self.sigma_m_s, fathom::archive::at_least_zero());
+  archive("rate_B_rad_s", self.rate_B_rad_s, fathom::archive::finite());
+  archive("span", self.span);
+}
+
+template <class Archive, class Self>
+void VelocityWindow::fields(Archive& archive, Self& self) {
+  archive("open", self.open_);
+  archive("complete", self.complete_);
+  archive("has_middle", self.has_middle_);
+  archive("pending", self.pending_);
+  archive("measured_ns", self.measured_ns_, fathom::archive::kInstant);
+  archive("pending_v_N_m_s", self.pending_v_N_m_s_, fathom::archive::finite());
+  archive("pending_sigma_m_s", self.pending_sigma_m_s_, fathom::archive::at_least_zero());
+  archive("now", self.now_);
+  archive("first", self.first_);
+  archive("middle", self.middle_);
+  archive("last", self.last_);
 }
 
 template <class Archive, class Self>

@@ -82,6 +82,11 @@ void Estimate::fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+void Estimate::later_fields(Archive& archive, Self& self) {
+  archive("usual_force_B", self.usual_force_B_m_s2, fathom::archive::finite());
+}
+
+template <class Archive, class Self>
 void Reacquisition::fields(Archive& archive, Self& self) {
   archive("reset_counter", self.reset_counter_, fathom::archive::kAnyWhole);
   archive("last_reset_N_m", self.last_reset_N_m_, fathom::archive::finite());
@@ -123,6 +128,11 @@ void Starter::fields(Archive& archive, Self& self) {
           fathom::archive::or_unknown(fathom::archive::at_least_zero()));
   archive("fast_fixes", self.fast_fixes_, fathom::archive::kCount);
   archive("under_way", self.under_way_);
+}
+
+template <class Archive, class Self>
+void Starter::later_fields(Archive& archive, Self& self) {
+  archive("velocities", self.velocities_);
 }
 
 template <class Archive, class Self>
@@ -182,6 +192,10 @@ void Navigator::fields(Archive& archive, Self& self) {
   if (archive.since(2)) {
     archive("bottom_used_ns", self.usage_.bottom_used_ns, fathom::archive::kInstant);
     archive("water_layers", self.instruments_.water_layers);
+  }
+  if (archive.since(5)) {
+    Estimate::later_fields(archive, self.estimate_);
+    Starter::later_fields(archive, self.starter_);
   }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }

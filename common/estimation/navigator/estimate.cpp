@@ -11,7 +11,8 @@ namespace {
 
 /// A heading known better than this turns nothing far.
 constexpr double kKnownHeading_rad = 0.01;
-/// How long tilt and accelerometer bias keep what they share (NOISE-3).
+/// How long tilt and accelerometer bias keep what they share (NOISE-3), and how long a gyro bias takes to
+/// follow a change (NOISE-4).
 constexpr double kDriftMemory_s = 30.0;
 
 }  // namespace
@@ -43,6 +44,7 @@ void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns)
   const ErrorRates rates = error_rates(earth, v_before, c * force_B_m_s2);
   ProcessNoise noise = setup.process_noise(c, rate_B_rad_s, force_B_m_s2);
   add_second_order(setup, c, noise);
+  add_g_sensitivity(setup, dt, noise);
   filter.propagate(NavTransition(index, rates, c, rate_B_rad_s, force_B_m_s2, dt), noise);
   settle_biases(setup, filter, -dt, dt);
   state.nav = mechanise(state.nav, earth, c, correct(in, fraction));
@@ -69,6 +71,16 @@ void Estimate::add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB,
   const Vector3d down_B = C_NB.row(2).transpose();
   const double rate = down_B.dot(filter.block3(gyro, gyro) * down_B);
   noise.attitude += kDriftMemory_s * rate * about_down * tilts * about_down.transpose();
+}
+
+void Estimate::add_g_sensitivity(const Setup& setup, double dt_s, ProcessNoise& noise) {
+  // (NOISE-4)
+  const double k = setup.config.imu.gyro_g_sensitivity_rad_s_per_m_s2;
+  if (k <= 0.0) return;
+  const Vector3d fresh = force_B_m_s2 - usual_force_B_m_s2;
+  const Vector3d learned = usual_force_B_m_s2 + Vector3d(0.0, 0.0, kStandardGravity_m_s2);
+  noise.attitude.diagonal().array() += 2.0 * kDriftMemory_s * k * k * std::max(0.0, learned.dot(fresh));
+  usual_force_B_m_s2 += (1.0 - std::exp(-dt_s / kDriftMemory_s)) * fresh;
 }
 
 void Estimate::settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "base/standard_gravity.hpp"
 #include "base/unknown.hpp"
 #include "estimation/aiding/model.hpp"
 #include "estimation/aiding/policy.hpp"
@@ -22,8 +23,10 @@ struct Estimate {
   TimeNs began_ns = 0;      ///< when navigation did
   FilterState state;
   ErrorFilter filter;
-  Eigen::Vector3d rate_B_rad_s = Eigen::Vector3d::Zero();   ///< against the stars, bias-corrected
-  Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();   ///< specific force, bias-corrected
+  Eigen::Vector3d rate_B_rad_s = Eigen::Vector3d::Zero();  ///< against the stars, bias-corrected
+  Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();  ///< specific force, bias-corrected
+  /// Felt for so long that the gyro biases have learned what it does to the gyros (NOISE-4).
+  Eigen::Vector3d usual_force_B_m_s2{0.0, 0.0, -kStandardGravity_m_s2};
   Eigen::Vector3d travelled_N_m = Eigen::Vector3d::Zero();  ///< integral of the velocity
 
   /// Seconds since an instant; unknown when it is 0, which stands for never.
@@ -58,8 +61,13 @@ struct Estimate {
   /// For archives: see fields/navigator.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
+  /// Those that came with version 5.
+  template <class Archive, class Self>
+  static void later_fields(Archive& archive, Self& self);
 
  private:
+  /// (NOISE-4) What `dt_s` of a force that is not usual makes of the gyros' g-sensitivity.
+  void add_g_sensitivity(const Setup& setup, double dt_s, ProcessNoise& noise);
   /// (NOISE-3) What the products of heading error, tilt and rate leave out of a linear step.
   void add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB, ProcessNoise& noise) const;
 };

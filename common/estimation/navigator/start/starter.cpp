@@ -14,6 +14,8 @@ using Eigen::Vector3d;
 
 constexpr double kLeastWindow_s = 0.5;
 constexpr double kWindowsKept = 4.0;
+/// What a vehicle may climb by that nobody measures.
+constexpr double kUnknownVertical_m_s = 3.0;
 
 }  // namespace
 
@@ -48,6 +50,14 @@ void Starter::collect_gps(const Setup& setup, const Estimate& estimate, const Se
   const bool high = std::abs(gps.altitude_m) < 5e4;  // false where it is unknown
   gps_position_ = {gps.latitude_rad, gps.longitude_rad, high ? gps.altitude_m : 0.0};
   gps_velocity_N_ = {v.x(), v.y(), std::isfinite(v.z()) ? v.z() : 0.0};
+  if (known(speed) && !estimate.navigating) {
+    Vector3d sigma;
+    for (std::size_t i = 0; i < 3; ++i)
+      sigma(static_cast<int>(i)) =
+          sigma_of(config.velocity_sigma_m_s[i], gps.velocity_sigma_N_m_s[i], config.use_sample_sigma);
+    if (!std::isfinite(v.z())) sigma.z() = kUnknownVertical_m_s;
+    velocities_.measured(estimate.now_ns, gps_velocity_N_, sigma);
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const double sigma = sigma_of(config.sigma[i], gps.position_sigma_N_m[i], config.use_sample_sigma);
     gps_sigma_N_m_(static_cast<int>(i)) = std::max(sigma, setup.config.alignment.position_sigma_m);
@@ -56,7 +66,7 @@ void Starter::collect_gps(const Setup& setup, const Estimate& estimate, const Se
 }
 
 void Starter::forget() {
-  window_.reset();
+  interrupt();
   smooth_time_s_ = 0.0;
   fast_fixes_ = 0;
 }
@@ -93,20 +103,15 @@ bool Starter::align(const StartInputs& in, bool released, const ImuStep& step, E
   const double keep = std::exp(-dt_s / config.in_motion_averaging_s);
   smooth_force_ = smooth_time_s_ > 0.0 ? Vector3d(keep * smooth_force_ + (1.0 - keep) * force) : force;
   smooth_time_s_ += dt_s;
+  velocities_.add(now_ns, dt_s, step.increments.dtheta_rad / dt_s, force, config.in_motion_averaging_s);
   const bool may_move = config.mode != StartMode::at_rest;
   // A dropped vehicle that only runs smoothly is not at rest: GPS has to say so.
   const bool may_rest =
       config.mode != StartMode::in_motion && (!released || estimate.since(gps_seen_ns_) <= kFreshFix_s);
   const bool late = to_seconds(now_ns - alignment.waiting_since_ns) > config.timeout_s;
 
-  if (may_move && can_start_in_motion(in)) {
-    start_in_motion(in, estimate);
-    return true;
-  }
-  if (may_move && can_start_under_way(in)) {
-    start_under_way(in, estimate);
-    return true;
-  }
+  if (may_move && can_start_in_motion(in) && start_in_motion(in, estimate)) return true;
+  if (may_move && can_start_under_way(in) && start_under_way(in, estimate)) return true;
   if (!may_rest) {
     if (late) alignment.enter(AlignmentPhase::timed_out, now_ns);
     return false;
@@ -141,11 +146,7 @@ void Starter::begin(const StartInputs& in, const FilterState& state, std::array<
   Vector3d lever = Vector3d::Zero();
   Vector3d position_sigma = Vector3d::Constant(setup.config.alignment.position_sigma_m);
   if (from_gps) {
-    for (const SensorConfig& one : setup.config.sensors) {
-      if (one.kind != SourceKind::gps) continue;
-      lever = geo::vec(one.lever_B_m);
-      break;
-    }
+    lever = lever_of_gps_B_m(setup);
     position_sigma = gps_sigma_N_m_;
   } else if (usbl_places(in)) {
     const double horizontal = std::max(under_way_.usbl_sigma_m, setup.config.alignment.position_sigma_m);
@@ -173,6 +174,12 @@ void Starter::begin(const StartInputs& in, const FilterState& state, std::array<
       estimate.filter.set(i, bias + i, variance);
     }
   }
+}
+
+Vector3d lever_of_gps_B_m(const Setup& setup) {
+  for (const SensorConfig& one : setup.config.sensors)
+    if (one.kind == SourceKind::gps) return geo::vec(one.lever_B_m);
+  return Vector3d::Zero();
 }
 
 void begin_given(const Setup& setup, const InitialState& initial, TimeNs now_ns, Estimate& estimate) {

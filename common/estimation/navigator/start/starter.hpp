@@ -4,6 +4,7 @@
 
 #include "estimation/alignment/rest_window.hpp"
 #include "estimation/alignment/under_way.hpp"
+#include "estimation/alignment/velocity_window.hpp"
 #include "estimation/navigator/estimate.hpp"
 #include "estimation/navigator/measurement.hpp"
 #include "estimation/navigator/start/alignment_watch.hpp"
@@ -41,7 +42,10 @@ class Starter {
   [[nodiscard]] bool align(const StartInputs& in, bool released, const ImuStep& step, Estimate& estimate,
                            AlignmentWatch& alignment);
   /// Averages must not span a gap.
-  void interrupt() { window_.reset(); }
+  void interrupt() {
+    window_.reset();
+    velocities_.reset();
+  }
   /// The attitude was lost: what was averaged belongs to another one.
   void forget();
 
@@ -52,6 +56,7 @@ class Starter {
   template <class Self, class Visit>
   static void for_each_instant(Self& self, Visit&& visit) {
     visit(self.gps_seen_ns_);
+    VelocityWindow::for_each_instant(self.velocities_, visit);
     visit(self.under_way_.heading_ns);
     visit(self.under_way_.dvl_ns);
     visit(self.under_way_.usbl_ns);
@@ -60,6 +65,9 @@ class Starter {
   /// For archives: see fields/navigator.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
+  /// Those that came with version 5.
+  template <class Archive, class Self>
+  static void later_fields(Archive& archive, Self& self);
 
  private:
   void collect_gps(const Setup& setup, const Estimate& estimate, const SensorConfig& config,
@@ -84,9 +92,13 @@ class Starter {
   void collect_under_way(const Setup& setup, const Estimate& estimate, const Measurement& measurement,
                          const SensorConfig& config);
   [[nodiscard]] bool can_start_in_motion(const StartInputs& in) const;
-  void start_in_motion(const StartInputs& in, Estimate& estimate) const;
+  /// False, with nothing done, where what was measured gives no attitude.
+  [[nodiscard]] bool start_in_motion(const StartInputs& in, Estimate& estimate) const;
   [[nodiscard]] bool can_start_under_way(const StartInputs& in) const;
-  void start_under_way(const StartInputs& in, Estimate& estimate) const;
+  [[nodiscard]] bool start_under_way(const StartInputs& in, Estimate& estimate) const;
+  /// By the velocities of GPS; heading from the course where none is given.
+  [[nodiscard]] bool start_moving_by(const StartInputs& in, std::optional<double> heading_rad,
+                                     double heading_sigma_rad, Estimate& estimate) const;
   /// Only an acoustic fix says where the vehicle is.
   [[nodiscard]] bool usbl_places(const StartInputs& in) const;
 
@@ -99,8 +111,12 @@ class Starter {
   Eigen::Vector3d gps_sigma_N_m_ = Eigen::Vector3d::Zero();
   double gps_speed_m_s_ = kUnknown;
   int fast_fixes_ = 0;
+  VelocityWindow velocities_;
   UnderWay under_way_;
 };
+
+/// Of the first receiver; zero without one.
+[[nodiscard]] Eigen::Vector3d lever_of_gps_B_m(const Setup& setup);
 
 /// Starts at `now_ns` from a given state: where it was measured somewhere else than at the IMU, or earlier,
 /// it is carried there.

@@ -5,6 +5,8 @@
 
 #include "estimation/aiding/heading.hpp"
 #include "estimation/aiding/usbl_station.hpp"
+#include "estimation/alignment/moving_start.hpp"
+#include "estimation/navigator/start/correlate.hpp"
 #include "estimation/navigator/start/starter.hpp"
 
 namespace fathom::estimation {
@@ -16,6 +18,19 @@ using Eigen::Vector3d;
 constexpr double kFreshVelocity_s = 1.0;
 constexpr double kVelocitySigma_m_s = 0.3;
 constexpr int kFastFixes = 2;
+
+/// (ALN-6): the errors of velocity and attitude have causes in common.
+void correlate_moving(const Setup& setup, const MovingStart& start, ErrorFilter& filter) {
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) filter.set(3 + i, 6 + k, start.P_vp(i, k));
+    for (int k = 0; k <= i; ++k) {
+      filter.set(3 + i, 3 + k, start.P_vv(i, k));
+      filter.set(6 + i, 6 + k, start.P_pp(i, k));
+    }
+  }
+  correlate_accelerometers(setup, start.by_accel_bias, start.mean_force_B_m_s2, filter);
+  correlate_gyros(setup, start.by_gyro_bias, start.mean_rate_B_rad_s, filter);
+}
 
 }  // namespace
 
@@ -53,25 +68,43 @@ void Starter::collect_under_way(const Setup& setup, const Estimate& estimate, co
 }
 
 bool Starter::can_start_in_motion(const StartInputs& in) const {
-  return fast_fixes_ >= kFastFixes && in.estimate.since(gps_seen_ns_) <= 1.0 &&
-         smooth_time_s_ >= in.setup.config.alignment.in_motion_averaging_s;
+  return fast_fixes_ >= kFastFixes && in.estimate.since(gps_seen_ns_) <= 1.0 && velocities_.complete();
 }
 
-void Starter::start_in_motion(const StartInputs& in, Estimate& estimate) const {
-  // (ALN-6): the course is the heading, and the mean specific force points up. Neither is exact; the sigmas
-  // say so, and the filter finds the rest from the GPS velocity.
-  const AlignmentConfig& config = in.setup.config.alignment;
-  const Eigen::Vector2d tilt = level(smooth_force_);
+bool Starter::start_in_motion(const StartInputs& in, Estimate& estimate) const {
+  return start_moving_by(in, std::nullopt, in.setup.config.alignment.in_motion_heading_sigma_rad, estimate);
+}
+
+bool Starter::start_moving_by(const StartInputs& in, std::optional<double> heading_rad,
+                              double heading_sigma_rad, Estimate& estimate) const {
+  // (ALN-6)
+  const Setup& setup = in.setup;
+  const ImuConfig& imu = setup.config.imu;
+  const geo::LocalEarth earth(gps_position_);
+  const double g = earth.gravity_m_s2;
+  const Vector3d v = velocities_.last().v_N_m_s;
+  MovingStartInputs inputs;
+  inputs.gravity_N_m_s2 =
+      earth.gravity_N() - geo::cross(2.0 * earth.earth_rate_N + earth.transport_rate_N(v), v);
+  inputs.lever_B_m = lever_of_gps_B_m(setup);
+  inputs.heading_rad = heading_rad;
+  inputs.heading_sigma_rad = heading_sigma_rad;
+  const double oblique =
+      setup.index.has(Group::accel_misalignment) ? 0.0 : g * imu.accel_misalignment_sigma_rad;
+  const double stretched = setup.index.has(Group::accel_scale) ? 0.0 : g * imu.accel_scale_sigma;
+  const double floor = g * setup.config.alignment.tilt_sigma_floor_rad;
+  inputs.force_sigma_m_s2 = std::hypot(floor, oblique, stretched);
+  inputs.accel_bias_sigma_m_s2 = imu.accel_bias_sigma_m_s2;
+  const auto found = start_moving(velocities_, inputs);
+  if (!found) return false;
+
   FilterState start;
-  const double course = std::atan2(gps_velocity_N_.y(), gps_velocity_N_.x());
-  start.nav.q_NB = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), course));
-  start.nav.position = geo::moved_by(gps_position_, in.estimate.since(gps_seen_ns_) * gps_velocity_N_);
-  start.nav.v_N_m_s = gps_velocity_N_;
-  std::array<double, kMaxStates> sigma = in.setup.initial_sigma;
-  for (std::size_t i = 0; i < 3; ++i) sigma[3 + i] = 1.0;
-  sigma[6] = sigma[7] = config.in_motion_tilt_sigma_rad;
-  sigma[8] = config.in_motion_heading_sigma_rad;
-  begin(in, start, sigma, estimate);
+  start.nav.q_NB = found->q_NB;
+  start.nav.v_N_m_s = found->v_N_m_s;
+  start.nav.position = geo::moved_by(gps_position_, in.estimate.since(gps_seen_ns_) * found->v_N_m_s);
+  begin(in, start, setup.initial_sigma, estimate);
+  correlate_moving(setup, *found, estimate.filter);
+  return true;
 }
 
 bool Starter::can_start_under_way(const StartInputs& in) const {
@@ -84,6 +117,7 @@ bool Starter::can_start_under_way(const StartInputs& in) const {
   const bool dvl = in.estimate.since(under_way_.dvl_ns) <= kFreshVelocity_s;
   // At rest the levelling of a longer window is the better start.
   const double speed_m_s = gps ? gps_speed_m_s_ : dvl ? under_way_.dvl_velocity_B_m_s.norm() : 0.0;
+  if (gps && !velocities_.complete()) return false;
   return speed_m_s > config.max_speed_m_s && (start_position(in).has_value() || usbl_places(in));
 }
 
@@ -91,16 +125,17 @@ bool Starter::usbl_places(const StartInputs& in) const {
   return !start_position(in).has_value() && in.estimate.since(under_way_.usbl_ns) <= kFreshFix_s;
 }
 
-void Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
-  // (ALN-8): heading from the compass, level from the mean specific force, velocity from GPS, else from the
-  // DVL turned by that attitude; position from GPS, an order or the configuration, else from an acoustic fix.
+bool Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
+  if (velocities_.complete())
+    return start_moving_by(in, under_way_.heading_rad, under_way_.heading_sigma_rad, estimate);
+  // (ALN-8): heading from the compass, level from the mean specific force, velocity from the DVL turned by
+  // that attitude; position from an order or the configuration, else from an acoustic fix.
   const AlignmentConfig& config = in.setup.config.alignment;
   const Eigen::Vector2d tilt = level(smooth_force_);
   FilterState start;
   start.nav.q_NB = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), under_way_.heading_rad));
   const Matrix3d c = geo::to_matrix(start.nav.q_NB);
-  const bool gps = in.estimate.since(gps_seen_ns_) <= kFreshVelocity_s;
-  start.nav.v_N_m_s = gps ? gps_velocity_N_ : Vector3d(c * under_way_.dvl_velocity_B_m_s);
+  start.nav.v_N_m_s = c * under_way_.dvl_velocity_B_m_s;
   double age_s = 0.0;
   if (usbl_places(in)) {
     age_s = in.estimate.since(under_way_.usbl_ns);
@@ -112,11 +147,12 @@ void Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
   }
   start.nav.position = geo::moved_by(start.nav.position, age_s * start.nav.v_N_m_s);
   std::array<double, kMaxStates> sigma = in.setup.initial_sigma;
-  const double turned = start.nav.v_N_m_s.norm() * (gps ? 0.0 : under_way_.heading_sigma_rad);
+  const double turned = start.nav.v_N_m_s.norm() * under_way_.heading_sigma_rad;
   for (std::size_t i = 0; i < 3; ++i) sigma[3 + i] = std::hypot(kVelocitySigma_m_s, turned);
   sigma[6] = sigma[7] = config.in_motion_tilt_sigma_rad;
   sigma[8] = std::hypot(under_way_.heading_sigma_rad, 0.5 * config.in_motion_tilt_sigma_rad);
   begin(in, start, sigma, estimate);
+  return true;
 }
 
 }  // namespace fathom::estimation

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/navigator/start/correlate.hpp"
 #include "estimation/navigator/start/starter.hpp"
 
 namespace fathom::estimation {
@@ -21,26 +22,7 @@ void correlate_level(const Setup& setup, const geo::Geodetic& position, const Ma
   Matrix3d t = Matrix3d::Zero();
   t(0, 1) = 1.0 / g;
   t(1, 0) = -1.0 / g;
-  const Matrix3d tc = t * c;
-  const auto carries = [&](Group group, int component, const Vector3d& force_B) {
-    const int state = setup.index.of(group);
-    if (state < 0) return;
-    const double variance = filter(state + component, state + component);
-    const Vector3d tilt = tc * force_B;
-    for (int i = 0; i < 3; ++i) {
-      filter.set(6 + i, state + component, variance * tilt(i));
-      for (int k = 0; k <= i; ++k)
-        filter.set(6 + i, 6 + k, filter(6 + i, 6 + k) + variance * tilt(i) * tilt(k));
-    }
-  };
-  const Vector3d rest_force_B = -g * c.row(2).transpose();
-  for (int i = 0; i < 3; ++i) {
-    carries(Group::accel_bias, i, Vector3d::Unit(i));
-    carries(Group::accel_scale, i, rest_force_B(i) * Vector3d::Unit(i));
-    // (IMU-1): two cross terms a row, in the order of the columns.
-    carries(Group::accel_misalignment, 2 * i, rest_force_B(i == 0 ? 1 : 0) * Vector3d::Unit(i));
-    carries(Group::accel_misalignment, 2 * i + 1, rest_force_B(i == 2 ? 1 : 2) * Vector3d::Unit(i));
-  }
+  correlate_accelerometers(setup, t * c, -g * c.row(2).transpose(), filter);
 }
 
 /// (ALN-5): what the gyro's bias did to a heading that it found.

@@ -1,0 +1,51 @@
+#include "estimation/navigator/start/correlate.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+struct Triad {
+  Group bias;
+  Group scale;
+  Group misalignment;
+};
+
+void correlate(const Setup& setup, const Triad& triad, const Matrix3d& by_input, const Vector3d& input_B,
+               ErrorFilter& filter) {
+  const auto carries = [&](Group group, int component, const Vector3d& change_B) {
+    const int state = setup.index.of(group);
+    if (state < 0) return;
+    const double variance = filter(state + component, state + component);
+    const Vector3d turn = by_input * change_B;
+    for (int i = 0; i < 3; ++i) {
+      filter.set(6 + i, state + component, variance * turn(i));
+      for (int k = 0; k <= i; ++k)
+        filter.set(6 + i, 6 + k, filter(6 + i, 6 + k) + variance * turn(i) * turn(k));
+    }
+  };
+  for (int i = 0; i < 3; ++i) {
+    carries(triad.bias, i, Vector3d::Unit(i));
+    carries(triad.scale, i, input_B(i) * Vector3d::Unit(i));
+    // (IMU-1): two cross terms a row, in the order of the columns.
+    carries(triad.misalignment, 2 * i, input_B(i == 0 ? 1 : 0) * Vector3d::Unit(i));
+    carries(triad.misalignment, 2 * i + 1, input_B(i == 2 ? 1 : 2) * Vector3d::Unit(i));
+  }
+}
+
+}  // namespace
+
+void correlate_accelerometers(const Setup& setup, const Matrix3d& rotation_by_force,
+                              const Vector3d& force_B_m_s2, ErrorFilter& filter) {
+  correlate(setup, {Group::accel_bias, Group::accel_scale, Group::accel_misalignment}, rotation_by_force,
+            force_B_m_s2, filter);
+}
+
+void correlate_gyros(const Setup& setup, const Matrix3d& rotation_by_rate, const Vector3d& rate_B_rad_s,
+                     ErrorFilter& filter) {
+  correlate(setup, {Group::gyro_bias, Group::gyro_scale, Group::gyro_misalignment}, rotation_by_rate,
+            rate_B_rad_s, filter);
+}
+
+}  // namespace fathom::estimation

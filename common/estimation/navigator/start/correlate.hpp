@@ -1,0 +1,18 @@
+#pragma once
+
+#include "estimation/navigator/setup.hpp"
+
+/// A start that is found with an inertial unit carries the errors of that unit (ALN-5): the filter must know,
+/// or it unlearns an attitude that it cannot know better.
+namespace fathom::estimation {
+
+/// What bias, scale and misalignment of the accelerometers did to the attitude. `rotation_by_force` is the
+/// attitude error about N by an error of the specific force along B, rad/(m/s^2); `force_B_m_s2` what was
+/// felt.
+void correlate_accelerometers(const Setup& setup, const Eigen::Matrix3d& rotation_by_force,
+                              const Eigen::Vector3d& force_B_m_s2, ErrorFilter& filter);
+/// The same of the gyros: `rotation_by_rate` in s.
+void correlate_gyros(const Setup& setup, const Eigen::Matrix3d& rotation_by_rate,
+                     const Eigen::Vector3d& rate_B_rad_s, ErrorFilter& filter);
+
+}  // namespace fathom::estimation
