@@ -113,14 +113,14 @@ std::string track_plot(const Comparison& c) {
 std::string figure_table(const Comparison& c) {
   const ComparedSolution& a = c.solutions[0];
   const ComparedSolution& b = c.solutions[1];
-  std::string out = "<table><tr><th></th><th>first</th><th>second</th></tr>\n";
+  std::string out = "<p>First: " + escaped(a.settings) + "<br>Second: " + escaped(b.settings) +
+                    "</p>\n<table><tr><th></th><th>first</th><th>second</th></tr>\n";
   const auto row = [&out](const std::string& name, const std::string& first, const std::string& second) {
     out += "<tr><td>" + name + "</td><td>" + escaped(first) + "</td><td>" + escaped(second) + "</td></tr>\n";
   };
   const auto numbers = [&](const std::string& name, double first, double second) {
     if (known(first) || known(second)) row(name, brief(first), brief(second));
   };
-  row("settings", a.settings, b.settings);
   row("states with a position", std::to_string(a.positions), std::to_string(b.positions));
   row("alignment at the end", std::string(to_string(a.alignment)), std::string(to_string(b.alignment)));
   numbers("aligned after, s", a.aligned_after_s, b.aligned_after_s);
