@@ -1,10 +1,13 @@
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "base/exit_code.hpp"
+#include "base/nearest.hpp"
 #include "bus/participant.hpp"
 #include "cli/command.hpp"
 #include "config/json/error.hpp"
@@ -18,6 +21,19 @@ int fail(fathom::ExitCode code, std::string message) {
   }
   std::fprintf(stderr, "fathom: %s\n", message.c_str());
   return static_cast<int>(code);
+}
+
+/// What to say where the first word is no sub-command; empty otherwise.
+std::string unknown_command(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return {};
+  const std::string word = argv[1];
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), word) != names.end()) return {};
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  const auto meant = fathom::nearest(word, names);
+  return word + ": unknown, " + (meant ? "nearest is " + *meant : "there are " + list) + "; see --help";
 }
 
 }  // namespace
@@ -50,6 +66,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {  // --help, --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
+    if (const std::string unknown = unknown_command(app, argc, argv); !unknown.empty())
+      return fail(ExitCode::bad_configuration, unknown);
     return fail(ExitCode::bad_configuration, std::string(error.what()) + "; see --help");
   } catch (const fathom::cli::Failure& failure) {
     return fail(failure.code(), failure.what());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "base/nearest.hpp"
+
 namespace fathom::config {
 namespace {
 
@@ -119,7 +121,13 @@ void SchemaCore::load(const nlohmann::json& json, void* whole, const Place& plac
       continue;
     }
     const Entry* entry = find(key);
-    if (entry == nullptr) place.child(key).fail(value, "no such key; known keys: " + known_keys());
+    if (entry == nullptr) {
+      std::vector<std::string> keys;
+      for (const auto& one : entries_) keys.push_back(one->info.key);
+      const auto meant = nearest(key, keys);
+      place.child(key).fail(value, "no such key; " + (meant ? "the nearest is " + *meant + "; " : "") +
+                                       "known keys: " + known_keys());
+    }
     if (!choice.empty() && !entry->info.known_to(choice)) {
       const std::string& decider = deciding()->info.key;
       place.child(key).fail(value, "no such key where " + decider + " is " + choice + "; it is known where " +

@@ -51,6 +51,17 @@ bool reads_as_text(const JsonFault& fault) {
          (fault.kind == JsonFault::Kind::number && fault.key.empty());
 }
 
+// The place in an array that a part of a key names: by its index, or by the name of the sensor there.
+std::size_t index_of(const nlohmann::json& array, const std::string& part) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (error == std::errc() && end == part.data() + part.size()) return index;
+  const auto named = std::find_if(array.begin(), array.end(), [&part](const nlohmann::json& one) {
+    return one.is_object() && one.contains("sensor") && one["sensor"] == part;
+  });
+  return static_cast<std::size_t>(named - array.begin());
+}
+
 // Follows `path` ("a.b.0.c") and returns the node there, creating objects on the way.
 nlohmann::json& node_at(nlohmann::json& root, const std::string& path, const LoadRequest& request,
                         const std::string& value) {
@@ -63,11 +74,11 @@ nlohmann::json& node_at(nlohmann::json& root, const std::string& path, const Loa
   std::string part;
   while (std::getline(parts, part, '.')) {
     if (node->is_array()) {
-      std::size_t index = 0;
-      const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
-      if (error != std::errc() || end != part.data() + part.size() || index >= node->size()) {
+      const std::size_t index = index_of(*node, part);
+      if (index >= node->size()) {
         throw ConfigError(request.file, path, shorten(value),
-                          "an index below " + std::to_string(node->size()) + " where the key says " + part);
+                          "an index below " + std::to_string(node->size()) +
+                              ", or the name of a sensor that stands there, where the key says " + part);
       }
       node = &(*node)[index];
     } else if (node->is_object() || node->is_null()) {

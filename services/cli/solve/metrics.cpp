@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
@@ -146,6 +147,32 @@ std::string line(const char* format, Arguments... arguments) {
   return std::string(text.data()) + "\n";
 }
 
+// One sentence.
+std::string why_no_position(const SolveReport& report) {
+  const AlignmentStatus& status = report.result.alignment;
+  std::string out =
+      "no position was found: alignment is " + std::string(to_string(report.alignment)) + " at the end";
+  if (report.smoothed || status.phase != report.alignment) return out;
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), ", for %.1f s", status.in_phase_s);
+  out += text.data();
+  std::string separator = "; it waits for ";
+  for (std::uint32_t i = 0; i < status.condition_count && i < AlignmentStatus::kMaxConditions; ++i) {
+    const AlignmentCondition& one = status.conditions[i];
+    if (one.met) continue;
+    std::snprintf(text.data(), text.size(), "%s", one.name.str().c_str());
+    if (one.needed_s > 0.0) {  // the others are yes or no
+      std::snprintf(text.data(), text.size(), "%s below %.4g for %.4g s (is %.4g, has been below for %.4g s)",
+                    one.name.str().c_str(), one.limit, one.needed_s, one.value, one.held_s);
+    }
+    out += separator + text.data();
+    separator = " and ";
+  }
+  if (status.advice[0] != '\0')
+    out += "; " + std::string(status.advice.data(), strnlen(status.advice.data(), status.advice.size()));
+  return out;
+}
+
 }  // namespace
 
 std::string to_json(const SolveReport& report) {
@@ -201,9 +228,7 @@ std::string to_text(const SolveReport& report) {
     }
     out += words + "\n";
   }
-  if (report.positions == 0)
-    out +=
-        "no position was found: alignment is " + std::string(to_string(report.alignment)) + " at the end\n";
+  if (report.positions == 0) out += why_no_position(report) + "\n";
   const dataset::Score& score = report.score;
   if (score.count > 0) {
     out += line("horizontal error: rms %.2f m, 95 %% %.2f m, end %.2f m, %.3f %% of %.0f m",

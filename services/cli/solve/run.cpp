@@ -1,7 +1,9 @@
 #include "cli/solve/run.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 
 #include "base/clock.hpp"
 #include "base/unknown.hpp"
@@ -21,6 +23,51 @@ void SolveResult::add(const Verdict& verdict) {
 bool SolveRun::removes(const GpsSample& fix) const {
   return std::any_of(gps_removed.begin(), gps_removed.end(),
                      [&](const GpsWindow& window) { return window.contains(fix.header.stamp_ns); });
+}
+
+bool SolveRun::withholds(SourceKind kind, const SampleHeader& header) const {
+  return std::any_of(withheld.begin(), withheld.end(), [&](const Withheld& one) {
+    return header.stamp_ns >= one.begin_ns && header.stamp_ns < one.end_ns &&
+           (one.source == to_string(kind) || one.source == header.sensor.view());
+  });
+}
+
+Withheld parse_without(const std::string& text, const dataset::Dataset& data, TimeNs epoch_ns) {
+  const auto refuse = [&text](const std::string& expectation) -> Failure {
+    return {ExitCode::bad_configuration, "--without: is '" + text + "', expected " + expectation};
+  };
+  constexpr const char* kForm = "SOURCE or SOURCE@FROM:TO, FROM before TO in seconds of the data set";
+  Withheld out{text.substr(0, text.find('@')), std::numeric_limits<TimeNs>::min(),
+               std::numeric_limits<TimeNs>::max()};
+  if (const std::size_t at = text.find('@'); at != std::string::npos) {
+    const std::size_t colon = text.find(':', at);
+    if (colon == std::string::npos) throw refuse(kForm);
+    const auto instant = [&](const std::string& word, TimeNs& into) {
+      if (word.empty()) return;
+      double seconds = 0.0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seconds);
+      if (error != std::errc() || end != word.data() + word.size() || !(std::abs(seconds) < 4e9))
+        throw refuse(kForm);
+      into = epoch_ns + from_seconds(seconds);
+    };
+    instant(text.substr(at + 1, colon - at - 1), out.begin_ns);
+    instant(text.substr(colon + 1), out.end_ns);
+    if (out.begin_ns >= out.end_ns) throw refuse(kForm);
+  }
+  std::vector<std::string> known_sources;
+  for_each_aiding_kind([&](auto kind) {
+    for (const auto& sample : data.of<typename decltype(kind)::Sample>()) {
+      for (const std::string& name : {std::string(kind.kWord), sample.header.sensor.str()})
+        if (std::find(known_sources.begin(), known_sources.end(), name) == known_sources.end())
+          known_sources.push_back(name);
+    }
+  });
+  if (std::find(known_sources.begin(), known_sources.end(), out.source) == known_sources.end()) {
+    std::string words;
+    for (const std::string& name : known_sources) words += (words.empty() ? "" : ", ") + name;
+    throw refuse("a source of the data: " + (words.empty() ? "there is none" : words));
+  }
+  return out;
 }
 
 std::optional<estimation::InitialState> start_of(const SolveRun& solve_run) {
@@ -64,6 +111,7 @@ SolveResult run(const SolveRun& solve_run) {
   NavDetail detail;
   engine.fill(detail);
   result.gps_latency_s = gps_latency_s(detail);
+  engine.fill(result.alignment);
   return result;
 }
 

@@ -13,6 +13,7 @@
 #include "config/fusion/fusion_config.hpp"
 #include "dataset/dataset.hpp"
 #include "estimation/engine_config.hpp"
+#include "samples/alignment_status.hpp"
 #include "samples/forecast.hpp"
 #include "samples/innovation_tally.hpp"
 #include "samples/nav_detail.hpp"
@@ -35,6 +36,17 @@ struct GpsWindow {
   [[nodiscard]] bool contains(TimeNs stamp_ns) const { return stamp_ns >= begin_ns && stamp_ns < end_ns; }
 };
 
+/// Samples of one source that are left out, [begin_ns, end_ns) by their stamps.
+struct Withheld {
+  std::string source;  ///< a kind, "gps", or a sensor, "gps0"
+  TimeNs begin_ns = 0;
+  TimeNs end_ns = 0;
+};
+
+/// SOURCE or SOURCE@FROM:TO, seconds of the data set; either may be left out. Throws Failure where it is none
+/// of these, or the data have no such source.
+[[nodiscard]] Withheld parse_without(const std::string& text, const dataset::Dataset& data, TimeNs epoch_ns);
+
 /// One run of a data set through the engine.
 struct SolveRun {
   const config::FusionConfig* config = nullptr;
@@ -42,6 +54,7 @@ struct SolveRun {
   const std::vector<dataset::Arrival>* arrivals = nullptr;
   std::optional<estimation::InitialState> start;  ///< instead of what the configuration says
   std::vector<GpsWindow> gps_removed;             ///< fixes with stamps in these never reach the engine
+  std::vector<Withheld> withheld;                 ///< samples that never reach the engine
   std::string label;                              ///< of the progress bar
   /// Called with each navigation state. The engine may be asked for more.
   std::function<void(const NavState&, estimation::FusionEngine&)> on_state;
@@ -50,16 +63,22 @@ struct SolveRun {
   std::function<void(const Verdict&)> on_verdict;
 
   [[nodiscard]] bool removes(const GpsSample& fix) const;
+  [[nodiscard]] bool withholds(SourceKind kind, const SampleHeader& header) const;
+  /// Whether a sample never reaches the engine.
+  template <class Sample>
+  [[nodiscard]] bool withholds(const Sample& sample) const {
+    if constexpr (std::is_same_v<Sample, GpsSample>)
+      if (!gps_removed.empty() && removes(sample)) return true;
+    return !withheld.empty() && withholds(kSourceOf<Sample>, sample.header);
+  }
 };
 
-/// Calls `consumer` with each sample in the order of arrival, without the removed fixes.
+/// Calls `consumer` with each sample in the order of arrival, without those that are left out.
 template <class Consumer>
 void for_each_sample(const SolveRun& solve_run, Consumer&& consumer) {
   for (const dataset::Arrival& arrival : *solve_run.arrivals) {
     dataset::visit(*solve_run.data, arrival, [&](const auto& sample) {
-      if constexpr (std::is_same_v<std::decay_t<decltype(sample)>, GpsSample>)
-        if (solve_run.removes(sample)) return;
-      consumer(sample);
+      if (!solve_run.withholds(sample)) consumer(sample);
     });
   }
 }
@@ -74,6 +93,7 @@ struct SolveResult {
   std::uint64_t nav_states = 0;
   double wall_s = 0.0;
   double gps_latency_s = 0.0;  ///< found beyond the configured one, at the end
+  AlignmentStatus alignment;   ///< at the end; of the engine only, not of the smoother
 
   /// Counts a final verdict; others change nothing.
   void add(const Verdict& verdict);

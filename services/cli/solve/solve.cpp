@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include "cli/command.hpp"
 #include "cli/log.hpp"
 #include "cli/solve/calibrate.hpp"
+#include "cli/solve/compare/compare.hpp"
 #include "cli/solve/course.hpp"
 #include "cli/solve/fixes.hpp"
 #include "cli/solve/metrics.hpp"
@@ -20,9 +22,12 @@
 #include "cli/solve/smooth.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "dataset/dataset.hpp"
+#include "dataset/instants.hpp"
 #include "dataset/nav_csv.hpp"
 #include "dataset/score.hpp"
 #include "estimation/engine/fusion_engine.hpp"
+#include "report/comparison.hpp"
+#include "runtime/build_info.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -36,6 +41,11 @@ struct SolveOptions {
   std::string outages;
   std::string start;
   std::string calibrate_hydro;
+  std::vector<std::string> without;
+  std::string compare_config;
+  std::string compare_csv;
+  std::string compare_page;
+  std::string at;
   double rate_hz = 0.0;
   bool smooth = false;
   bool json = false;
@@ -59,6 +69,83 @@ class Thinning {
   std::optional<TimeNs> next_ns_;
 };
 
+std::vector<dataset::Instant> read_instants(const std::string& file, TimeNs epoch_ns) {
+  try {
+    return dataset::read_instants(file, epoch_ns);
+  } catch (const dataset::DatasetError& error) {
+    throw Failure(ExitCode::bad_input, error.what());
+  }
+}
+
+// Throws Failure where an instant has no state: the file lacks its row.
+void say_refused(const dataset::AtInstants& at, const std::string& file, TimeNs epoch_ns) {
+  const std::vector<dataset::Instant> refused = at.refused();
+  if (refused.empty()) return;
+  const auto seconds = [epoch_ns](TimeNs stamp_ns) {
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%.6f s", to_seconds(stamp_ns - epoch_ns));
+    return std::string(text.data());
+  };
+  std::string message = file + ":" + std::to_string(refused.front().line) + ": " +
+                        seconds(refused.front().stamp_ns) + " has no solution, expected an instant ";
+  message += at.first_ns() ? "from " + seconds(*at.first_ns()) + " to " + seconds(*at.last_ns()) +
+                                 ", where no more than a second is between two states"
+                           : "at which there is a position, and there is none at all";
+  if (refused.size() > 1) {
+    message += "; likewise " + std::to_string(refused.size() - 1) + " more, the last in line " +
+               std::to_string(refused.back().line);
+  }
+  throw Failure(ExitCode::bad_input, message + "; the other rows are written");
+}
+
+// What a person gave, in one line.
+std::string settings_text(const std::string& config, const std::vector<std::string>& sets,
+                          const std::vector<std::string>& without) {
+  std::string out = config.empty() ? "its own configuration" : config;
+  for (const std::string& set : sets) out += " --set " + set;
+  for (const std::string& one : without) out += " --without " + one;
+  return out;
+}
+
+report::Comparison compare(const SolveOptions& options) {
+  const std::string& second_config = options.compare_config.empty() ? options.config : options.compare_config;
+  const auto first = configuration_for(options.directory, options.config, {});
+  const auto second = configuration_for(options.directory, second_config, options.sets);
+  const dataset::Dataset data = read_log(options.directory, first.value);
+  const TimeNs epoch_ns = time_zero_of(options.directory, data);
+  const std::vector<dataset::Arrival> arrivals = dataset::arrivals(data);
+  SolveRun one;
+  one.config = &first.value;
+  one.data = &data;
+  one.arrivals = &arrivals;
+  if (options.start == "reference") one.start = start_from_reference(data, first.value, options.directory);
+  SolveRun other = one;
+  other.config = &second.value;
+  if (options.start == "reference") other.start = start_from_reference(data, second.value, options.directory);
+  for (const std::string& text : options.without)
+    other.withheld.push_back(parse_without(text, data, epoch_ns));
+  std::optional<CompareCsv> csv;
+  if (!options.compare_csv.empty()) csv.emplace(options.compare_csv);
+  Thinning rows(options.rate_hz);
+  CompareRequest request{&one, &other, epoch_ns, nullptr};
+  if (csv) {
+    request.on_row = [&](const report::ComparedRow& row) {
+      if (known(row.difference.horizontal_m) && rows.pass(epoch_ns + from_seconds(row.t_s))) csv->add(row);
+    };
+  }
+  report::Comparison out = compare(request);
+  if (csv) csv->close();
+  const std::filesystem::path name = std::filesystem::path(options.directory).lexically_normal();
+  out.title = "Two solutions of " + (name.has_filename() ? name : name.parent_path()).filename().string();
+  out.source = options.directory;
+  out.version = "fathom " + std::string(runtime::version());
+  out.solutions[0].settings = settings_text(options.config, {}, {});
+  out.solutions[1].settings = settings_text(second_config, options.sets, options.without);
+  out.solutions[0].config_hash = first.hash;
+  out.solutions[1].config_hash = second.hash;
+  return out;
+}
+
 SolveReport solve(const SolveOptions& options) {
   std::optional<OutageRequest> outages;
   if (!options.outages.empty()) outages = parse_outages(options.outages);
@@ -74,6 +161,8 @@ SolveReport solve(const SolveOptions& options) {
   solve_run.data = &data;
   solve_run.arrivals = &arrivals;
   solve_run.label = "solve";
+  for (const std::string& text : options.without)
+    solve_run.withheld.push_back(parse_without(text, data, epoch_ns));
   if (options.start == "reference")
     solve_run.start = start_from_reference(data, loaded.value, options.directory);
   if (outages) {
@@ -93,6 +182,8 @@ SolveReport solve(const SolveOptions& options) {
   dataset::Scorer scorer;
   dataset::NavCsv csv(options.out, epoch_ns);
   Thinning rows(options.rate_hz);
+  std::optional<dataset::AtInstants> at;
+  if (!options.at.empty()) at.emplace(read_instants(options.at, epoch_ns));
   SolveReport report;
   Path path;
   Path filtered_path;
@@ -101,7 +192,11 @@ SolveReport solve(const SolveOptions& options) {
     // The file begins with the first position.
     if (!known(state.latitude_rad)) return;
     ++report.positions;
-    if (rows.pass(state.header.stamp_ns)) csv.add(state);
+    if (at) {
+      at->add(state, [&csv](const NavState& one) { csv.add(one); });
+    } else if (rows.pass(state.header.stamp_ns)) {
+      csv.add(state);
+    }
     score(state, scorer, &placement);
     if (!data.of<GpsSample>().empty()) path.add(state);
   };
@@ -132,13 +227,14 @@ SolveReport solve(const SolveOptions& options) {
     report.heading = heading.figures();
   }
   csv.close();
+  if (at) say_refused(*at, options.at, epoch_ns);
   report.score = scorer.score();
   report.placement = placement.figures();
   if (report.score.count > 0)
     report.distance_m = truth.distance_m(report.score.first_ns, report.score.last_ns);
   const Antenna antenna = antenna_of(loaded.value, report.result.gps_latency_s);
   for (const GpsSample& fix : data.of<GpsSample>()) {
-    if (fix.fix == GpsFix::none || solve_run.removes(fix)) continue;
+    if (fix.fix == GpsFix::none || solve_run.withholds(fix)) continue;
     report.at_fixes.add(path.error_m(fix, antenna));
     if (options.smooth) report.filtered_at_fixes.add(filtered_path.error_m(fix, antenna));
   }
@@ -174,12 +270,13 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
                       "configuration of the fusion service; of a recording: default as it was recorded");
   command->add_option("--set", options->sets, "override: key.sub=value, may be repeated")
       ->allow_extra_args(false);
-  command
-      ->add_option("--out", options->out, "navigation solution (CSV); compressed when the name ends in .gz")
-      ->required();
-  command->add_option("--metrics", options->metrics,
-                      "errors against the reference, consistency, verdicts, timing (JSON)");
-  command->add_option(
+  CLI::Option* out =
+      command->add_option("--out", options->out,
+                          "navigation solution (CSV); compressed when the name ends in .gz; required without "
+                          "--compare");
+  CLI::Option* metrics = command->add_option(
+      "--metrics", options->metrics, "errors against the reference, consistency, verdicts, timing (JSON)");
+  CLI::Option* outages = command->add_option(
       "--gps-outage", options->outages,
       "T1,T2,...[@start[:recover]] or random:N[@start]: remove GPS for T s at a time from `start` on "
       "(seconds of the data "
@@ -192,15 +289,55 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--rate", options->rate_hz,
                    "rows per second of the solution; one per inertial sample otherwise")
       ->check(CLI::Range(1e-3, 1e5));
-  command->add_flag(
+  CLI::Option* at = command->add_option(
+      "--at", options->at,
+      "a file with one instant a line, in seconds of the data set: one row of the solution "
+      "for each of them instead of --rate. Position and velocity go straight between two "
+      "states, attitude takes the shortest turn, sigmas are those of the nearer state");
+  CLI::Option* smooth = command->add_flag(
       "--smooth", options->smooth,
       "every state from all measurements before and after it: filter forward, each measurement at its own "
       "instant, then backward");
-  command->add_option("--calibrate-hydro", options->calibrate_hydro,
-                      "fit the coefficients of the configured vehicle model to the velocities that the DVL "
-                      "gave and write them, each with its sigma (JSON)");
-  command->add_flag("--json", options->json, "print the metrics as JSON");
-  command->callback([options, &exit_code] {
+  CLI::Option* hydro = command->add_option(
+      "--calibrate-hydro", options->calibrate_hydro,
+      "fit the coefficients of the configured vehicle model to the velocities that the DVL "
+      "gave and write them, each with its sigma (JSON)");
+  command
+      ->add_option(
+          "--without", options->without,
+          "leave out a source, SOURCE or SOURCE@FROM:TO in seconds of the data set: gps0@100:160; may "
+          "be repeated")
+      ->allow_extra_args(false);
+  CLI::Option* other =
+      command
+          ->add_option(
+              "--compare", options->compare_config,
+              "solve twice and show both side by side: first as configured, second with this file "
+              "instead of --config and with --set and --without; errors are against the reference or, "
+              "without one, against the smoother")
+          ->expected(0, 1)
+          ->excludes(out)
+          ->excludes(at)
+          ->excludes(metrics)
+          ->excludes(outages)
+          ->excludes(smooth)
+          ->excludes(hydro);
+  command
+      ->add_option("--csv", options->compare_csv,
+                   "of --compare: differences, sigmas and errors over time (CSV), at --rate")
+      ->needs(other);
+  command->add_option("--page", options->compare_page, "of --compare: one page (HTML)")->needs(other);
+  command->add_flag("--json", options->json, "print the metrics, or the comparison, as JSON");
+  command->callback([options, other, out, &exit_code] {
+    if (other->count() > 0) {
+      const report::Comparison comparison = compare(*options);
+      if (!options->compare_page.empty()) write_text(options->compare_page, report::page(comparison));
+      std::fputs((options->json ? to_json(comparison) : to_text(comparison)).c_str(), stdout);
+      if (comparison.compared == 0) exit_code = ExitCode::no;
+      return;
+    }
+    if (out->count() == 0)
+      throw Failure(ExitCode::bad_configuration, "--out is required without --compare; see --help");
     const SolveReport report = solve(*options);
     if (!options->metrics.empty()) write_text(options->metrics, to_json(report));
     std::fputs((options->json ? to_json(report) : to_text(report)).c_str(), stdout);

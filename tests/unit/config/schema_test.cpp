@@ -125,7 +125,8 @@ TEST_F(SchemaTest, NamesFileKeyValueAndExpectation) {
     std::string json, expected;
   };
   const Case cases[] = {
-      {R"({"vehicel":"a"})", "vehicel: is \"a\", expected no such key; known keys: vehicle"},
+      {R"({"vehicel":"a"})",
+       "vehicel: is \"a\", expected no such key; the nearest is vehicle; known keys: vehicle"},
       {R"({"on":1})", "on: is 1, expected true or false"},
       {R"({"latitude_deg":91})", "latitude_deg: is 91, expected a number from -90 to 90"},
       {R"({"latitude_deg":"x"})", "latitude_deg: is \"x\", expected a number from -90 to 90"},
