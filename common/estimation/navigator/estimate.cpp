@@ -11,6 +11,8 @@ namespace {
 
 /// A heading known better than this turns nothing far.
 constexpr double kKnownHeading_rad = 0.01;
+/// How long the error of an acceleration keeps its value, where GPS renews it (NOISE-3).
+constexpr double kProductMemory_s = 3.0;
 /// How long tilt and accelerometer bias keep what they share (NOISE-3), and how long a gyro bias takes to
 /// follow a change (NOISE-4).
 constexpr double kDriftMemory_s = 30.0;
@@ -66,8 +68,7 @@ void Estimate::add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB,
   const Eigen::Matrix3d cross = force * filter.block3(6, accel) * C_NB.transpose();
   const Eigen::Matrix3d acceleration = force * tilts * force.transpose() + cross + cross.transpose() +
                                        C_NB * filter.block3(accel, accel) * C_NB.transpose();
-  const double time_s = setup.config.imu.equivalent_noise_time_s;
-  noise.velocity += time_s * heading * about_down * acceleration * about_down.transpose();
+  noise.velocity += kProductMemory_s * heading * about_down * acceleration * about_down.transpose();
   const Vector3d down_B = C_NB.row(2).transpose();
   const double rate = down_B.dot(filter.block3(gyro, gyro) * down_B);
   noise.attitude += kDriftMemory_s * rate * about_down * tilts * about_down.transpose();
