@@ -28,6 +28,7 @@ constexpr std::string_view kEkf15 = "ekf15";
 constexpr std::string_view kEkf24 = "ekf24";
 constexpr std::string_view kEkf36 = "ekf36";
 constexpr std::string_view kUncompensated = "ekf36_uncompensated";
+constexpr std::string_view kAsFlown = "ekf36_as_flown";  ///< switched on in flight: finds its start itself
 
 constexpr std::string_view kHorizontal = "horizontal_error";
 constexpr std::string_view kVertical = "vertical_error";
@@ -118,7 +119,7 @@ struct Runner {
       : method(name), navigator(std::in_place, config, start) {}
 
   void start(const estimation::InitialState& state) {
-    if (engine) engine->start_from(state);
+    if (engine && method != kAsFlown) engine->start_from(state);
   }
   void take(const sim::Measurement& measurement) {
     std::visit(
@@ -180,7 +181,7 @@ class GpsOutage final : public Study {
     return names;
   }
   [[nodiscard]] std::vector<std::string_view> methods() const override {
-    return {kMean, kHold, kEkf15, kEkf24, kEkf36, kUncompensated};
+    return {kMean, kHold, kEkf15, kEkf24, kEkf36, kUncompensated, kAsFlown};
   }
   [[nodiscard]] std::vector<Metric> metrics() const override {
     constexpr auto kMayNotHappen = Presence::if_it_happens;  // an error that never passes the limit
@@ -302,7 +303,7 @@ class GpsOutage final : public Study {
   static std::vector<Runner> runners_of(const RunRequest& request, const FlightCase& one,
                                         const estimation::InitialState& start) {
     std::vector<Runner> out;
-    out.reserve(6);
+    out.reserve(7);
     if (request.wants(kMean)) out.emplace_back(kMean, flight_config(OutageMode::mean), start);
     if (request.wants(kHold)) out.emplace_back(kHold, flight_config(OutageMode::hold), start);
     const auto enter = [&](std::string_view method, FlightFilter filter, double latency_s) {
@@ -312,6 +313,8 @@ class GpsOutage final : public Study {
     enter(kEkf24, FlightFilter::ekf24, one.gps_late_s);
     enter(kEkf36, FlightFilter::ekf36, one.gps_late_s);
     if (one.gps_late_s > 0.0) enter(kUncompensated, FlightFilter::ekf36, 0.0);
+    if (request.wants(kAsFlown))
+      out.emplace_back(kAsFlown, begun_in_flight(flight_config(FlightFilter::ekf36, one.gps_late_s)));
     return out;
   }
 };

@@ -47,6 +47,9 @@ constexpr std::array<double, 3> kStartPosition_m{2.0, 2.0, 4.0};
 constexpr std::array<double, 3> kStartVelocity_m_s{0.2, 0.2, 0.3};
 constexpr std::array<double, 3> kStartAttitude_rad{1.0 * kDegree, 1.0 * kDegree, 3.0 * kDegree};
 
+/// Course less heading of an aircraft in a wind of a fifth of its speed.
+constexpr double kCrab_rad = 11.5 * kDegree;
+
 constexpr double kClimb_s = 250.0;
 constexpr double kBank_s = 500.0;
 constexpr double kDutchRoll_s = 550.0;
@@ -238,6 +241,12 @@ estimation::EngineConfig flight_config(FlightFilter filter, double gps_latency_s
   gps.use_sample_sigma = false;
   c.sensors = {gps};
   return c;
+}
+
+estimation::EngineConfig begun_in_flight(estimation::EngineConfig config) {
+  config.alignment.mode = estimation::StartMode::in_motion;
+  config.alignment.in_motion_heading_sigma_rad = kCrab_rad;
+  return config;
 }
 
 fixed_gain::Navigator::Config flight_config(fixed_gain::OutageMode mode) {

@@ -36,6 +36,8 @@ struct FlightCase {
 
 enum class FlightFilter : std::uint8_t { ekf15, ekf24, ekf36 };
 [[nodiscard]] estimation::EngineConfig flight_config(FlightFilter filter, double gps_latency_s);
+/// The same filter, that is given nothing and begins by the velocities of GPS.
+[[nodiscard]] estimation::EngineConfig begun_in_flight(estimation::EngineConfig config);
 [[nodiscard]] fixed_gain::Navigator::Config flight_config(fixed_gain::OutageMode mode);
 
 }  // namespace fathom::study
