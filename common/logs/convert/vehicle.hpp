@@ -47,10 +47,10 @@ struct Ros2Options {
 };
 
 struct ConvertOptions {
-  Ros2Options ros2;
   std::map<std::string, std::string> choice;  ///< file ("imu") to series ("vehicle_imu:1")
   bool utc =
       false;  ///< t_s counts from dataset::kDefaultEpochNs in UTC instead of from the autopilot's start
+  Ros2Options ros2 = {};
 };
 
 /// The topics that px4() and ardupilot() look at.

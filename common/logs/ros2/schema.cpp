@@ -135,7 +135,7 @@ class Parser {
     if (text.size() > kLongestText)
       return Error{"a text of " + std::to_string(text.size()) + " bytes, expected at most " +
                    std::to_string(kLongestText)};
-    if (trimmed(text).empty())
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
       return Error{"its text is empty: what recorded it did not find the definition"};
     if (std::string why = split(text); !why.empty()) return Error{why};
     if (std::string why = resolve(out_.type, out_.root, 0); !why.empty()) return Error{why};
