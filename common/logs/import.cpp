@@ -7,6 +7,7 @@
 
 #include "dataset/csv_writer.hpp"
 #include "logs/dataflash/reader.hpp"
+#include "logs/ros2/reader.hpp"
 #include "logs/ulog/reader.hpp"
 
 namespace fathom::logs {
@@ -14,8 +15,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// A topic may be called anything: no name of it leaves the folder or hides in it.
+std::string file_name(const std::string& topic) {
+  constexpr std::size_t kLongest = 150;
+  std::string out;
+  for (const char c : topic.substr(0, kLongest)) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    if (!plain && out.empty()) continue;
+    out += plain ? c : '.';
+  }
+  return out.empty() ? "unnamed" : out;
+}
+
 void write_source(const std::filesystem::path& directory, const Series& series) {
-  const std::string name = series.topic + "." + std::to_string(series.instance);
+  const std::string name = file_name(series.topic) + "." + std::to_string(series.instance);
   std::filesystem::path path = directory / (name + ".csv");
   // The same topic under two layouts: the second one stands beside the first.
   for (int again = 2; std::filesystem::exists(path); ++again)
@@ -82,10 +96,13 @@ void prepare(const std::filesystem::path& directory) {
 Log read(const std::filesystem::path& path) {
   if (ulog::looks_like(path)) return ulog::read(path, px4_topics());
   if (dataflash::looks_like(path)) return dataflash::read(path, ardupilot_topics());
-  throw LogError(path.string() + ": offset 0: neither a PX4 ULog nor an ArduPilot DataFlash log");
+  if (ros2::looks_like(path)) return ros2::read(path);
+  throw LogError(path.string() +
+                 ": offset 0: neither a PX4 ULog, an ArduPilot DataFlash log nor an MCAP file of ROS 2");
 }
 
 Vehicle convert(const Log& log, const ConvertOptions& options) {
+  if (log.format == ros2::kFormatName) return ros2_bag(log, options);
   return log.format == dataflash::kFormatName ? ardupilot(log, options) : px4(log, options);
 }
 
@@ -111,7 +128,9 @@ std::string to_json(const std::string& source, const Log& log, const Vehicle& ve
   out["dropouts"] = {{"count", log.dropouts}, {"ms", log.dropout_ms}};
   out["lost"] = {{"count", log.losses.count}, {"bytes", log.losses.bytes}, {"first", Json::array()}};
   for (const Lost& one : log.losses.listed)
-    out["lost"]["first"].push_back({{"offset", one.offset}, {"bytes", one.bytes}, {"what", one.what}});
+    out["lost"]["first"].push_back({{"offset", one.offset ? Json(*one.offset) : Json(nullptr)},
+                                    {"bytes", one.bytes},
+                                    {"what", one.what}});
   out["notes"] = Json::array();
   for (const std::string& note : log.notes) out["notes"].push_back(note);
   for (const std::string& note : vehicle.notes) out["notes"].push_back(note);

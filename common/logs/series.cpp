@@ -44,7 +44,7 @@ std::optional<std::array<std::size_t, 3>> Series::find_vector(const std::string&
   return out;
 }
 
-void Losses::add(std::uint64_t offset, std::uint64_t length, std::string what) {
+void Losses::add(std::optional<std::uint64_t> offset, std::uint64_t length, std::string what) {
   ++count;
   bytes += length;
   if (listed.size() < kMostListed) listed.push_back({offset, length, std::move(what)});

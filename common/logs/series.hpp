@@ -29,6 +29,9 @@ struct Series {
   std::vector<std::string> columns;
   std::vector<double> values;      ///< row by row
   std::vector<std::int64_t> t_us;  ///< one a row
+  std::string type;                ///< of the messages, where the log names it: "sensor_msgs/Imu"
+  std::string frame;               ///< likewise, that their coordinates are in: "imu_link"
+  std::string child_frame;         ///< likewise, whose motion they tell: "base_link"
 
   [[nodiscard]] std::size_t rows() const { return t_us.size(); }
   [[nodiscard]] std::optional<std::size_t> find(std::string_view name) const;
@@ -46,7 +49,7 @@ struct Series {
 
 /// A stretch of the file that gave nothing.
 struct Lost {
-  std::uint64_t offset = 0;
+  std::optional<std::uint64_t> offset;  ///< where the file is not packed
   std::uint64_t bytes = 0;
   std::string what;
 };
@@ -57,7 +60,15 @@ struct Losses {
   std::vector<Lost> listed;
   std::uint64_t count = 0;
   std::uint64_t bytes = 0;
-  void add(std::uint64_t offset, std::uint64_t length, std::string what);
+  void add(std::optional<std::uint64_t> offset, std::uint64_t length, std::string what);
+};
+
+/// Where one frame of coordinates is in another, as the log says: x_parent = R(q) x_child + translation.
+struct Placement {
+  std::string parent;
+  std::string child;
+  std::array<double, 3> translation_m{};
+  std::array<double, 4> q_wxyz{1.0, 0.0, 0.0, 0.0};
 };
 
 /// A line that the autopilot said.
@@ -68,14 +79,16 @@ struct LoggedText {
 };
 
 struct Log {
-  std::string format;                                     ///< "PX4 ULog", "ArduPilot DataFlash"
+  std::string format;                                     ///< "PX4 ULog", "ArduPilot DataFlash", "ROS 2 MCAP"
   std::map<std::string, std::string> info;                ///< what the log says of itself
   std::map<std::string, std::vector<std::string>> lists;  ///< likewise, several values a key
   std::map<std::string, double> parameters;               ///< of the autopilot, as they were last
   std::vector<LoggedText> texts;
   std::map<std::string, std::uint64_t> messages;  ///< every topic of the log and its messages
   std::vector<Series> series;                     ///< the wanted topics
-  std::uint64_t dropouts = 0;                     ///< times that the logger itself was too slow
+  std::vector<Placement> placements;              ///< of frames, which do not change
+  std::int64_t start_ns = 0;   ///< what 0 of `t_us` is by the log's own clock, where it says
+  std::uint64_t dropouts = 0;  ///< times that the logger itself was too slow
   std::uint64_t dropout_ms = 0;
   Losses losses;
   std::vector<std::string> notes;  ///< what a person should know

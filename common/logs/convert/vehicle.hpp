@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -30,13 +32,25 @@ struct Vehicle {
   /// What else could have been: for the option that chooses.
   std::map<std::string, std::vector<std::string>> others;
   std::vector<std::string> notes;
-  std::optional<TimeNs> utc_of_start_ns;  ///< of the autopilot's zero, by GPS
+  std::optional<TimeNs> utc_of_start_ns;  ///< of the log's zero
+};
+
+/// What a bag of ROS 2 does not tell of itself.
+struct Ros2Options {
+  enum class Axes : std::uint8_t { flu, frd };  ///< with them the world: ENU, NED
+  std::map<std::string, Axes> axes;             ///< of topics
+  std::map<std::string, std::array<double, 3>>
+      mounting_rpy_rad;            ///< of frames: FRD of the sensor in the body
+  std::string base = "base_link";  ///< the frame of the vehicle's body
+  double surface_pressure_Pa = 101325.0;
+  double water_density_kg_m3 = 1025.0;
 };
 
 struct ConvertOptions {
   std::map<std::string, std::string> choice;  ///< file ("imu") to series ("vehicle_imu:1")
   bool utc =
       false;  ///< t_s counts from dataset::kDefaultEpochNs in UTC instead of from the autopilot's start
+  Ros2Options ros2 = {};
 };
 
 /// The topics that px4() and ardupilot() look at.
@@ -47,5 +61,8 @@ struct ConvertOptions {
 /// LogError where a choice names no series of the log, or where UTC is asked for and GPS has not told it.
 [[nodiscard]] Vehicle px4(const Log& log, const ConvertOptions& options = {});
 [[nodiscard]] Vehicle ardupilot(const Log& log, const ConvertOptions& options = {});
+/// Turns forward-left-up and east-north-up to ours, and sensors that are mounted otherwise to the body's
+/// axes. Throws LogError likewise, and where an option names no topic or frame of the log.
+[[nodiscard]] Vehicle ros2_bag(const Log& log, const ConvertOptions& options = {});
 
 }  // namespace fathom::logs

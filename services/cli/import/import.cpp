@@ -1,10 +1,14 @@
 #include "logs/import.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <numbers>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -19,25 +23,68 @@ struct ImportOptions {
   std::string file;
   std::string out;
   std::vector<std::string> choices;
+  std::vector<std::string> axes;
+  std::vector<std::string> mountings;
+  logs::Ros2Options ros2;
   std::string time = "boot";
   bool gzip = false;
   bool json = false;
 };
 
-const std::vector<std::string> kFiles{"imu", "gps", "airspeed", "baro", "mag"};
+const std::vector<std::string> kFiles{"imu",     "gps", "airspeed", "baro",        "mag",
+                                      "heading", "dvl", "depth",    "gps_velocity"};
+
+/// "left=right"; the option's name and what is expected are for the refusal.
+std::pair<std::string, std::string> halves(std::string_view option, const std::string& text,
+                                           std::string_view expected) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw Failure(ExitCode::bad_configuration,
+                  std::string(option) + " " + text + ": expected " + std::string(expected));
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+logs::Ros2Options ros2_options(const ImportOptions& options) {
+  logs::Ros2Options out = options.ros2;
+  for (const std::string& one : options.axes) {
+    constexpr std::string_view kExpected = "TOPIC=flu or TOPIC=frd";
+    const auto [topic, axes] = halves("--axes", one, kExpected);
+    if (axes != "flu" && axes != "frd")
+      throw Failure(ExitCode::bad_configuration, "--axes " + one + ": expected " + std::string(kExpected));
+    out.axes[topic] = axes == "frd" ? logs::Ros2Options::Axes::frd : logs::Ros2Options::Axes::flu;
+  }
+  for (const std::string& one : options.mountings) {
+    constexpr std::string_view kExpected = "FRAME=ROLL,PITCH,YAW in degrees, e.g. dvl_link=0,0,45";
+    const auto [frame, angles] = halves("--mounting", one, kExpected);
+    std::istringstream in(angles);
+    std::array<double, 3> rpy_deg{};
+    char comma = ',';
+    bool sound = true;
+    for (std::size_t i = 0; i < rpy_deg.size(); ++i) {
+      if (i > 0) sound = sound && in >> comma && comma == ',';
+      sound = sound && in >> rpy_deg[i] && rpy_deg[i] >= -360.0 && rpy_deg[i] <= 360.0;
+    }
+    if (!sound || in.peek() != std::istringstream::traits_type::eof())
+      throw Failure(ExitCode::bad_configuration,
+                    "--mounting " + one + ": expected " + std::string(kExpected));
+    for (double& angle : rpy_deg) angle *= std::numbers::pi / 180.0;
+    out.mounting_rpy_rad[frame] = rpy_deg;
+  }
+  return out;
+}
 
 logs::ConvertOptions convert_options(const ImportOptions& options) {
   logs::ConvertOptions out;
   out.utc = options.time == "utc";
+  out.ros2 = ros2_options(options);
+  std::string files;
+  for (const std::string& file : kFiles) files += (files.empty() ? "" : ", ") + file;
+  const std::string expected = "FILE=TOPIC or FILE=TOPIC:INSTANCE, FILE one of " + files;
   for (const std::string& choice : options.choices) {
-    const std::size_t equals = choice.find('=');
-    const std::string file = choice.substr(0, equals);
-    if (equals == std::string::npos || std::find(kFiles.begin(), kFiles.end(), file) == kFiles.end()) {
-      throw Failure(
-          ExitCode::bad_configuration,
-          "--from " + choice + ": expected FILE=TOPIC:INSTANCE, FILE one of imu, gps, airspeed, baro, mag");
-    }
-    out.choice[file] = choice.substr(equals + 1);
+    const auto [file, topic] = halves("--from", choice, expected);
+    if (std::find(kFiles.begin(), kFiles.end(), file) == kFiles.end())
+      throw Failure(ExitCode::bad_configuration, "--from " + choice + ": expected " + expected);
+    out.choice[file] = topic;
   }
   return out;
 }
@@ -66,7 +113,7 @@ std::string to_text(const ImportOptions& options, const logs::Log& log, const lo
   });
   for (const logs::Table& table : vehicle.tables) row(table.name, table.stamps_ns.size());
   if (vehicle.utc_of_start_ns)
-    text += "  the autopilot started at " + to_iso8601(*vehicle.utc_of_start_ns, 3) + " (GPS)\n";
+    text += "  t_s = 0 of the log was " + to_iso8601(*vehicle.utc_of_start_ns, 3) + "\n";
   if (log.dropouts > 0 && log.dropout_ms == 0) {
     text += "  the logger dropped " + std::to_string(log.dropouts) + " messages\n";
   } else if (log.dropouts > 0) {
@@ -78,8 +125,9 @@ std::string to_text(const ImportOptions& options, const logs::Log& log, const lo
   constexpr std::size_t kShown = 5;
   for (std::size_t i = 0; i < std::min(kShown, log.losses.listed.size()); ++i) {
     const logs::Lost& lost = log.losses.listed[i];
-    text += "  offset " + std::to_string(lost.offset) + ": lost " + std::to_string(lost.bytes) +
-            " bytes: " + lost.what + "\n";
+    text += (lost.offset ? "  offset " + std::to_string(*lost.offset) + ": lost " : std::string("  lost ")) +
+            (lost.bytes > 0 ? std::to_string(lost.bytes) + " bytes: " : std::string("some: ")) + lost.what +
+            "\n";
   }
   if (log.losses.count > kShown) {
     text += "  in all " + std::to_string(log.losses.count) + " losses, " + std::to_string(log.losses.bytes) +
@@ -116,22 +164,48 @@ void import(const ImportOptions& options) {
 void add_import(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<ImportOptions>();
   CLI::App* command =
-      app.add_subcommand("import", "Makes a data set of the flight log of another autopilot.");
+      app.add_subcommand("import", "Makes a data set of the log of another autopilot or of ROS 2.");
   command->footer(
-      "Reads PX4 ULog (.ulg) and ArduPilot DataFlash (.bin); the first bytes tell which. Damaged and cut\n"
-      "files are read as far as they are good; what was lost is said. common/logs/README.md, installed as\n"
-      "flight-logs.md, tells which message becomes what.");
+      "Reads PX4 ULog (.ulg), ArduPilot DataFlash (.bin) and bags of ROS 2 (.mcap); the first bytes tell "
+      "which.\n"
+      "Damaged and cut files are read as far as they are good; what was lost is said. "
+      "common/logs/README.md,\n"
+      "installed as flight-logs.md, tells which message becomes what.");
   command->add_option("file", options->file, "the log")->required();
   command->add_option("--out", options->out, "folder to write; created when absent")->required();
   command
       ->add_option("--from", options->choices,
                    "FILE=TOPIC:INSTANCE: what a file is made from where the log has several, e.g. "
-                   "imu=vehicle_imu:1 or gps=GPS:1; may be repeated")
+                   "imu=vehicle_imu:1, gps=GPS:1 or dvl=/odometry; may be repeated")
       ->allow_extra_args(false);
   command
-      ->add_option("--time", options->time,
-                   "\"boot\": t_s counts from the autopilot's start; \"utc\": from 2020-01-01 UTC, by GPS")
+      ->add_option(
+          "--time", options->time,
+          "\"boot\": t_s counts from the start of the log; \"utc\": from 2020-01-01 UTC, by GPS, in ROS 2 "
+          "by the stamps")
       ->check(CLI::IsMember({"boot", "utc"}))
+      ->capture_default_str();
+  command
+      ->add_option("--axes", options->axes,
+                   "ROS 2: TOPIC=flu or TOPIC=frd: its axes, forward-left-up and east-north-up, or "
+                   "forward-right-down and "
+                   "north-east-down; may be repeated")
+      ->allow_extra_args(false);
+  command
+      ->add_option(
+          "--mounting", options->mountings,
+          "ROS 2: FRAME=ROLL,PITCH,YAW: attitude of a sensor in the vehicle, degrees, forward-right-down, "
+          "instead of tf_static's; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--base", options->ros2.base, "ROS 2: the frame of the vehicle in tf_static")
+      ->capture_default_str();
+  command
+      ->add_option("--surface-pressure", options->ros2.surface_pressure_Pa,
+                   "ROS 2: Pa, for depths of pressures in water")
+      ->check(CLI::Range(50'000.0, 110'000.0))
+      ->capture_default_str();
+  command->add_option("--water-density", options->ros2.water_density_kg_m3, "ROS 2: kg/m3, likewise")
+      ->check(CLI::Range(900.0, 1100.0))
       ->capture_default_str();
   command->add_flag("--gzip", options->gzip, "write .csv.gz");
   command->add_flag("--json", options->json, "print import.json");
