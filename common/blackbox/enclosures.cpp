@@ -1,6 +1,7 @@
 #include "blackbox/enclosures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -25,20 +26,27 @@ std::optional<record::Bytes> read_small(const fs::path& path) {
   return bytes;
 }
 
-/// checkpoint.path of a configuration file and its overrides; empty when there is none.
-std::string checkpoint_path(const record::Bytes& file, const CommandLine& line) {
-  std::string path;
-  const json config = json::parse(file.begin(), file.end(), nullptr, false);
-  if (config.is_object() && config.contains("checkpoint") && config["checkpoint"].is_object()) {
-    path = config["checkpoint"].value("path", json()).is_string()
-               ? config["checkpoint"]["path"].get<std::string>()
-               : std::string();
-  }
-  constexpr std::string_view kKey = "checkpoint.path=";
+/// The text at a key of a configuration file and its overrides, e.g. "checkpoint.path"; empty when there is
+/// none.
+std::string text_at(const json& config, const CommandLine& line, const std::string& key) {
+  std::string pointer = "/" + key;
+  std::replace(pointer.begin(), pointer.end(), '.', '/');
+  const json found = config.is_object() ? config.value(json::json_pointer(pointer), json()) : json();
+  std::string text = found.is_string() ? found.get<std::string>() : std::string();
   for (const std::string& set : line.values_of("--set")) {
-    if (set.starts_with(kKey)) path = set.substr(kKey.size());
+    if (set.starts_with(key + "=")) text = set.substr(key.size() + 1);
   }
-  return path;
+  return text;
+}
+
+/// What names files that are parts of a configuration. Others it only mentions.
+constexpr std::array<const char*, 1> kReferring{"engine.vehicle_model.coefficients_file"};
+constexpr std::string_view kFiles = "files/";
+
+/// Whether a path leads from a folder to something inside of it.
+bool stays_inside(const fs::path& path) {
+  return path.is_relative() && !path.empty() &&
+         std::none_of(path.begin(), path.end(), [](const fs::path& part) { return part == ".."; });
 }
 
 }  // namespace
@@ -103,7 +111,15 @@ std::vector<Enclosure> enclosures_of(const std::string& service, const CommandLi
   const auto file = read_small(fs::path(line.folder) / *config);
   if (!file) return out;
   out.push_back({folder + "config.json", "application/json", now_ns, *file});
-  const std::string checkpoint = checkpoint_path(*file, line);
+  const json read = json::parse(file->begin(), file->end(), nullptr, false);
+  const fs::path place = (fs::path(line.folder) / *config).parent_path();
+  for (const char* key : kReferring) {
+    const fs::path path = text_at(read, line, key);
+    if (!stays_inside(path)) continue;
+    if (const auto part = read_small(place / path))
+      out.push_back({folder + std::string(kFiles) + path.string(), "application/json", now_ns, *part});
+  }
+  const std::string checkpoint = text_at(read, line, "checkpoint.path");
   if (checkpoint.empty()) return out;
   out.push_back({folder + "checkpoint",
                  "application/octet-stream",
@@ -111,6 +127,14 @@ std::vector<Enclosure> enclosures_of(const std::string& service, const CommandLi
                  {},
                  (fs::path(line.folder) / checkpoint).string()});
   return out;
+}
+
+bool is_referred(std::string_view name) {
+  return name.starts_with(kFiles) && stays_inside(name.substr(kFiles.size()));
+}
+
+std::string referred_path(std::string_view name) {
+  return std::string(name.substr(kFiles.size()));
 }
 
 std::optional<record::Bytes> read_enclosed(const std::string& path) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "blackbox/sample.hpp"
@@ -28,12 +29,19 @@ struct CommandLine {
 [[nodiscard]] std::string to_json(const CommandLine& line);
 [[nodiscard]] std::optional<CommandLine> command_line_from(std::string_view json);
 
-/// What is kept of a service: its command line, its configuration file, its checkpoint. Files that cannot be
-/// read, and those of more than 4 MB, are left out.
-/// The checkpoint is one that changes.
-///   services/NAME/command.json, services/NAME/config.json, services/NAME/checkpoint
+/// What is kept of a service: its command line, its configuration file, the files that this refers to as
+/// parts of itself, its checkpoint. Files that cannot be read, and those of more than 4 MB, are left out; so
+/// is whatever else a configuration names: keys and tokens are nobody's business. The checkpoint is one that
+/// changes.
+///   services/NAME/command.json, .../config.json, .../files/PATH, .../checkpoint
+/// PATH is as the configuration says it, counted from the configuration's folder.
 [[nodiscard]] std::vector<Enclosure> enclosures_of(const std::string& service, const CommandLine& line,
                                                    TimeNs now_ns);
+
+/// Whether an enclosure's name, without services/NAME/, is that of a file that the configuration refers to;
+/// and where that has to lie, counted from the configuration's folder. It is always inside of it.
+[[nodiscard]] bool is_referred(std::string_view name);
+[[nodiscard]] std::string referred_path(std::string_view name);
 
 /// The content of a file that may be enclosed; nothing where it cannot be.
 [[nodiscard]] std::optional<record::Bytes> read_enclosed(const std::string& path);

@@ -4,15 +4,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
-
-#include <unistd.h>
+#include <fstream>
+#include <optional>
 
 #include "blackbox/enclosures.hpp"
 #include "bus/topics.hpp"
 #include "cli/command.hpp"
 
 namespace fathom::cli {
+
+namespace fs = std::filesystem;
 
 record::Reader open_recording(const std::string& file) {
   auto reader = record::Reader::open(file);
@@ -37,31 +38,89 @@ std::vector<std::string> topics_of(const std::vector<std::string>& words) {
   return out;
 }
 
+namespace {
+
+/// Files as a configuration refers to them, for as long as it is loaded.
+class Folder {
+ public:
+  Folder() {
+    std::string path = (fs::temp_directory_path() / "fathom-config-XXXXXX").string();
+    if (mkdtemp(path.data()) == nullptr) throw Failure(ExitCode::runtime_failure, path + ": cannot be made");
+    path_ = path;
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  /// `name` relative to the folder, and inside of it.
+  fs::path put(const fs::path& name, const record::Bytes& bytes) {
+    const fs::path path = path_ / name;
+    std::error_code failed;
+    fs::create_directories(path.parent_path(), failed);
+    std::ofstream file(path, std::ios::binary);
+    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    file.flush();
+    if (!file) throw Failure(ExitCode::runtime_failure, path.string() + ": cannot be written");
+    return path;
+  }
+
+ private:
+  fs::path path_;
+};
+
+/// What was enclosed of one service at one time.
+config::LoadedConfig<config::FusionConfig> load_enclosed(record::Reader& reader, const std::string& file,
+                                                         const std::string& folder,
+                                                         const record::AttachmentIndex& config,
+                                                         const std::vector<std::string>& sets) {
+  const auto failed = [&](const std::string& what) {
+    return Failure(ExitCode::bad_input,
+                   file + ": " + folder + what + ", expected the configuration; give it with --config");
+  };
+  Folder files;
+  std::optional<blackbox::CommandLine> line;
+  for (const record::AttachmentIndex& one : reader.contents().attachments) {
+    const bool same = one.create_time == config.create_time && one.name.starts_with(folder);
+    const std::string name = same ? one.name.substr(folder.size()) : "";
+    if (name != "command.json" && !blackbox::is_referred(name)) continue;
+    const auto bytes = reader.attachment(one);
+    if (!bytes) throw failed(name + ": " + bytes.error().message);
+    if (name == "command.json")
+      line = blackbox::command_line_from(record::text_of(bytes.value()));
+    else
+      files.put(blackbox::referred_path(name), bytes.value());
+  }
+  if (!line) throw failed("command.json: is no command line");
+  const auto text = reader.attachment(config);
+  if (!text) throw failed("config.json: " + text.error().message);
+  config::LoadRequest request{files.put("config.json", text.value()).string(), line->values_of("--set")};
+  request.sets.insert(request.sets.end(), sets.begin(), sets.end());
+  return config::load_service_config<config::FusionConfig>(request);
+}
+
+}  // namespace
+
 config::LoadedConfig<config::FusionConfig> recorded_configuration(record::Reader& reader,
                                                                   const std::string& file,
                                                                   const std::string& service,
-                                                                  const std::vector<std::string>& sets) {
+                                                                  const std::vector<std::string>& sets,
+                                                                  const std::string& hash) {
   const std::string folder = "services/" + service + "/";
-  const auto command = reader.attachment(folder + "command.json");
-  const auto text = reader.attachment(folder + "config.json");
-  if (!command || !text) {
-    throw Failure(ExitCode::bad_input, file + ": " + (command ? text : command).error().message +
-                                           ", expected the configuration of " + service +
-                                           "; give it with --config");
+  std::vector<record::AttachmentIndex> all = reader.contents().attachments;
+  std::erase_if(all, [&](const auto& one) { return one.name != folder + "config.json"; });
+  if (all.empty()) {
+    throw Failure(ExitCode::bad_input, file + ": " + folder + "config.json: is not there, expected the " +
+                                           "configuration of " + service + "; give it with --config");
   }
-  const auto line = blackbox::command_line_from(record::text_of(command.value()));
-  if (!line) throw Failure(ExitCode::bad_input, file + ": " + folder + "command.json: is no command line");
-  std::string path = (std::filesystem::temp_directory_path() / "fathom-config-XXXXXX").string();
-  const int descriptor = mkstemp(path.data());
-  if (descriptor < 0) throw Failure(ExitCode::runtime_failure, path + ": cannot be made");
-  const std::unique_ptr<const char, int (*)(const char*)> remove(path.c_str(), ::unlink);
-  const record::Bytes& bytes = text.value();
-  const bool written = ::write(descriptor, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
-  ::close(descriptor);
-  if (!written) throw Failure(ExitCode::runtime_failure, path + ": cannot be written");
-  config::LoadRequest request{path, line->values_of("--set")};
-  request.sets.insert(request.sets.end(), sets.begin(), sets.end());
-  return config::load_service_config<config::FusionConfig>(request);
+  auto last = load_enclosed(reader, file, folder, all.back(), sets);
+  for (std::size_t back = 2; !hash.empty() && last.hash != hash && back <= all.size(); ++back) {
+    auto one = load_enclosed(reader, file, folder, all[all.size() - back], sets);
+    if (one.hash == hash) return one;
+  }
+  return last;
 }
 
 }  // namespace fathom::cli

@@ -16,9 +16,10 @@ namespace fathom::cli {
 [[nodiscard]] std::vector<std::string> topics_of(const std::vector<std::string>& words);
 
 /// The configuration that a fusion service of this name ran with, as it is enclosed in the recording, with
-/// further overrides behind its own. Throws Failure where it is not there, and config::ConfigError.
+/// further overrides behind its own. Of several it is the one of this hash, else the last one. Throws Failure
+/// where it is not there, and config::ConfigError.
 [[nodiscard]] config::LoadedConfig<config::FusionConfig> recorded_configuration(
     record::Reader& reader, const std::string& file, const std::string& service,
-    const std::vector<std::string>& sets = {});
+    const std::vector<std::string>& sets = {}, const std::string& hash = {});
 
 }  // namespace fathom::cli

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "archive/checkpoint.hpp"
+#include "archive/digest.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "estimation/engine/fusion_engine.hpp"
@@ -90,7 +91,8 @@ struct FusionService::Impl {
         commands(host.participant(),
                  [this](const Command& command, const bus::SampleInfo&) { on_command(command); }),
         imu(host.participant(), arrivals_of<ImuSample>()) {
-    if (start.resumption.resumed) taken.resumed();
+    if (start.resumption.resumed)
+      taken.add_state(start.resumption.stamp_ns, start.resumption.digest, Name(host.name()));
     if (link) link->begin();
     host.on_tick(kNsPerSecond, [this] { publish_slow(); });
     host.on_status([this](ServiceStatus& status) { fill(status); });
@@ -111,16 +113,18 @@ struct FusionService::Impl {
   ~Impl() {
     host.on_tick(kNsPerSecond, [] {});
     host.on_status([](ServiceStatus&) {});
-    taken.publish(true);
     // What the engine still holds back is judged later by the next start, from the checkpoint, or by another
     // fusion service. Without both it is judged now.
-    if (keeper || link) return;
-    {
-      const std::lock_guard lock(mutex);
-      ended = true;
-      engine.finish();
+    if (!keeper && !link) {
+      {
+        const std::lock_guard lock(mutex);
+        ended = true;
+        engine.finish();
+        taken.add_end();
+      }
+      verdicts.publish();
     }
-    verdicts.publish();
+    taken.publish(true);
   }
 
   /// All that aids or informs; the inertial unit is heard last.
@@ -241,9 +245,12 @@ struct FusionService::Impl {
 
   bool save(TimeNs& stamp_ns, std::vector<std::byte>& archive) {
     if (link && !link->in_step()) return false;  // the checkpoint on the disk may be better
-    const std::lock_guard lock(mutex);
-    if (!engine.save(archive)) return false;
-    stamp_ns = engine.nav_state().header.stamp_ns;
+    {
+      const std::lock_guard lock(mutex);
+      if (!engine.save(archive)) return false;
+      stamp_ns = engine.nav_state().header.stamp_ns;
+    }
+    taken.publish(true);  // whoever goes on from the state can be proved, also when this process dies now
     return true;
   }
 
@@ -287,7 +294,7 @@ struct FusionService::Impl {
 
   // The engine is given again what has arrived since the state was saved. The service that saved it has
   // published the verdicts and outcomes.
-  ReplicaLink::Restored restore(const SharedState& state) {
+  ReplicaLink::Restored restore(const SharedState& state, const Name& from) {
     const std::lock_guard lock(mutex);
     if (intake.imu_unit() != state.imu_sensor) {
       return {"", "is of inertial unit " + state.imu_sensor.str() + ", and this one listens to " +
@@ -296,7 +303,11 @@ struct FusionService::Impl {
     if (std::string why = gap_between(state, intake.log()); !why.empty())
       return {"", "does not reach this one: " + why};
     if (std::string why = engine.restore(state.archive); !why.empty()) return {"", "is none: " + why, true};
-    for (const Command& order : intake.log().orders()) (void)engine.apply(order);
+    taken.add_state(state.stamp_ns, archive::digest(state.archive), from);
+    for (const Command& order : intake.log().orders()) {
+      (void)engine.apply(order);
+      taken.add(order, true);
+    }
     intake.go_on_from(state.last);
     int told_again = 0;
     const auto leave_verdicts = [&] {
@@ -308,30 +319,33 @@ struct FusionService::Impl {
                          arrival.header().stamp_ns <= engine.nav_state().header.stamp_ns;
       if (known) continue;
       give(arrival);
+      taken.add(arrival, true);
       ++told_again;
       leave_verdicts();
     }
     for (estimation::OrderOutcome outcome; engine.next_outcome(outcome);) continue;
     verdicts.begin_anew();
-    taken.resumed();
     phase = engine.nav_state().alignment;
     return {"and " + std::to_string(told_again) + " samples since", ""};
   }
 
   bool share(SharedState& state) {
-    const std::lock_guard lock(mutex);
-    state.archive.clear();
-    if (!engine.save(state.archive)) return false;
-    state.stamp_ns = engine.nav_state().header.stamp_ns;
-    state.imu_sensor = intake.imu_unit();
-    state.last = intake.last();
+    {
+      const std::lock_guard lock(mutex);
+      state.archive.clear();
+      if (!engine.save(state.archive)) return false;
+      state.stamp_ns = engine.nav_state().header.stamp_ns;
+      state.imu_sensor = intake.imu_unit();
+      state.last = intake.last();
+    }
+    taken.publish(true);  // as in save()
     return true;
   }
 
   [[nodiscard]] ReplicaLink::Hooks replica_hooks() {
     ReplicaLink::Hooks hooks;
     hooks.save = [this](SharedState& state) { return share(state); };
-    hooks.restore = [this](const SharedState& state) { return restore(state); };
+    hooks.restore = [this](const SharedState& state, const Name& from) { return restore(state, from); };
     hooks.keep_arrivals = [this](bool on) {
       const std::lock_guard lock(mutex);
       intake.keep(on);

@@ -1,49 +1,21 @@
 #include "fusion/intake_publisher.hpp"
 
-#include <algorithm>
-#include <utility>
-
 namespace fathom::fusion {
-namespace {
-
-constexpr DurationNs kPatience_ns = 100 * kNsPerMillisecond;
-
-}  // namespace
-
-void IntakePublisher::add(IntakeEntry entry) {
-  if (waiting_.empty()) oldest_ns_ = host_.clock().monotonic_ns();
-  waiting_.push_back(entry);
-}
-
-void IntakePublisher::add(const Arrival& arrival) {
-  const SampleHeader& header = arrival.header();
-  add(IntakeEntry{false, arrival.source(), header.sensor, arrival.writer, header.stamp_ns, header.sequence});
-}
-
-void IntakePublisher::add(const Command& order) {
-  const SampleHeader& header = order.header;
-  add(IntakeEntry{true, SourceKind::imu, header.sensor, {}, header.stamp_ns, header.sequence});
-}
 
 void IntakePublisher::publish(bool all) {
+  std::unique_lock one(publishing_, std::defer_lock);
+  if (all)
+    one.lock();
+  else if (!one.try_lock())
+    return;  // another thread is at it; the next arrival looks again
   for (;;) {
-    IntakeRecord batch;
     {
       const std::lock_guard lock(mutex_);
-      const bool due = waiting_.size() >= IntakeRecord::kMostEntries / 2 ||
-                       host_.clock().monotonic_ns() - oldest_ns_ >= kPatience_ns || all;
-      if (waiting_.empty() || !due) return;
-      const auto end = waiting_.begin() +
-                       static_cast<std::ptrdiff_t>(std::min(waiting_.size(), IntakeRecord::kMostEntries));
-      batch.entries.assign(waiting_.begin(), end);
-      waiting_.erase(waiting_.begin(), end);
-      batch.header = host_.header();
-      batch.header.sequence = ++sequence_;
-      batch.first = published_;
-      batch.resumed = resumed_;
-      published_ += batch.entries.size();
+      if (!list_.take(batch_, all, now_ns())) return;
     }
-    writer_.write(batch);
+    batch_.header = host_.header();
+    batch_.header.sequence = ++sequence_;
+    writer_.write(batch_);
   }
 }
 

@@ -3,10 +3,8 @@
 #include <mutex>
 
 #include "bus/writer.hpp"
-#include "fusion/intake/arrival.hpp"
+#include "fusion/intake/intake_list.hpp"
 #include "host/service_host.hpp"
-#include "samples/command.hpp"
-#include "samples/status/intake.hpp"
 
 namespace fathom::fusion {
 
@@ -14,27 +12,34 @@ namespace fathom::fusion {
 /// from it.
 class IntakePublisher {
  public:
+  /// `mutex` guards the engine.
   IntakePublisher(host::ServiceHost& host, std::mutex& mutex)
-      : host_(host), mutex_(mutex), writer_(host.participant()) {}
+      : host_(host), mutex_(mutex), writer_(host.participant()) {
+    batch_.entries.reserve(IntakeRecord::kMostEntries);
+  }
 
-  /// The run has a state that it did not make itself. Mutex held.
-  void resumed() { resumed_ = true; }
-  /// Given to the engine just now. Mutex held.
-  void add(const Arrival& arrival);
-  void add(const Command& order);
+  /// Given to the engine just now. `again`: what the engine says of it is not published. Mutex held.
+  void add(const Arrival& arrival, bool again = false) { list_.add(arrival, again, now_ns()); }
+  void add(const Command& order, bool again = false) { list_.add(order, again, now_ns()); }
+  /// The engine went on from this state just now. Mutex held.
+  void add_state(TimeNs stamp_ns, std::uint64_t digest, const Name& saved_by) {
+    list_.add_state(stamp_ns, digest, saved_by, now_ns());
+  }
+  /// The engine gets nothing more. Mutex held.
+  void add_end() { list_.add_end(now_ns()); }
+
   /// Publishes what waits, when it is enough, old enough or all is wanted. Mutex not held.
   void publish(bool all = false);
 
  private:
-  void add(IntakeEntry entry);
+  [[nodiscard]] TimeNs now_ns() const { return host_.clock().monotonic_ns(); }
 
   host::ServiceHost& host_;
-  std::mutex& mutex_;  ///< guards what follows up to the writer
-  std::vector<IntakeEntry> waiting_;
-  TimeNs oldest_ns_ = 0;
-  std::uint64_t published_ = 0;
+  std::mutex& mutex_;
+  IntakeList list_;  // guarded by the engine's mutex
+  std::mutex publishing_;
+  IntakeRecord batch_;  // guarded by `publishing_`, which is locked before the engine's
   std::uint64_t sequence_ = 0;
-  bool resumed_ = false;
   bus::Writer<IntakeRecord> writer_;
 };
 

@@ -14,16 +14,16 @@ struct Mapping<IntakeRecord> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy(plain.resumed, wire.resumed());
     copy(plain.first, wire.first());
     copy.sequence(plain.entries, wire.entries(), IntakeRecord::kMostEntries,
                   [](auto& each, auto& entry, auto& w) {
-                    each(entry.is_order, w.is_order());
+                    copy_enum<IntakeKind::end, v1::IntakeKind::INTAKE_END>(each, entry.kind, w.kind());
                     copy_enum<kLastKind, v1::SourceKind::SOURCE_RANGE>(each, entry.source, w.source());
                     each(entry.sensor, w.sensor());
                     each(entry.writer, w.writer());
                     each(entry.stamp_ns, w.stamp_ns());
                     each(entry.sequence, w.sequence_number());
+                    each(entry.again, w.again());
                   });
   }
 

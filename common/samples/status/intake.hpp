@@ -8,21 +8,28 @@
 
 namespace fathom {
 
-/// A sample or an order as fusion gave it to its engine.
+enum class IntakeKind : std::uint8_t {
+  sample,
+  order,
+  state,  ///< the engine went on from a state that it had not made itself
+  end     ///< nothing more is given, and what the engine held back is judged
+};
+
+/// One thing that fusion gave to its engine.
 struct IntakeEntry {
-  bool is_order = false;
+  IntakeKind kind = IntakeKind::sample;
   SourceKind source = SourceKind::imu;  ///< of a sample
-  Name sensor;                          ///< of an order: who gave it
+  Name sensor;                          ///< of an order: who gave it; of a state: who saved it, where known
   Name writer;                          ///< who published the sample, where known
   TimeNs stamp_ns = 0;
-  std::uint64_t sequence = 0;
+  std::uint64_t sequence = 0;  ///< of a state: its digest (archive/digest.hpp)
+  bool again = false;  ///< given to an earlier state as well; what the engine says of it is not published
 };
 
 /// The next entries of one run of a fusion service; header.sensor is the instance.
 struct IntakeRecord {
   static constexpr std::size_t kMostEntries = 64;
   SampleHeader header;
-  bool resumed = false;              ///< the run began with, or took up, a state that it did not make itself
   std::uint64_t first = 0;           ///< number of the first entry here among those of this run, from 0
   std::vector<IntakeEntry> entries;  ///< at most kMostEntries
 };

@@ -2,13 +2,16 @@
 
 #include <cstdint>
 #include <deque>
-#include <limits>
 #include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "cli/record/ledger.hpp"
+#include "cli/record/state_pool.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "samples/command.hpp"
@@ -20,62 +23,96 @@
 namespace fathom::cli {
 
 /// One run of a fusion service, done again. What the recording holds is put in as it comes; states and
-/// verdicts may come before or after what they follow from.
+/// verdicts may come before or after what they follow from. Where the run went on from a state that it had
+/// not made itself, the proof waits for that state to be offered to the pool, and it offers what others went
+/// on from.
 class Proof {
  public:
-  /// From the beginning of a run that made its state itself.
-  explicit Proof(const config::FusionConfig& config);
-  /// From a state that it had under way. Throws Failure when it is none of this engine.
-  Proof(const config::FusionConfig& config, std::span<const std::byte> state);
+  struct Begin {
+    std::uint64_t entry = 0;  ///< number of the first entry in the recording
+    bool afresh = false;      ///< the run made its state itself, from this entry on
+    /// States that the run had under way, by their stamps: where it cannot be done again from its beginning
+    /// it is from the first of these whose inertial sample it took.
+    std::map<TimeNs, std::vector<std::byte>> checkpoints{};
+  };
+  /// The pool outlives this. `from`: the number of its first entry, and whether it began there.
+  Proof(const config::FusionConfig& config, StatePool& pool, Begin begin);
 
-  void add(const AnySample& sample);
+  /// `writer`: who published the sample.
+  void add(const AnySample& sample, const Name& writer);
   void add(const Command& order);
   void add(const IntakeRecord& intake);
   void add(const NavState& recorded);
   void add(const Verdict& recorded);
-  /// At the end of the recording.
+  /// At the end of the recording. Goes as far as it comes; true when that was any further than before.
+  bool go_on();
+  /// Waits no longer for a state that nobody offers, and looks for another one to go on from; false when it
+  /// waited for none.
+  bool give_up_waiting();
+  /// Nothing more comes.
   void finish();
 
   /// The first difference, in words; empty as long as there is none.
   [[nodiscard]] const std::string& difference() const { return difference_; }
-  [[nodiscard]] std::uint64_t states() const { return states_; }        ///< that were equal
-  [[nodiscard]] std::uint64_t verdicts() const { return verdicts_; }    ///< likewise
-  [[nodiscard]] std::uint64_t taken() const { return next_ - first_; }  ///< samples and orders
+  [[nodiscard]] std::uint64_t states() const { return states_; }      ///< that were equal
+  [[nodiscard]] std::uint64_t verdicts() const { return verdicts_; }  ///< likewise
+  [[nodiscard]] std::uint64_t taken() const { return given_; }        ///< samples and orders
   /// States that were computed and are not in the recording, before the last one that is.
-  [[nodiscard]] std::uint64_t unheard() const { return unheard_; }
+  [[nodiscard]] std::uint64_t unheard() const;
+  /// How often it went on from a state that it had not made itself.
+  [[nodiscard]] std::uint64_t taken_up() const { return taken_up_; }
+  /// From when on it was done again; nothing: from its beginning.
+  [[nodiscard]] std::optional<TimeNs> from_ns() const { return from_ns_; }
+  /// What could not be done again, in words; empty when nothing is missing but what came before from_ns().
+  [[nodiscard]] const std::string& missing() const { return missing_; }
 
  private:
   /// What tells a sample or an order from others: order or its kind, sensor, stamp, sequence.
   using Key = std::tuple<int, Name, TimeNs, std::uint64_t>;
-  /// Of a verdict: source, sensor, stamp, sequence, revision.
-  using VerdictKey = std::tuple<int, Name, TimeNs, std::uint64_t, std::uint32_t>;
+  /// Stamp first: what is oldest makes room.
+  using StateKey = std::pair<TimeNs, std::uint64_t>;
+  using VerdictKey = std::tuple<TimeNs, int, Name, std::uint64_t, std::uint32_t>;
 
-  void go_on();
   /// False: what it names has not come yet.
   bool give(const IntakeEntry& entry);
-  void collect();
-  void compare(const NavState& recorded, const NavState& computed);
-  void compare(const Verdict& recorded, const Verdict& computed);
+  bool give_sample(const IntakeEntry& entry);
+  bool give_order(const IntakeEntry& entry);
+  bool take_up(const IntakeEntry& entry);
+  /// Of a run that is not done again at present: whether it is from this entry on.
+  bool look_for_begin(const IntakeEntry& entry);
+  void begin_from(TimeNs stamp_ns, std::span<const std::byte> state);
+  void lose(const std::string& why);
+  [[nodiscard]] const AnySample* find(const IntakeEntry& entry) const;
+  void give(const ImuSample& sample, const IntakeEntry& entry);
+  void collect(bool again);
+  void offer();
   void differ(const std::string& what);
   static VerdictKey key_of(const Verdict& verdict);
 
   estimation::FusionEngine engine_;
-  std::optional<TimeNs> from_ns_;  ///< of the state that is begun with, until its inertial sample was found
-  std::map<Key, AnySample> samples_;  // of the last minute
+  StatePool& pool_;
+  std::map<TimeNs, std::vector<std::byte>> checkpoints_;
+  bool under_way_;          ///< the engine is where the run's was
+  bool ended_ = false;      ///< the engine's end was among the entries
+  std::size_t waited_ = 0;  ///< samples that came while a state was waited for
+  std::optional<TimeNs> from_ns_;
+  std::string missing_;
+  /// By Key: who published it, and the sample. The last ones.
+  std::multimap<Key, std::pair<Name, AnySample>> samples_;
+  std::deque<Key> ages_;  // of the samples, the oldest first
   std::map<Key, Command> orders_;
-  TimeNs newest_ns_ = 0;
   std::map<std::uint64_t, IntakeEntry> entries_;  // not given yet, by their numbers
-  std::uint64_t next_ = 0;
-  std::uint64_t first_ = 0;
-  TimeNs begin_ns_ = std::numeric_limits<TimeNs>::min();
+  std::uint64_t next_;
+  std::size_t records_ = 0;  // lists that came
+  TimeNs begin_ns_;          // of what is under way: what is recorded of later stamps follows from it
+  std::vector<std::pair<TimeNs, TimeNs>> done_;  // from and to, of what was under way before
+  std::optional<TimeNs> duplicates_until_ns_;
   Name imu_writer_;
-  std::map<std::uint64_t, NavState> computed_;  // not compared yet, by sequence
-  std::map<std::uint64_t, NavState> recorded_;
-  // Several of a key: of a measurement that was published twice.
-  std::map<VerdictKey, std::deque<Verdict>> verdicts_computed_;
-  std::map<VerdictKey, std::deque<Verdict>> verdicts_recorded_;
-  std::uint64_t last_state_ = 0;
-  std::uint64_t unheard_ = 0;
+  Ledger<StateKey, NavState> nav_states_;
+  Ledger<VerdictKey, Verdict> judgements_;
+  StateKey last_state_{};
+  std::uint64_t given_ = 0;
+  std::uint64_t taken_up_ = 0;
   std::uint64_t states_ = 0;
   std::uint64_t verdicts_ = 0;
   std::string difference_;

@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <map>
 #include <memory>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -14,6 +13,7 @@
 #include "bus/cdr.hpp"
 #include "cli/command.hpp"
 #include "cli/record/proof.hpp"
+#include "cli/record/state_pool.hpp"
 #include "cli/recording.hpp"
 #include "runtime/build_info.hpp"
 #include "samples/status/health.hpp"
@@ -24,11 +24,12 @@ namespace {
 /// A run of a fusion service: all that one process said.
 struct Run {
   std::string service;
-  bool from_its_begin = false;
-  std::string why_not;           ///< from its begin
-  std::vector<TimeNs> inertial;  ///< stamps of what it took
+  std::uint64_t first = ~0ULL;  ///< number of the first entry of its list that is in the recording
+  IntakeKind first_kind{};
+  std::string version;
+  std::string config_hash;
+  std::set<TimeNs> inertial;  ///< stamps of what it took, where its beginning is not in the recording
   std::unique_ptr<Proof> proof;
-  std::string from;      ///< where it begins, for people
   std::string no_proof;  ///< why there is none
 };
 
@@ -51,10 +52,14 @@ class Verification {
 
   ExitCode run() {
     for (File& file : files_) find_runs(file);
-    for (auto& [process, run] : runs_) begin(run);
     if (runs_.empty()) {
       throw Failure(ExitCode::bad_input,
                     name_ + ": no fusion service says in it what it took (fathom/v1/intake)");
+    }
+    for (auto& [process, run] : runs_) {
+      run.version = lives_[process].version;
+      run.config_hash = lives_[process].config_hash;
+      begin(run);
     }
     record::Selection selection;
     for_each_kind([&](auto kind) { selection.topics.emplace_back(kind.kTopic); });
@@ -70,154 +75,178 @@ class Verification {
           });
       all.problems.insert(all.problems.end(), outcome.problems.begin(), outcome.problems.end());
     }
+    finish();
     return answer(all);
   }
 
  private:
   void find_runs(File& file) {
-    file.reader.read({{"fathom/v1/intake"}},
+    file.reader.read({{"fathom/v1/intake", "fathom/v1/service_status"}},
                      [&](const record::Channel& channel, const record::Message& message) {
-                       const auto intake = bus::from_cdr<IntakeRecord>(message.data);
-                       if (intake) look(runs_[process_of(channel)], *intake);
-                       return true;
-                     });
-    file.reader.read({{"fathom/v1/service_status"}},
-                     [&](const record::Channel& channel, const record::Message& message) {
-                       const auto status = bus::from_cdr<ServiceStatus>(message.data);
-                       if (status && runs_.contains(process_of(channel))) {
-                         versions_.insert(status->version);
-                         hashes_[status->header.sensor.str()].insert(status->config_hash);
+                       if (channel.topic == "fathom/v1/intake") {
+                         if (const auto intake = bus::from_cdr<IntakeRecord>(message.data))
+                           look(runs_[process_of(channel)], *intake);
+                       } else if (const auto status = bus::from_cdr<ServiceStatus>(message.data)) {
+                         ServiceStatus& kept = lives_[process_of(channel)];
+                         kept.version = status->version;
+                         kept.config_hash = status->config_hash;
                        }
                        return true;
                      });
   }
 
-  static void look(Run& run, const IntakeRecord& intake) {
-    if (run.service.empty()) {
-      run.service = intake.header.sensor.str();
-      run.from_its_begin = !intake.resumed && intake.first == 0;
-      run.why_not = intake.resumed ? "it went on from a state of another run"
-                                   : "it had taken " + std::to_string(intake.first) +
-                                         " samples before the recording began";
+  void look(Run& run, const IntakeRecord& intake) {
+    run.service = intake.header.sensor.str();
+    if (intake.entries.empty()) return;
+    if (intake.first < run.first) {
+      run.first = intake.first;
+      run.first_kind = intake.entries.front().kind;
     }
     for (const IntakeEntry& entry : intake.entries) {
-      if (!entry.is_order && entry.source == SourceKind::imu) run.inertial.push_back(entry.stamp_ns);
+      if (entry.kind == IntakeKind::state) pool_.want(entry.stamp_ns, entry.sequence);
+      if (entry.kind == IntakeKind::sample && entry.source == SourceKind::imu)
+        run.inertial.insert(entry.stamp_ns);
     }
   }
 
-  /// From its begin, or from the first checkpoint of its own that is in the recording.
+  /// From its beginning, or from the first state of its own that is in the recording.
   void begin(Run& run) {
-    run.no_proof = run.why_not + ", and no checkpoint of it is in the recording";
     for (File& file : files_) {
       if (!file.reader.attachment("services/" + run.service + "/config.json")) continue;
-      const auto loaded = recorded_configuration(file.reader, file.name, run.service);
-      own_hashes_[run.service] = loaded.hash;
-      if (run.from_its_begin) {
-        run.proof = std::make_unique<Proof>(loaded.value);
-        return;
-      }
+      const auto loaded = recorded_configuration(file.reader, file.name, run.service, {}, run.config_hash);
+      const bool exact = run.config_hash.empty() || loaded.hash == run.config_hash;
+      if (!exact && &file != &files_.back()) continue;  // it may be in the next file
+      own_hashes_[&run] = loaded.hash;
+      Proof::Begin from{run.first, run.first == 0 && run.first_kind != IntakeKind::state,
+                        checkpoints_of(run)};
+      run.proof = std::make_unique<Proof>(loaded.value, pool_, std::move(from));
+      run.inertial.clear();
+      return;
+    }
+    throw Failure(ExitCode::bad_input, name_ + ": the configuration of " + run.service +
+                                           " is not in the recording, expected services/" + run.service +
+                                           "/config.json");
+  }
+
+  /// The recorded states of a run, which others may have gone on from, too.
+  std::map<TimeNs, std::vector<std::byte>> checkpoints_of(const Run& run) {
+    std::map<TimeNs, std::vector<std::byte>> out;
+    for (File& file : files_) {
       for (const record::AttachmentIndex& index : file.reader.contents().attachments) {
         if (index.name != "services/" + run.service + "/checkpoint") continue;
         const auto bytes = file.reader.attachment(index);
         if (!bytes) continue;
-        const auto checkpoint = archive::decode(std::as_bytes(std::span(bytes.value())));
+        auto checkpoint = archive::decode(std::as_bytes(std::span(bytes.value())));
         if (!checkpoint) continue;
         const TimeNs stamp_ns = checkpoint.value().label.stamp_ns;
-        if (std::find(run.inertial.begin(), run.inertial.end(), stamp_ns) == run.inertial.end()) continue;
-        run.proof = std::make_unique<Proof>(loaded.value, checkpoint.value().archive);
-        run.from = ", from its checkpoint of " + to_iso8601(stamp_ns) + " on";
-        return;
+        pool_.offer(stamp_ns, checkpoint.value().archive);
+        if (run.inertial.contains(stamp_ns)) out[stamp_ns] = std::move(checkpoint.value().archive);
       }
     }
-    if (run.from_its_begin) {
-      throw Failure(ExitCode::bad_input, name_ + ": the configuration of " + run.service +
-                                             " is not in the recording, expected services/" + run.service +
-                                             "/config.json");
-    }
+    return out;
   }
 
   void take(const record::Channel& channel, const record::Message& message) {
     const auto own = runs_.find(process_of(channel));
     Proof* proof = own == runs_.end() ? nullptr : own->second.proof.get();
+    const auto give = [&](const auto& sample) {
+      if (proof != nullptr && sample) proof->add(*sample);
+    };
     if (channel.topic == "fathom/v1/intake") {
-      const auto intake = bus::from_cdr<IntakeRecord>(message.data);
-      if (proof == nullptr || !intake) return;
-      if (intake->resumed && own->second.from_its_begin) {
-        own->second.no_proof = "it took up a state of another fusion";
-        own->second.proof.reset();
-      } else {
-        proof->add(*intake);
-      }
+      give(bus::from_cdr<IntakeRecord>(message.data));
     } else if (channel.topic == "fathom/v1/nav_state") {
-      if (const auto state = bus::from_cdr<NavState>(message.data); proof != nullptr && state)
-        proof->add(*state);
+      give(bus::from_cdr<NavState>(message.data));
     } else if (channel.topic == "fathom/v1/verdict") {
-      if (const auto verdict = bus::from_cdr<Verdict>(message.data); proof != nullptr && verdict)
-        proof->add(*verdict);
+      give(bus::from_cdr<Verdict>(message.data));
     } else if (channel.topic == "fathom/v1/command") {
-      if (const auto order = bus::from_cdr<Command>(message.data)) to_all(*order);
+      if (const auto order = bus::from_cdr<Command>(message.data))
+        for (auto& [process, run] : runs_) run.proof->add(*order);
     } else {
+      const auto writer = channel.metadata.find("writer");
+      const Name name(writer == channel.metadata.end() ? "" : writer->second);
       for_each_kind([&](auto kind) {
         if (channel.topic != kind.kTopic) return;
         const auto sample = bus::from_cdr<typename decltype(kind)::Sample>(message.data);
-        if (sample) to_all(AnySample(*sample));
+        if (!sample) return;
+        for (auto& [process, run] : runs_) run.proof->add(AnySample(*sample), name);
       });
     }
   }
-  void to_all(const auto& sample) {
-    for (auto& [process, run] : runs_) {
-      if (run.proof) run.proof->add(sample);
-    }
+
+  /// What one run goes on from may follow from what another one said last.
+  void finish() {
+    const auto any = [&](auto does) {
+      bool done = false;
+      for (auto& [process, run] : runs_) done = does(*run.proof) || done;
+      return done;
+    };
+    do {
+      while (any([](Proof& proof) { return proof.go_on(); })) continue;
+    } while (any([](Proof& proof) { return proof.give_up_waiting(); }));
+    for (auto& [process, run] : runs_) run.proof->finish();
   }
 
   /// Why states may differ although nobody changed the recording.
-  std::string why(const std::string& service, const record::Outcome& outcome) {
+  std::string why(const Run& run, const record::Outcome& outcome) {
     if (!outcome.problems.empty()) return "the recording is damaged: " + outcome.problems.front();
     for (const File& file : files_) {
       for (const auto& index : file.reader.contents().metadata) {
         if (index.name == "dropped") return "the recorder dropped samples (metadata 'dropped')";
       }
     }
-    if (!hashes_[service].empty() && !hashes_[service].contains(own_hashes_[service])) {
-      return "the configuration that is enclosed (" + own_hashes_[service] + ") is not the one that ran (" +
-             *hashes_[service].begin() + ")";
+    const std::string& hash = own_hashes_[&run];
+    if (!run.config_hash.empty() && run.config_hash != hash) {
+      return "the configuration that is enclosed (" + hash + ") is not the one that ran (" + run.config_hash +
+             ")";
     }
     const std::string own(runtime::version());
-    if (!versions_.empty() && !versions_.contains(own))
-      return "fusion was of another build (" + *versions_.begin() + "; this is " + own + ")";
+    if (!run.version.empty() && run.version != own)
+      return "fusion was of another build (" + run.version + "; this is " + own + ")";
     return "a sample or what was said of it is not as it was, or the processor computes otherwise";
   }
 
+  std::string line_of(const Run& run, const record::Outcome& outcome) {
+    const Proof& proof = *run.proof;
+    const std::string states = std::to_string(proof.states());
+    if (!proof.difference().empty())
+      return proof.difference() + "; " + why(run, outcome) + " (" + states + " states before it are equal)";
+    if (proof.taken() == 0)
+      return "cannot be proved: " +
+             (proof.missing().empty()
+                  ? "it had taken " + std::to_string(run.first) +
+                        " samples before the recording began, and no checkpoint of it is in it"
+                  : proof.missing());
+    std::string line = "equal to the last bit: " + states + " navigation states and " +
+                       std::to_string(proof.verdicts()) + " verdicts follow from " +
+                       std::to_string(proof.taken()) + " samples and orders";
+    if (proof.taken_up() > 0)
+      line += ", and " + std::to_string(proof.taken_up()) + " states that it took up from those who had them";
+    if (proof.from_ns()) line += ", from its state of " + to_iso8601(*proof.from_ns()) + " on";
+    if (proof.unheard() > 0)
+      line += "; " + std::to_string(proof.unheard()) + " further states are not in the recording";
+    if (!proof.missing().empty()) line += "; not all of it is proved: " + proof.missing();
+    return line;
+  }
+
   ExitCode answer(const record::Outcome& outcome) {
-    ExitCode code = ExitCode::done;
+    bool good = true;
+    std::uint64_t states = 0;
     for (auto& [process, run] : runs_) {
-      const std::string who = name_ + ": " + run.service + " (" + process.substr(8, 8) + "): ";
-      std::string line;
-      if (run.proof) run.proof->finish();
-      if (!run.proof) {
-        line = "cannot be proved: " + run.no_proof;
-      } else if (!run.proof->difference().empty()) {
-        line = run.proof->difference() + "; " + why(run.service, outcome) + " (" +
-               std::to_string(run.proof->states()) + " states before it are equal)";
-      } else {
-        line = "equal to the last bit: " + std::to_string(run.proof->states()) + " navigation states and " +
-               std::to_string(run.proof->verdicts()) + " verdicts follow from " +
-               std::to_string(run.proof->taken()) + " samples and orders" + run.from;
-        if (run.proof->unheard() > 0)
-          line += "; " + std::to_string(run.proof->unheard()) + " further states are not in the recording";
-      }
-      if (!run.proof || !run.proof->difference().empty() || run.proof->states() == 0) code = ExitCode::no;
-      std::printf("%s%s\n", who.c_str(), line.c_str());
+      const Proof& proof = *run.proof;
+      std::printf("%s: %s (%s): %s\n", name_.c_str(), run.service.c_str(), process.substr(8, 8).c_str(),
+                  line_of(run, outcome).c_str());
+      good = good && proof.difference().empty() && proof.missing().empty() && proof.taken() > 0;
+      states += proof.states();
     }
-    return code;
+    return good && states > 0 ? ExitCode::done : ExitCode::no;
   }
 
   std::string name_;  // of the first file
   std::vector<File> files_;
-  std::map<std::string, Run> runs_;  // by process
-  std::set<std::string> versions_;
-  std::map<std::string, std::set<std::string>> hashes_;
-  std::map<std::string, std::string> own_hashes_;
+  StatePool pool_;
+  std::map<std::string, Run> runs_;             // by process
+  std::map<std::string, ServiceStatus> lives_;  // likewise, of all services: version and configuration
+  std::map<const Run*, std::string> own_hashes_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "archive/digest.hpp"
 #include "fusion/checkpoint/file.hpp"
 
 namespace fathom::fusion {
@@ -19,7 +20,8 @@ fs::path beside(const fs::path& checkpoint, const char* ending) {
 
 /// Why the bytes of `file` are not gone on from; empty when they are.
 std::string taken_up(estimation::FusionEngine& engine, const fs::path& file,
-                     const archive::CheckpointLabel& own, double max_age_s, archive::CheckpointLabel& found) {
+                     const archive::CheckpointLabel& own, double max_age_s, archive::CheckpointLabel& found,
+                     Resumption& out) {
   const auto bytes = read_file(file);
   if (!bytes) return bytes.error().message;
   const auto checkpoint = archive::decode(bytes.value());
@@ -27,6 +29,8 @@ std::string taken_up(estimation::FusionEngine& engine, const fs::path& file,
   found = checkpoint.value().label;
   if (std::string why = objection(found, own, max_age_s); !why.empty()) return why;
   const std::string why = engine.restore(checkpoint.value().archive);
+  out.stamp_ns = engine.nav_state().header.stamp_ns;
+  out.digest = archive::digest(checkpoint.value().archive);
   return why.empty() ? why : "holds no state of this engine: " + why;
 }
 
@@ -54,7 +58,7 @@ Resumption resume(estimation::FusionEngine& engine, const config::CheckpointConf
     return out;
   }
   archive::CheckpointLabel found;
-  const std::string why = taken_up(engine, file, own, config.max_age_s, found);
+  const std::string why = taken_up(engine, file, own, config.max_age_s, found, out);
   if (!why.empty()) {
     out.refused = true;
     if (file != refused) fs::rename(file, refused, error);

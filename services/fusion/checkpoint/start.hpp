@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -12,8 +13,10 @@ namespace fathom::fusion {
 /// How an engine came to its state.
 struct Resumption {
   bool resumed = false;
-  bool refused = false;  ///< there was a checkpoint, and it was put aside
-  std::string how;       ///< in words
+  bool refused = false;      ///< there was a checkpoint, and it was put aside
+  std::string how;           ///< in words
+  TimeNs stamp_ns = 0;       ///< where resumed: of the state
+  std::uint64_t digest = 0;  ///< likewise, of its archive
 };
 
 /// Restores the engine from the checkpoint, when there is one that it may go on from. Another checkpoint is

@@ -264,7 +264,7 @@ struct ReplicaLink::Impl {
       const std::lock_guard lock(mutex);
       if (!replica.wants_state()) return;
     }
-    const Restored taken = hooks.restore(shared.value());
+    const Restored taken = hooks.restore(shared.value(), part.header.sensor);
     if (!taken.error.empty()) return refuse(from, taken.error, taken.unsound);
     {
       const std::lock_guard lock(mutex);

@@ -33,8 +33,8 @@ class ReplicaLink {
   struct Hooks {
     /// Fills a state to give away. False when there is none.
     std::function<bool(SharedState& state)> save;
-    /// Takes over a state, and what has arrived since it was saved.
-    std::function<Restored(const SharedState& state)> restore;
+    /// Takes over a state of the instance `from`, and what has arrived since it was saved.
+    std::function<Restored(const SharedState& state, const Name& from)> restore;
     /// Whether to log what arrives, for restore.
     std::function<void(bool on)> keep_arrivals;
     /// Called when this service begins to lead.

@@ -170,12 +170,12 @@ void fields(Is<EngineStatePart> auto& s, auto visit) {
 }
 
 void fields(Is<IntakeEntry> auto& s, auto visit) {
-  auto& [a, b, c, d, e, f] = s;
-  visit(a, b, c, d, e, f);
+  auto& [a, b, c, d, e, f, g] = s;
+  visit(a, b, c, d, e, f, g);
 }
 void fields(Is<IntakeRecord> auto& s, auto visit) {
-  auto& [header, a, b, c] = s;
-  visit(header, a, b, c);
+  auto& [header, a, b] = s;
+  visit(header, a, b);
 }
 
 /// The last enumerator of each enumeration.
@@ -240,6 +240,10 @@ constexpr unsigned last_of<ServiceState>() {
 template <>
 constexpr unsigned last_of<CommandKind>() {
   return static_cast<unsigned>(CommandKind::mark_at_rest);
+}
+template <>
+constexpr unsigned last_of<IntakeKind>() {
+  return static_cast<unsigned>(IntakeKind::end);
 }
 template <>
 constexpr unsigned last_of<ReplicaPhase>() {

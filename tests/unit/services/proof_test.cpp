@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "archive/digest.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "support/survey_run.hpp"
 
@@ -19,7 +20,9 @@ namespace fathom {
 namespace {
 
 using cli::Proof;
+using cli::StatePool;
 using Item = std::variant<AnySample, Command, IntakeRecord, NavState, Verdict>;
+using Archive = std::vector<std::byte>;
 
 config::FusionConfig configuration() {
   return config::load_service_config<config::FusionConfig>(
@@ -31,51 +34,100 @@ AnySample any(const test::Sample& sample) {
   return std::visit([](const auto& one) { return AnySample(one); }, sample);
 }
 
-/// What a recorder hears of a fusion service on a short survey, an order among it.
-std::vector<Item> recorded() {
-  const config::FusionConfig config = configuration();
-  estimation::FusionEngine engine(config::engine_config(config));
-  test::SurveyRun::Options options;
-  options.duration_s = 70.0;
-  std::vector<Item> out;
-  IntakeRecord batch;
-  std::uint64_t first = 0;
-  const auto note = [&](const IntakeEntry& entry) {
-    batch.entries.push_back(entry);
-    if (batch.entries.size() < 37) return;
-    batch.first = first;
-    first += batch.entries.size();
-    out.emplace_back(std::exchange(batch, {}));
-  };
-  const test::SurveyRun survey(options);
-  std::size_t count = 0;
-  for (const test::Sample& sample : survey.samples) {
-    const AnySample one = any(sample);
-    const SampleHeader& header = header_of(one);
-    out.emplace_back(one);
-    note({false, source_of(one), header.sensor, "bridge", header.stamp_ns, header.sequence});
+const std::vector<test::Sample>& survey() {
+  static const std::vector<test::Sample> kSamples = [] {
+    test::SurveyRun::Options options;
+    options.duration_s = 70.0;
+    return test::SurveyRun(options).samples;
+  }();
+  return kSamples;
+}
+
+/// What is said by a fusion service that is given samples and orders.
+class Fusion {
+ public:
+  void sample(const test::Sample& sample, bool again = false) {
+    const SampleHeader& header = test::header(sample);
+    note({IntakeKind::sample, source_of(any(sample)), header.sensor, "bridge", header.stamp_ns,
+          header.sequence, again});
     std::visit(
         [&]<class T>(const T& known) {
           if constexpr (std::is_same_v<T, ImuSample>) {
-            if (engine.add(known)) out.emplace_back(engine.nav_state());
+            if (engine_.add(known) && !again) said_.emplace_back(engine_.nav_state());
           } else {
-            engine.add(known, "bridge");
+            engine_.add(known, "bridge");
           }
         },
         sample);
+    for (Verdict verdict; engine_.next_verdict(verdict);) {
+      if (verdict.source == SourceKind::imu) verdict.writer = "bridge";
+      if (!again) said_.emplace_back(verdict);
+    }
+  }
+  void order(const Command& order) {
+    (void)engine_.apply(order);
+    note({IntakeKind::order,
+          SourceKind::imu,
+          order.header.sensor,
+          {},
+          order.header.stamp_ns,
+          order.header.sequence,
+          false});
+  }
+  void go_on_from(const Archive& state, TimeNs stamp_ns) {
+    ASSERT_EQ(engine_.restore(state), "");
+    note({IntakeKind::state, SourceKind::imu, "other", {}, stamp_ns, archive::digest(state), false});
+  }
+  [[nodiscard]] Archive state() const {
+    Archive out;
+    EXPECT_TRUE(engine_.save(out));
+    return out;
+  }
+  [[nodiscard]] TimeNs stamp_ns() const { return engine_.nav_state().header.stamp_ns; }
+  /// What it said since the last time; `all`: with the end of its list.
+  std::vector<Item> said(bool all = false) {
+    if (all && !batch_.entries.empty()) flush();
+    return std::exchange(said_, {});
+  }
+
+ private:
+  void note(const IntakeEntry& entry) {
+    batch_.entries.push_back(entry);
+    if (batch_.entries.size() == 37) flush();
+  }
+  void flush() {
+    batch_.first = first_;
+    first_ += batch_.entries.size();
+    said_.emplace_back(std::exchange(batch_, {}));
+  }
+
+  estimation::FusionEngine engine_{config::engine_config(configuration())};
+  IntakeRecord batch_;
+  std::uint64_t first_ = 0;
+  std::vector<Item> said_;
+};
+
+void append(std::vector<Item>& to, const std::vector<Item>& what) {
+  to.insert(to.end(), what.begin(), what.end());
+}
+
+/// What a recorder hears of a fusion service on a short survey, an order among it.
+std::vector<Item> recorded() {
+  Fusion fusion;
+  std::vector<Item> out;
+  std::size_t count = 0;
+  for (const test::Sample& sample : survey()) {
+    out.emplace_back(any(sample));
+    fusion.sample(sample);
     if (++count == 4000) {
       Command order;
-      order.header = {"auv", "console", header.stamp_ns, header.stamp_ns, 1};
+      order.header = {"auv", "console", test::header(sample).stamp_ns, test::header(sample).stamp_ns, 1};
       order.kind = CommandKind::disable_source;
       order.target = "depth";
-      (void)engine.apply(order);
       out.emplace_back(order);
-      note({true, SourceKind::imu, "console", {}, header.stamp_ns, 1});
+      fusion.order(order);
     }
-    for (Verdict verdict; engine.next_verdict(verdict);) {
-      if (verdict.source == SourceKind::imu) verdict.writer = "bridge";
-      out.emplace_back(verdict);
-    }
+    append(out, fusion.said());
   }
   return out;
 }
@@ -85,12 +137,24 @@ const std::vector<Item>& recording() {
   return kItems;
 }
 
-std::string difference_of(const std::vector<Item>& items, std::uint64_t* states = nullptr) {
-  Proof proof(configuration());
+void put(Proof& proof, const std::vector<Item>& items) {
   for (const Item& item : items) {
-    std::visit([&](const auto& one) { proof.add(one); }, item);
+    std::visit(
+        [&]<class T>(const T& one) {
+          if constexpr (std::is_same_v<T, AnySample>)
+            proof.add(one, "bridge");
+          else
+            proof.add(one);
+        },
+        item);
     if (!proof.difference().empty()) break;
   }
+}
+
+std::string difference_of(const std::vector<Item>& items, std::uint64_t* states = nullptr) {
+  StatePool pool;
+  Proof proof(configuration(), pool, {0, true});
+  put(proof, items);
   proof.finish();
   if (states != nullptr) *states = proof.states();
   if (proof.difference().empty()) {
