@@ -68,8 +68,11 @@ class Reading {
             return true;
           });
       for (const std::string& problem : outcome.problems) log_.losses.add(std::nullopt, 0, problem);
-    } else if (sources_.empty() && log_.losses.count == 0) {
-      throw LogError(name_ + ": " + nothing());
+    }
+    if (log_.series.empty()) {
+      throw LogError(
+          name_ + ": " +
+          (log_.losses.count == 0 ? nothing() : "nothing could be used: " + log_.losses.listed[0].what));
     }
     finish();
     return std::move(log_);
@@ -94,7 +97,10 @@ class Reading {
   /// Whether the channel's messages are wanted; notes why not where their kind is.
   bool prepare(const record::Channel& channel) {
     const record::Schema* described = reader_.schema_of(channel);
-    if (described == nullptr || channel.message_encoding != "cdr") return false;
+    // Types of ROS have a package: those of others' recordings are not meant.
+    if (described == nullptr || channel.message_encoding != "cdr" ||
+        !described->encoding.starts_with("ros2") || described->name.find('/') == std::string::npos)
+      return false;
     const std::string type = short_type(described->name);
     const bool transforms = type == kTransforms && channel.topic.ends_with("tf_static");
     Schema by_name;

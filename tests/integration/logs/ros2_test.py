@@ -389,6 +389,12 @@ def refused(fathom, folder):
     bag = Bag()
     bag.add("/text", "std_msgs/String", START, {"data": "x"})
     assert "sensor_msgs/msg/Imu" in run(fathom, write(path, bag.bytes()), out, code=3)
+    said = subprocess.run([fathom, "solve", path, "--out", os.path.join(folder, "nav.csv")], capture_output=True, text=True)
+    assert said.returncode == 3 and "fathom import" in said.stderr, said.stderr
+    bag = Bag()
+    bag.raw(bag.channel("/imu", "sensor_msgs/Imu"), START, b"")
+    assert "/imu: sensor_msgs/Imu at log time 1700000000.123456789: 0 bytes" in run(fathom, write(path, bag.bytes()), out,
+                                                                                    code=3)
     # A topic whose layout cannot be known is named with the reason; the others come out.
     good = {"header": header(START, "f"), "fluid_pressure": 1e5}
     layout = schema_text("sensor_msgs/Imu")
