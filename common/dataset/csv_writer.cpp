@@ -3,6 +3,7 @@
 #include <array>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
@@ -15,6 +16,37 @@ namespace fathom::dataset {
 namespace {
 
 constexpr std::size_t kFlushBytes = 1U << 16U;
+
+constexpr std::array<double, 13> kPowersOfTen{1e0, 1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
+                                              1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
+/// Below it the product of a double and a power of ten is off by 2^-10 at most.
+constexpr double kMostScaled = 0x1p44;
+/// How near to a half that product must not be for the rounding of it to be sure.
+constexpr double kDoubtful = 0x1p-8;
+
+/// What std::to_chars writes with a fixed count of decimals, several times faster: one product, rounded to a
+/// whole number. Nothing where the product's own rounding might have decided.
+std::size_t quick_fixed(double value, int decimals, std::array<char, 24>& out) {
+  if (decimals < 1 || decimals >= static_cast<int>(kPowersOfTen.size())) return 0;
+  const double scaled = std::abs(value) * kPowersOfTen[static_cast<std::size_t>(decimals)];
+  if (!(scaled < kMostScaled)) return 0;
+  auto rest = static_cast<std::uint64_t>(scaled + 0.5);
+  const double off = std::abs(scaled - static_cast<double>(rest));
+  if (off > 0.5 - kDoubtful) return 0;
+  std::array<char, 24> digits{};
+  std::size_t count = 0;
+  while (rest != 0 || count <= static_cast<std::size_t>(decimals)) {
+    digits[count++] = static_cast<char>('0' + rest % 10);
+    rest /= 10;
+  }
+  std::size_t length = 0;
+  if (std::signbit(value)) out[length++] = '-';
+  while (count > 0) {
+    if (count == static_cast<std::size_t>(decimals)) out[length++] = '.';
+    out[length++] = digits[--count];
+  }
+  return length;
+}
 
 }  // namespace
 
@@ -46,6 +78,11 @@ CsvWriter& CsvWriter::number(double value) {
 CsvWriter& CsvWriter::fixed(double value, int decimals) {
   separate();
   if (!known(value)) return *this;
+  std::array<char, 24> quick{};
+  if (const std::size_t length = quick_fixed(value, decimals, quick); length > 0) {
+    pending_.append(quick.data(), length);
+    return *this;
+  }
   std::array<char, 400> digits{};  // the largest double has 309 digits before the point
   const auto result =
       std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals);

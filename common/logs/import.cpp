@@ -94,9 +94,9 @@ void prepare(const std::filesystem::path& directory) {
 }  // namespace
 
 Log read(const std::filesystem::path& path) {
+  if (ros2::looks_like(path)) return ros2::read(path);  // first: it may be a folder
   if (ulog::looks_like(path)) return ulog::read(path, px4_topics());
   if (dataflash::looks_like(path)) return dataflash::read(path, ardupilot_topics());
-  if (ros2::looks_like(path)) return ros2::read(path);
   throw LogError(path.string() +
                  ": offset 0: neither a PX4 ULog, an ArduPilot DataFlash log nor an MCAP file of ROS 2");
 }

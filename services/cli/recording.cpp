@@ -18,6 +18,11 @@ namespace fs = std::filesystem;
 record::Reader open_recording(const std::string& file) {
   auto reader = record::Reader::open(file);
   if (!reader) throw Failure(ExitCode::bad_input, reader.error().message);
+  if (reader.value().contents().header.profile == "ros2") {
+    throw Failure(ExitCode::bad_input,
+                  file + ": a bag of ROS 2, expected a recording of fathom; fathom import " + file +
+                      " --out DIR makes a data set of it");
+  }
   const std::string& ending = reader.value().contents().ending;
   if (!ending.empty()) {
     std::fprintf(stderr, "fathom: %s: was not closed (%s); fathom record --recover closes it\n", file.c_str(),

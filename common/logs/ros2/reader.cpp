@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <map>
 #include <set>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -36,53 +38,75 @@ std::string lower(std::string text) {
   return text;
 }
 
+/// The files of a bag's folder, as rosbag2 numbers them: NAME_2.mcap before NAME_10.mcap.
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> out;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".mcap") out.push_back(entry.path());
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) {
+    const std::string& x = a.native();
+    const std::string& y = b.native();
+    return std::pair(x.size(), x) < std::pair(y.size(), y);
+  });
+  return out;
+}
+
 /// A channel of the file, and how its messages are read.
 struct Source {
   Schema schema;
   bool transforms = false;
-  std::optional<std::size_t> frame;                                   ///< place among the texts
-  std::optional<std::size_t> child_frame;                             ///< likewise
-  std::map<std::pair<std::string, std::string>, std::size_t> series;  ///< by frame and child frame
+  std::optional<std::size_t> frame;        ///< place among the texts
+  std::optional<std::size_t> child_frame;  ///< likewise
+  std::size_t definition = 0;              ///< which of the definitions; the same in all files of a bag
 };
 
 class Reading {
  public:
-  Reading(record::Reader reader, std::string name, const ReadLimits& limits)
-      : reader_(std::move(reader)), name_(std::move(name)), limits_(limits) {}
-
-  Log read() {
-    const record::Contents& contents = reader_.contents();
+  Reading(std::string name, const ReadLimits& limits) : name_(std::move(name)), limits_(limits) {
     log_.format = kFormatName;
+  }
+
+  /// The next file of the bag. `part`: what its losses begin with.
+  void add(record::Reader reader, const std::string& part) {
+    const record::Contents& contents = reader.contents();
     log_.info["profile"] = contents.header.profile;
     log_.info["library"] = contents.header.library;
-    if (!contents.ending.empty()) log_.notes.push_back(contents.ending);
+    part_ = part;
+    if (!contents.ending.empty()) log_.notes.push_back(part_ + contents.ending);
+    sources_.clear();
     record::Selection wanted;
     for (const auto& [id, channel] : contents.channels) {
       count(channel, contents);
-      if (prepare(channel) && !has(wanted.topics, channel.topic)) wanted.topics.push_back(channel.topic);
+      if (prepare(reader, channel) && !has(wanted.topics, channel.topic))
+        wanted.topics.push_back(channel.topic);
     }
-    if (!wanted.topics.empty()) {
-      const record::Outcome outcome =
-          reader_.read(wanted, [this](const record::Channel& channel, const record::Message& message) {
-            take(channel, message);
-            return true;
-          });
-      for (const std::string& problem : outcome.problems) log_.losses.add(std::nullopt, 0, problem);
-    } else if (sources_.empty() && log_.losses.count == 0) {
-      throw LogError(name_ + ": " + nothing());
+    for (const auto& [id, schema] : contents.schemas)
+      is_own_ |= schema.encoding == "omgidl" && schema.name.starts_with("fathom::");
+    if (wanted.topics.empty()) return;
+    const record::Outcome outcome =
+        reader.read(wanted, [this](const record::Channel& channel, const record::Message& message) {
+          take(channel, message);
+          return true;
+        });
+    for (const std::string& problem : outcome.problems) log_.losses.add(std::nullopt, 0, part_ + problem);
+  }
+
+  Log finish() {
+    if (log_.series.empty()) {
+      throw LogError(
+          name_ + ": " +
+          (log_.losses.count == 0 ? nothing() : "nothing could be used: " + log_.losses.listed[0].what));
     }
-    finish();
+    settle_times();
     return std::move(log_);
   }
 
  private:
   [[nodiscard]] std::string nothing() const {
-    for (const auto& [id, schema] : reader_.contents().schemas) {
-      if (schema.encoding == "omgidl" && schema.name.starts_with("fathom::"))
-        return "a recording of fathom, not of ROS 2: fathom solve reads it as it is";
-    }
-    return "no topic that a data set can be made of, expected sensor_msgs/msg/Imu or the like; it has " +
-           std::to_string(reader_.contents().channels.size()) + " topics";
+    if (is_own_) return "a recording of fathom, not of ROS 2: fathom solve reads it as it is";
+    return "no message that a data set can be made of, expected sensor_msgs/msg/Imu or the like; it has " +
+           std::to_string(log_.messages.size()) + " topics";
   }
 
   void count(const record::Channel& channel, const record::Contents& contents) {
@@ -92,16 +116,19 @@ class Reading {
   }
 
   /// Whether the channel's messages are wanted; notes why not where their kind is.
-  bool prepare(const record::Channel& channel) {
-    const record::Schema* described = reader_.schema_of(channel);
-    if (described == nullptr || channel.message_encoding != "cdr") return false;
+  bool prepare(const record::Reader& reader, const record::Channel& channel) {
+    const record::Schema* described = reader.schema_of(channel);
+    // Types of ROS have a package: those of others' recordings are not meant.
+    if (described == nullptr || channel.message_encoding != "cdr" ||
+        !described->encoding.starts_with("ros2") || described->name.find('/') == std::string::npos)
+      return false;
     const std::string type = short_type(described->name);
     const bool transforms = type == kTransforms && channel.topic.ends_with("tf_static");
     Schema by_name;
     by_name.type = type;
     const bool named = transforms || is_wanted(by_name) || lower(type).find("dvl") != std::string::npos;
     if (!named) return false;
-    const std::string where = channel.topic + ": schema " + described->name + ": ";
+    const std::string where = part_ + channel.topic + ": schema " + described->name + ": ";
     if (described->encoding != "ros2msg") {
       log_.losses.add(std::nullopt, 0,
                       where + "encoding '" + described->encoding.substr(0, 32) + "', expected ros2msg");
@@ -118,6 +145,8 @@ class Reading {
     source.transforms = transforms;
     source.frame = place_of(source.schema.texts, "header.frame_id");
     source.child_frame = place_of(source.schema.texts, "child_frame_id");
+    source.definition =
+        definitions_.emplace(type + "\n" + described->data, definitions_.size()).first->second;
     sources_[channel.id] = std::move(source);
     return true;
   }
@@ -135,7 +164,7 @@ class Reading {
     }
     if (!why.empty()) {
       log_.losses.add(std::nullopt, message.data.size(),
-                      channel.topic + ": " + source.schema.type + " at log time " +
+                      part_ + channel.topic + ": " + source.schema.type + " at log time " +
                           seconds(message.log_time) + ": " + why);
     }
   }
@@ -146,22 +175,23 @@ class Reading {
   }
 
   std::string keep(const record::Channel& channel, Source& source, TimeNs log_time) {
-    std::pair<std::string, std::string> key;
-    if (source.frame) key.first = row_.texts[*source.frame];
-    if (source.child_frame) key.second = row_.texts[*source.child_frame];
-    auto known = source.series.find(key);
-    if (known == source.series.end()) {
+    std::tuple<std::string, std::size_t, std::string, std::string> key{
+        channel.topic, source.definition, {}, {}};
+    if (source.frame) std::get<2>(key) = row_.texts[*source.frame];
+    if (source.child_frame) std::get<3>(key) = row_.texts[*source.child_frame];
+    auto known = series_.find(key);
+    if (known == series_.end()) {
       if (log_.series.size() == kMostSeries)
-        return "frame '" + key.first.substr(0, 60) + "': more than " + std::to_string(kMostSeries) +
+        return "frame '" + std::get<2>(key).substr(0, 60) + "': more than " + std::to_string(kMostSeries) +
                " topics and frames";
       Series made;
       made.topic = channel.topic;
       made.instance = instances_[channel.topic]++;
       made.columns = source.schema.columns;
       made.type = source.schema.type;
-      made.frame = key.first;
-      made.child_frame = key.second;
-      known = source.series.emplace(std::move(key), log_.series.size()).first;
+      made.frame = std::get<2>(key);
+      made.child_frame = std::get<3>(key);
+      known = series_.emplace(std::move(key), log_.series.size()).first;
       log_.series.push_back(std::move(made));
     }
     values_ += row_.values.size();
@@ -208,7 +238,7 @@ class Reading {
     return {};
   }
 
-  void finish() {
+  void settle_times() {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     for (Series& series : log_.series) {
       if (const std::size_t count = drop_stray_times(series); count > 0) {
@@ -223,13 +253,16 @@ class Reading {
     log_.start_ns = first * 1000;
   }
 
-  record::Reader reader_;
   std::string name_;
+  std::string part_;
   ReadLimits limits_;
   Log log_;
   Row row_;
   std::size_t values_ = 0;
-  std::map<std::uint16_t, Source> sources_;
+  bool is_own_ = false;
+  std::map<std::uint16_t, Source> sources_;         // of the file that is read
+  std::map<std::string, std::size_t> definitions_;  // of all
+  std::map<std::tuple<std::string, std::size_t, std::string, std::string>, std::size_t> series_;
   std::map<std::string, unsigned> instances_;
 };
 
@@ -249,6 +282,8 @@ bool is_wanted(const Schema& schema) {
 }
 
 bool looks_like(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return !files_of(path).empty();
   std::ifstream file(path, std::ios::binary);
   std::array<char, record::kMagic.size()> begin{};
   file.read(begin.data(), begin.size());
@@ -259,13 +294,21 @@ bool looks_like(const std::filesystem::path& path) {
 Log read(std::unique_ptr<record::Source> source, const std::string& name, const ReadLimits& limits) {
   auto reader = record::Reader::open(std::move(source));
   if (!reader) throw LogError(name + ": " + reader.error().message);
-  return Reading(std::move(reader.value()), name, limits).read();
+  Reading reading(name, limits);
+  reading.add(std::move(reader.value()), "");
+  return reading.finish();
 }
 
 Log read(const std::filesystem::path& path, const ReadLimits& limits) {
-  auto source = record::FileSource::open(path);
-  if (!source) throw LogError(source.error().message);
-  return read(std::move(source.value()), path.string(), limits);
+  std::error_code error;
+  const bool folder = std::filesystem::is_directory(path, error);
+  Reading reading(path.string(), limits);
+  for (const std::filesystem::path& file : folder ? files_of(path) : std::vector{path}) {
+    auto reader = record::Reader::open(file);
+    if (!reader) throw LogError(reader.error().message);
+    reading.add(std::move(reader.value()), folder ? file.filename().string() + ": " : "");
+  }
+  return reading.finish();
 }
 
 }  // namespace fathom::logs::ros2

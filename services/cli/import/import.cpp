@@ -171,7 +171,7 @@ void add_import(CLI::App& app, ExitCode&) {
       "Damaged and cut files are read as far as they are good; what was lost is said. "
       "common/logs/README.md,\n"
       "installed as flight-logs.md, tells which message becomes what.");
-  command->add_option("file", options->file, "the log")->required();
+  command->add_option("file", options->file, "the log; of ROS 2 also the folder of a bag")->required();
   command->add_option("--out", options->out, "folder to write; created when absent")->required();
   command
       ->add_option("--from", options->choices,

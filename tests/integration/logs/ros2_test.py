@@ -276,6 +276,33 @@ def values(fathom, folder):
     return count
 
 
+def split(fathom, folder):
+    """A folder of files is one bag; each has its own numbers of channels, and only the first has the mounting."""
+    vehicle = Vehicle(9, mounted=True)
+    bag = os.path.join(folder, "rosbag2")
+    os.mkdir(bag)
+    names = {number: topic for (topic, _, _), number in vehicle.bag.channels.items()}
+    kinds = {schema: key for key, schema in vehicle.bag.schemas.items()}
+    described = {number: kinds[schema] for (_, schema, _), number in vehicle.bag.channels.items()}
+    size = 60
+    parts = [vehicle.bag.messages[i:i + size] for i in range(0, len(vehicle.bag.messages), size)]
+    assert len(parts) > 10
+    for i, messages in enumerate(parts):
+        part = Bag()
+        for number, t, data in messages:
+            name, definition, encoding = described[number]
+            part.raw(part.channel(names[number], name.replace("/msg/", "/"), definition, encoding), t, data)
+        write(os.path.join(bag, f"rosbag2_{i}.mcap"), part.bytes("zstd"))
+    write(os.path.join(bag, "metadata.yaml"), b"")
+    out = os.path.join(folder, "split")
+    report = run(fathom, bag, out)
+    assert report["lost"]["count"] == 0, report["lost"]
+    check(vehicle, out, min(logged for rows in vehicle.want.values() for _, logged, _ in rows) // 1000 * 1000)
+    assert len(os.listdir(os.path.join(out, "sources"))) == 6, os.listdir(os.path.join(out, "sources"))
+    write(os.path.join(bag, "rosbag2_3.mcap"), b"no bag")
+    assert "rosbag2_3.mcap" in run(fathom, bag, out, code=3)
+
+
 def damaged(fathom, folder):
     """Cut anywhere, and with garbage in it: what is whole comes out; nothing crashes."""
     vehicle = Vehicle(3)
@@ -389,6 +416,12 @@ def refused(fathom, folder):
     bag = Bag()
     bag.add("/text", "std_msgs/String", START, {"data": "x"})
     assert "sensor_msgs/msg/Imu" in run(fathom, write(path, bag.bytes()), out, code=3)
+    said = subprocess.run([fathom, "solve", path, "--out", os.path.join(folder, "nav.csv")], capture_output=True, text=True)
+    assert said.returncode == 3 and "fathom import" in said.stderr, said.stderr
+    bag = Bag()
+    bag.raw(bag.channel("/imu", "sensor_msgs/Imu"), START, b"")
+    assert "/imu: sensor_msgs/Imu at log time 1700000000.123456789: 0 bytes" in run(fathom, write(path, bag.bytes()), out,
+                                                                                    code=3)
     # A topic whose layout cannot be known is named with the reason; the others come out.
     good = {"header": header(START, "f"), "fluid_pressure": 1e5}
     layout = schema_text("sensor_msgs/Imu")
@@ -418,6 +451,7 @@ def main():
         count = values(fathom, folder)
         choices(fathom, folder)
         clocks(fathom, folder)
+        split(fathom, folder)
         damaged(fathom, folder)
         refused(fathom, folder)
     print(f"{count} values of ROS 2 messages as they went in")
