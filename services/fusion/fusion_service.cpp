@@ -237,9 +237,8 @@ struct FusionService::Impl {
     for (const estimation::OrderOutcome& one : outcomes) {
       const std::string text = in_words(one.order) + ": " + in_words(one) +
                                (one.again ? " (judged anew, after a late measurement)" : "");
-      host.log().write(
-          one.fate == estimation::OrderFate::done ? runtime::LogLevel::info : runtime::LogLevel::warning,
-          text);
+      const bool done = one.fate == estimation::OrderFate::done;
+      host.log().write(done ? runtime::LogLevel::info : runtime::LogLevel::warning, text);
     }
   }
 

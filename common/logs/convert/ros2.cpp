@@ -270,14 +270,12 @@ class Ros2 {
     if (imu == nullptr) return;
     const auto origin = frames_.lever_B_m(imu->frame);
     if (!origin) return;
-    for (const char* file : {"gps", "dvl", "depth"}) {
-      const auto from = out_.sources.find(file);
-      if (from == out_.sources.end()) continue;
+    for (const auto& [file, label] : out_.sources) {
+      if (file == "imu" || file == "heading" || file == "mag" || file == "baro") continue;
       for (const Series& series : log_.series) {
-        if (ros2_label(log_, series) != from->second) continue;
+        if (ros2_label(log_, series) != label) continue;
         if (const auto lever = frames_.lever_B_m(series.frame))
-          out_.notes.push_back(std::string(file) + ": " + series.frame + " is at " +
-                               metres(*lever - *origin) +
+          out_.notes.push_back(file + ": " + series.frame + " is at " + metres(*lever - *origin) +
                                " forward, right, down of the inertial unit, by tf_static");
       }
     }

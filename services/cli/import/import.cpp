@@ -31,8 +31,13 @@ struct ImportOptions {
   bool json = false;
 };
 
-const std::vector<std::string> kFiles{"imu",     "gps", "airspeed", "baro",        "mag",
-                                      "heading", "dvl", "depth",    "gps_velocity"};
+/// What a choice may be of: files of the data set, and a velocity that stands in one of them.
+std::vector<std::string> choosable() {
+  std::vector<std::string> out;
+  for_each_kind([&](auto kind) { out.emplace_back(kind.kWord); });
+  out.insert(out.end(), {"baro", "mag", "gps_velocity"});
+  return out;
+}
 
 /// "left=right"; the option's name and what is expected are for the refusal.
 std::pair<std::string, std::string> halves(std::string_view option, const std::string& text,
@@ -77,12 +82,13 @@ logs::ConvertOptions convert_options(const ImportOptions& options) {
   logs::ConvertOptions out;
   out.utc = options.time == "utc";
   out.ros2 = ros2_options(options);
+  const std::vector<std::string> known = choosable();
   std::string files;
-  for (const std::string& file : kFiles) files += (files.empty() ? "" : ", ") + file;
+  for (const std::string& file : known) files += (files.empty() ? "" : ", ") + file;
   const std::string expected = "FILE=TOPIC or FILE=TOPIC:INSTANCE, FILE one of " + files;
   for (const std::string& choice : options.choices) {
     const auto [file, topic] = halves("--from", choice, expected);
-    if (std::find(kFiles.begin(), kFiles.end(), file) == kFiles.end())
+    if (std::find(known.begin(), known.end(), file) == known.end())
       throw Failure(ExitCode::bad_configuration, "--from " + choice + ": expected " + expected);
     out.choice[file] = topic;
   }
