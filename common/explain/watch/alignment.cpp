@@ -1,0 +1,71 @@
+#include <algorithm>
+
+#include "explain/watch/watches.hpp"
+
+namespace fathom::explain {
+namespace {
+
+// An alignment at rest takes its averaging time and some seconds; one that is still under way after this
+// keeps the vehicle waiting. The monitor's own limit is three times as long.
+constexpr double kPatience_s = 60.0;
+
+std::string unmet_of(const AlignmentRow& row) {
+  std::string out;
+  for (const AlignmentCondition& one : row.unmet) out += (out.empty() ? "" : ", ") + one.name.str();
+  return out;
+}
+
+/// What was said of the alignment at an instant.
+const AlignmentRow* said_at(const History& history, TimeNs at_ns) {
+  const AlignmentRow* out = nullptr;
+  for (const AlignmentRow& row : history.alignment())
+    if (row.log_ns <= at_ns || out == nullptr) out = &row;
+  return out;
+}
+
+}  // namespace
+
+void watch_alignment(const History& history, Findings& out) {
+  const auto& states = history.states();
+  if (states.empty()) return;
+  const auto find = [&](auto from, auto&& what) {
+    return std::find_if(from, states.end(), [&](const StateRow& row) { return what(row.alignment); });
+  };
+  const auto is_aligned = [](AlignmentPhase phase) { return phase == AlignmentPhase::aligned; };
+  const auto not_so = [](AlignmentPhase phase) { return phase != AlignmentPhase::aligned; };
+  bool ever = false;
+  for (auto from = find(states.begin(), not_so); from != states.end();) {
+    ever = ever || from != states.begin();
+    const auto to = find(from, is_aligned);
+    const TimeNs end_ns = to == states.end() ? states.back().log_ns : to->log_ns;
+    const double for_s = to_seconds(end_ns - from->log_ns);
+    if (ever || for_s > kPatience_s) {
+      std::uint64_t waiting = 0;
+      for (const VerdictRow& row : history.verdicts())
+        waiting += row.kind == VerdictKind::not_aligned && row.log_ns >= from->log_ns && row.log_ns <= end_ns;
+      Finding found{.kind = Kind::not_aligned,
+                    .weight = to == states.end() || ever ? Weight::bad : Weight::caution,
+                    .subject = history.name(from->instance),
+                    .begin_ns = from->log_ns,
+                    .end_ns = end_ns,
+                    .word = ever                 ? "lost"
+                            : to == states.end() ? "never"
+                                                 : "slow",
+                    .figures = {{"for_s", for_s}, {"waiting", static_cast<double>(waiting)}}};
+      if (const AlignmentRow* said = said_at(history, end_ns - kNsPerSecond)) {
+        const std::string unmet = unmet_of(*said);
+        found.evidence.push_back(
+            {"fathom/v1/alignment", 1,
+             "phase " + std::string(to_string(said->phase)) + (unmet.empty() ? "" : "; not met: " + unmet)});
+        if (!said->advice.empty()) found.evidence.push_back({"fathom/v1/alignment", 1, said->advice});
+      }
+      if (waiting > 0) found.evidence.push_back({"fathom/v1/verdict", waiting, "not_aligned"});
+      out.push_back(std::move(found));
+    }
+    if (to == states.end()) break;
+    ever = true;
+    from = find(to, not_so);
+  }
+}
+
+}  // namespace fathom::explain
