@@ -31,11 +31,14 @@ bool touches_all(const Finding& cause) {
 }
 
 bool is_effect(Kind kind) {
-  return kind == Kind::state_gap || kind == Kind::reset || kind == Kind::growth;
+  return kind == Kind::alignment_lost || kind == Kind::state_gap || kind == Kind::reset || kind == Kind::growth;
 }
 
 bool may_bring_about(const Finding& cause, const Finding& effect) {
-  if (cause.kind >= effect.kind) return false;
+  // A thing again is the same thing.
+  const bool again =
+      cause.kind == effect.kind && cause.subject == effect.subject && cause.begin_ns < effect.begin_ns;
+  if (cause.kind >= effect.kind && !again) return false;
   if (cause.weight == Weight::note && effect.weight != Weight::note) return false;
   if (cause.kind == Kind::clock_set) return false;  // stamps are not moved by it
   // A service that is started again is silent; that is no effect of what its sensors said.
@@ -50,6 +53,15 @@ bool may_bring_about(const Finding& cause, const Finding& effect) {
            (cause.subject.starts_with("imu") && effect.kind != Kind::lost) || is_effect(effect.kind);
   if (is_effect(effect.kind)) return cause.kind != Kind::interference || effect.kind != Kind::state_gap;
   return touches_all(cause) || cause.subject == effect.subject;
+}
+
+/// A cause weighs as much as what it brings about.
+void weigh(Findings& all) {
+  for (const Finding& one : all)
+    if (one.follows_from) {
+      Finding& root = all[*one.follows_from];
+      root.weight = std::min(root.weight, one.weight);
+    }
 }
 
 void link(Findings& all) {
@@ -68,6 +80,7 @@ void link(Findings& all) {
   for (Finding& one : all)
     while (one.follows_from && all[*one.follows_from].follows_from)
       one.follows_from = all[*one.follows_from].follows_from;
+  weigh(all);
 }
 
 Findings in_order(Findings all) {

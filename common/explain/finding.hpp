@@ -22,7 +22,7 @@ enum class Kind : std::uint8_t {
   restart,        ///< a service was started again
   imu_late,       ///< inertial samples arrive late
   imu_gap,        ///< inertial samples are missing
-  not_aligned,    ///< alignment was not reached, or was lost
+  not_aligned,    ///< alignment was not reached, or late
   wrong_heading,  ///< the compass, or navigation's heading, is off
   interference,   ///< a receiver says itself that it is jammed or deceived
   frozen,         ///< a value repeats while the vehicle moves
@@ -32,11 +32,12 @@ enum class Kind : std::uint8_t {
   wrong_lever,    ///< innovations turn with the vehicle
   lost,           ///< a source that had been used gave nothing that could be used
   refused,        ///< many measurements not used for a reason of their own: late, twice, frame
+  alignment_lost, ///< navigation aligned itself anew
   state_gap,      ///< the navigation state was silent
   reset,          ///< the position stepped
   growth,         ///< the uncertainty grew
 };
-inline constexpr std::size_t kKinds = 20;
+inline constexpr std::size_t kKinds = 21;
 [[nodiscard]] std::string_view to_string(Kind kind);
 
 enum class Weight : std::uint8_t {

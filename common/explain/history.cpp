@@ -56,6 +56,7 @@ void History::forget() {
   cut(verdicts_, by_arrival);
   verdicts_gone_ += before - verdicts_.size();
   cut(fixes_, [](const FixRow& row) { return row.stamp_ns; });
+  cut(dvl_, [](const DvlRow& row) { return row.stamp_ns; });
   cut(alarms_, by_arrival);
   cut(orders_, by_arrival);
   for (Stream& stream : streams_) cut(stream.seconds, [](const Second& row) { return row.at_ns; });
@@ -154,6 +155,13 @@ void History::fix(const GpsSample& sample) {
   row.spoofing = sample.spoofing;
 }
 
+void History::dvl(const DvlSample& sample) {
+  const auto number = stream_of(SourceKind::dvl, sample.header.sensor);
+  if (!number || sample.mode != DvlMode::bottom) return;
+  dvl_.push_back(
+      {sample.header.stamp_ns, *number, {sample.velocity_D_m_s[0], sample.velocity_D_m_s[1]}});
+}
+
 void History::add(const NavState& state, const Arrival& arrival) {
   if (!begin(state.header, arrival)) return;
   StateRow row;
@@ -206,6 +214,7 @@ void History::add(const Verdict& verdict, const Arrival& arrival) {
   row->innovation = verdict.innovation;
   row->sigma = verdict.innovation_sigma;
   row->test_ratio = verdict.test_ratio;
+  row->limit = verdict.limit;
   if (verdict.revision > 0 && verdict.is_final) open_.erase(open);
 }
 

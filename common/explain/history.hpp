@@ -83,9 +83,10 @@ struct VerdictRow {
   std::uint32_t model = 0;
   VerdictKind kind = VerdictKind::used;
   std::uint8_t dimensions = 0;
-  std::array<double, 6> innovation{};
+  std::array<double, 6> innovation{};  ///< predicted minus measured
   std::array<double, 6> sigma{};
   double test_ratio = kUnknown;
+  double limit = kUnknown;
 };
 
 struct FixRow {
@@ -98,6 +99,13 @@ struct FixRow {
   std::array<double, 2> velocity_N_m_s{kUnknown, kUnknown};
   GpsJamming jamming = GpsJamming::unknown;
   GpsSpoofing spoofing = GpsSpoofing::unknown;
+};
+
+/// What a DVL measured, in its own axes.
+struct DvlRow {
+  TimeNs stamp_ns = 0;
+  std::uint32_t stream = 0;
+  std::array<double, 2> velocity_D_m_s{kUnknown, kUnknown};  ///< forward, right
 };
 
 /// The life sign of a service, where it says something new.
@@ -155,7 +163,8 @@ class History {
   void add(const Sample& sample, const Arrival& arrival) {
     if (!begin(sample.header, arrival)) return;
     heard(kSourceOf<Sample>, sample.header, arrival);
-    if constexpr (kSourceOf<Sample> == SourceKind::gps) fix(sample);
+    if constexpr (std::is_same_v<Sample, GpsSample>) fix(sample);
+    if constexpr (std::is_same_v<Sample, DvlSample>) dvl(sample);
   }
   void add(const NavState& state, const Arrival& arrival);
   void add(const Verdict& verdict, const Arrival& arrival);
@@ -169,6 +178,7 @@ class History {
   [[nodiscard]] const std::deque<StateRow>& states() const { return states_; }
   [[nodiscard]] const std::deque<VerdictRow>& verdicts() const { return verdicts_; }
   [[nodiscard]] const std::deque<FixRow>& fixes() const { return fixes_; }
+  [[nodiscard]] const std::deque<DvlRow>& dvl() const { return dvl_; }
   [[nodiscard]] const std::deque<LifeSign>& life_signs() const { return life_; }
   [[nodiscard]] const std::deque<AlarmRow>& alarms() const { return alarms_; }
   [[nodiscard]] const std::deque<AlignmentRow>& alignment() const { return alignment_; }
@@ -195,6 +205,7 @@ class History {
   bool begin(const SampleHeader& header, const Arrival& arrival);
   void heard(SourceKind kind, const SampleHeader& header, const Arrival& arrival);
   void fix(const GpsSample& sample);
+  void dvl(const DvlSample& sample);
   std::optional<std::uint32_t> stream_of(SourceKind kind, const Name& sensor);
   std::uint32_t number_of(const std::string& name);
   std::uint32_t writer_of(const Arrival& arrival);
@@ -215,6 +226,7 @@ class History {
   std::map<Measurement, std::uint64_t>
       open_;  // rows whose verdict may change, by their number since the begin
   std::deque<FixRow> fixes_;
+  std::deque<DvlRow> dvl_;
   std::deque<LifeSign> life_;
   std::map<std::uint32_t, TimeNs> life_last_ns_;
   std::deque<AlarmRow> alarms_;

@@ -32,14 +32,27 @@ std::string measurements(const Finding& f, double count) {
 }
 
 std::string support(const Finding& f) {
+  // What follows from another thing accuses nobody.
+  if (f.follows_from) return "";
   for (const Evidence& one : f.evidence)
     if (one.topic.empty()) return " Meanwhile these " + one.what + ".";
   return " Nothing else was there to tell which of the two is wrong.";
 }
 
 std::string who_is_wrong(const Finding& f) {
-  if (f.figure("supported") > 0.0) return support(f) + " So " + f.subject + " is the likelier wrong one.";
+  if (!f.follows_from && f.figure("supported") > 0.0) return support(f) + " So " + f.subject + " is the likelier wrong one.";
   return support(f);
+}
+
+/// Navigation's heading held against the course over ground.
+std::string wrong_course(const Finding& f) {
+  const std::string who = f.word == "course_compass"
+                              ? "Compass " + f.subject + ", and navigation's heading with it, is"
+                              : "Navigation's heading is";
+  return who + " off by " + degrees(f.figure("first")) + ": for " + lasting(f.figure("for_s")) +
+         ", on courses up to " + degrees(f.figure("courses_apart")) +
+         " apart, GPS had the vehicle go another way than the DVL with that heading, at the same speed. A DVL "
+         "that is mounted otherwise than configured would look the same.";
 }
 
 std::string disagreement(const Finding& f) {
@@ -51,6 +64,8 @@ std::string disagreement(const Finding& f) {
   } else {
     text = f.subject + " walked away from navigation, " + in_unit(f, f.figure("first")) +
            " when it was first refused and up to " + in_unit(f, f.figure("most"));
+    if (known(f.figure("velocity_m_s")))
+      text += ", its velocity up to " + brief(f.figure("velocity_m_s")) + " m/s apart";
   }
   text += ". " + measurements(f, f.figure("count")) + " of " + lasting(f.figure("for_s")) + " were refused";
   if (f.figure("disputed") > 0.0) text += ", in the end as disputed";
@@ -98,15 +113,16 @@ std::string refused(const Finding& f) {
 std::string not_aligned(const Finding& f) {
   std::string text;
   const std::string time = lasting(f.figure("for_s"));
-  if (f.word == "lost") text = "Alignment was lost for " + time;
+  if (f.word == "lost") text = "Navigation aligned itself anew and was without attitude for " + time;
   if (f.word == "never") text = "Navigation was not aligned in " + time;
   if (f.word == "slow") text = "Alignment took " + time;
   for (const Evidence& one : f.evidence)
     if (one.topic == "fathom/v1/alignment") text += (&one == f.evidence.data() ? ": " : ". ") + one.what;
+  while (text.ends_with('.')) text.pop_back();
   if (f.figure("waiting") > 0.0)
     text += ". " + counted(f.figure("waiting"), "measurement", "measurements") +
             " could not be used for want of it";
-  return text + (text.ends_with('.') ? "" : ".");
+  return text + ".";
 }
 
 }  // namespace
@@ -161,8 +177,10 @@ std::string sentence(const Finding& f) {
              counted(f.figure("gaps"), "time", "times") + ", at most " + brief(f.figure("longest_s")) +
              " s; usual is a step of " + brief(1e3 * f.figure("step_s")) + " ms.";
     case Kind::not_aligned:
+    case Kind::alignment_lost:
       return not_aligned(f);
     case Kind::wrong_heading:
+      if (f.word.starts_with("course")) return wrong_course(f);
       return "Compass " + f.subject + " disagrees with navigation by " + degrees(f.figure("first")) + ": " +
              counted(f.figure("count"), "heading", "headings") + " of " + lasting(f.figure("for_s")) +
              " were refused." + who_is_wrong(f);
@@ -178,8 +196,9 @@ std::string sentence(const Finding& f) {
       return disagreement(f);
     case Kind::outliers:
       return f.subject + " gives outliers: " + brief(f.figure("count")) + " of " + brief(f.figure("of")) +
-             " measurements lay far off, up to " + in_unit(f, f.figure("most")) +
-             ", among good ones, and were refused.";
+             " measurements lay beyond the gate, up to " + in_unit(f, f.figure("most")) +
+             ", among good ones; " + brief(f.figure("refused")) +
+             " of them were refused, the others had little weight.";
     case Kind::wrong_lever:
       return "The innovations of " + f.subject + " turn with the vehicle, as if its antenna were " +
              brief(f.figure("forward_m")) + " m forward and " + brief(f.figure("right_m")) +

@@ -43,7 +43,7 @@ void watch_alignment(const History& history, Findings& out) {
       std::uint64_t waiting = 0;
       for (const VerdictRow& row : history.verdicts())
         waiting += row.kind == VerdictKind::not_aligned && row.log_ns >= from->log_ns && row.log_ns <= end_ns;
-      Finding found{.kind = Kind::not_aligned,
+      Finding found{.kind = ever ? Kind::alignment_lost : Kind::not_aligned,
                     .weight = to == states.end() || ever ? Weight::bad : Weight::caution,
                     .subject = history.name(from->instance),
                     .begin_ns = from->log_ns,

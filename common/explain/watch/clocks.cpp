@@ -104,9 +104,14 @@ double jump_s(const std::vector<Second>& rows, std::size_t i) {
 
 void stamps(const Stream& stream, Findings& out) {
   const std::vector<Second> rows = together(stream);
+  double off_s = 0.0;
+  std::size_t open = out.size();  // the jump whose time goes on
   for (std::size_t i = 3; i + kAfter < rows.size(); ++i) {
     const double step_s = jump_s(rows, i);
     if (step_s == 0.0) continue;
+    if (open < out.size()) out[open].end_ns = rows[i].at_ns;
+    open = out.size();
+    off_s += step_s;
     out.push_back({.kind = Kind::clock_jump,
                    .weight = stream.kind == SourceKind::imu ? Weight::bad : Weight::caution,
                    .subject = stream.sensor.str(),
@@ -120,6 +125,8 @@ void stamps(const Stream& stream, Findings& out) {
                                  "stamp_ns against received_ns"}}});
     i += kAfter + 1;
   }
+  // A clock that was not set back is wrong to the end.
+  if (open < out.size() && std::abs(off_s) > kLeast_s) out[open].end_ns = rows.back().at_ns + kNsPerSecond;
 }
 
 }  // namespace

@@ -18,18 +18,30 @@ constexpr std::size_t kLags = 30;  // of the correlation of a receiver's errors
 
 struct Row {
   Eigen::Matrix2d pattern;  // innovation over lever, along B
-  Eigen::Vector2d innovation;
+  Eigen::Vector2d innovation;  // measured minus predicted
   double variance = 1.0;
 };
 
+/// Something else was wrong with the source, or with the heading that turns its lever.
+bool spoilt(const VerdictRow& row, const std::string& sensor, const Findings& known_causes) {
+  constexpr DurationNs kAfter_ns = 30 * kNsPerSecond;
+  return std::any_of(known_causes.begin(), known_causes.end(), [&](const Finding& one) {
+    if (one.kind != Kind::wrong_heading && one.subject != sensor) return false;
+    if (one.kind == Kind::lost || one.kind == Kind::refused || one.kind == Kind::outliers) return false;
+    return row.stamp_ns > one.begin_ns - kNsPerSecond && row.stamp_ns < one.end_ns + kAfter_ns;
+  });
+}
+
 /// What a lever error would have made of the innovations: the antenna's place turns with the vehicle, and
 /// navigation follows it by its gain with each fix.
-std::vector<Row> rows_of(const Judged& judged, const Track& track) {
+std::vector<Row> rows_of(const Judged& judged, const Track& track, const std::string& sensor,
+                         const Findings& known_causes) {
   std::vector<Row> out;
   Eigen::Matrix2d absorbed = Eigen::Matrix2d::Zero();
   TimeNs last_ns = 0;
   for (const VerdictRow* verdict : judged) {
     if (verdict->kind != VerdictKind::used || verdict->dimensions < 2) continue;
+    if (spoilt(*verdict, sensor, known_causes)) continue;
     const StateRow* state = track.at(verdict->stamp_ns);
     if (state == nullptr || !navigating(*state) || !std::isfinite(state->yaw_rad)) continue;
     const double variance = verdict->sigma[0] * verdict->sigma[1];
@@ -41,7 +53,7 @@ std::vector<Row> rows_of(const Judged& judged, const Track& track) {
     // After a pause navigation has gone its own way: it begins anew.
     if (out.empty() || verdict->stamp_ns - last_ns > 30 * kNsPerSecond) absorbed = turn;
     last_ns = verdict->stamp_ns;
-    out.push_back({turn - absorbed, {verdict->innovation[0], verdict->innovation[1]}, variance});
+    out.push_back({turn - absorbed, {-verdict->innovation[0], -verdict->innovation[1]}, variance});
     const double own = 0.5 * state->sigma_m * state->sigma_m;
     absorbed += std::clamp(own / variance, 0.0, 1.0) * (turn - absorbed);
   }
@@ -73,7 +85,7 @@ void watch_lever(const History& history, const Track& track, Findings& out) {
     const Stream& stream = history.streams()[i];
     if (stream.kind != SourceKind::gps) continue;
     const Judged verdicts = judged(history, i);
-    const std::vector<Row> rows = rows_of(verdicts, track);
+    const std::vector<Row> rows = rows_of(verdicts, track, stream.sensor.str(), out);
     if (rows.size() < kFixes) continue;
     Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
     Eigen::Vector2d seen = Eigen::Vector2d::Zero();

@@ -16,7 +16,7 @@ constexpr std::size_t kBackAgain = 3;  // used in a row: it agrees again
 // Of a disagreement the innovations point one way; of single outliers they point anywhere: the sum of five
 // directions in the plane is longer than 0.8 of their lengths in 3 of 100 cases.
 constexpr double kOneWay = 0.8;
-// A jump shows at once: the first refusal lies this far beyond what the gate lets pass (in its squares).
+// A jump shows at once: the place of the first refusal lies this far beyond the gate (in its squares).
 constexpr double kAtOnce = 4.0;
 // Instruments give some values far off. More than this share of them, and more than chance makes of it.
 constexpr double kUsualOutliers = 0.02;
@@ -27,7 +27,18 @@ constexpr double kManyRefused = 0.01;     // of all; fewer late or doubled ones 
 constexpr std::uint64_t kManyCount = 5;
 constexpr DurationNs kApart_ns = 5 * kNsPerSecond;
 
-/// Rows that mean a position or a velocity, as far as horizontal components go.
+/// The largest of the first components in their sigmas, squared, over the gate's limit: above 1 it lies beyond
+/// what the gate believes, whatever weight a robust noise gave it in the end.
+double beyond(const VerdictRow& row, std::size_t components = 6) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min<std::size_t>(components, row.dimensions); ++i) {
+    const double z = row.innovation[i] / row.sigma[i];
+    if (std::isfinite(z)) most = std::max(most, z * z);
+  }
+  return row.limit > 0.0 ? most / row.limit : 0.0;
+}
+
+/// Horizontal components first, as all that have them order theirs.
 double apart(const VerdictRow& row, SourceKind kind) {
   if (kind == SourceKind::heading || kind == SourceKind::depth) return std::abs(row.innovation[0]);
   return row.dimensions >= 2 ? std::hypot(row.innovation[0], row.innovation[1]) : std::abs(row.innovation[0]);
@@ -140,7 +151,6 @@ class Refusals {
       if (stretch.rows.size() >= kInARow && 2 * used <= stretch.rows.size() && stretch.one_way()) {
         say(stretch, i);
       } else {
-        alone_ += stretch.rows.size();
         for (const VerdictRow* row : stretch.rows) lone_.push_back(row);
       }
       i = k;
@@ -153,11 +163,19 @@ class Refusals {
     double most = 0.0;
     for (const VerdictRow* row : stretch.rows) most = std::max(most, apart(*row, stream_.kind));
     const bool heading = stream_.kind == SourceKind::heading;
-    const bool at_once = begin.test_ratio > kAtOnce && agreed_before(first);
+    const bool at_once = beyond(begin, 2) > kAtOnce && agreed_before(first);
     const bool disputed = std::any_of(stretch.rows.begin(), stretch.rows.end(), [](const VerdictRow* row) {
       return row->kind == VerdictKind::disputed;
     });
-    const double sign = heading && begin.innovation[0] < 0.0 ? -1.0 : 1.0;
+    // Of a fix with a velocity that stands behind its place.
+    double velocity_m_s = kUnknown;
+    for (const VerdictRow* row : stretch.rows) {
+      if (stream_.kind != SourceKind::gps || row->dimensions < 5) continue;
+      const double apart_m_s = std::hypot(row->innovation[3], row->innovation[4]);
+      if (beyond(*row) > 1.0 && !(apart_m_s < velocity_m_s)) velocity_m_s = apart_m_s;
+    }
+    // Measured minus predicted, of a heading.
+    const double sign = heading && begin.innovation[0] > 0.0 ? -1.0 : 1.0;
     out_.push_back({.kind = heading   ? Kind::wrong_heading
                             : at_once ? Kind::jump
                                       : Kind::drag,
@@ -171,6 +189,7 @@ class Refusals {
                                 {"first", sign * apart(begin, stream_.kind)},
                                 {"most", sign * most},
                                 {"first_sigma", sigma_of(begin)},
+                                {"velocity_m_s", velocity_m_s},
                                 {"disputed", disputed ? 1.0 : 0.0}},
                     .evidence = {{"fathom/v1/verdict", stretch.rows.size(), "rejected"}}});
     agreeing(out_.back());
@@ -214,23 +233,36 @@ class Refusals {
 
   void outliers() {
     std::uint64_t judged_count = 0;
-    for (const VerdictRow* row : rows_)
+    for (const VerdictRow* row : rows_) {
       judged_count += row->kind == VerdictKind::used || is_refusal(row->kind) ? 1U : 0U;
-    if (alone_ < kFewest) return;
+      if (row->kind == VerdictKind::used && beyond(*row) > 1.0) lone_.push_back(row);
+    }
+    const auto alone = static_cast<double>(lone_.size());
+    if (lone_.size() < kFewest) return;
     const boost::math::binomial_distribution<double> chance(static_cast<double>(judged_count),
                                                             kUsualOutliers);
-    if (boost::math::cdf(boost::math::complement(chance, static_cast<double>(alone_ - 1))) > kChance) return;
+    if (boost::math::cdf(boost::math::complement(chance, alone - 1.0)) > kChance) return;
     double most = 0.0;
-    for (const VerdictRow* row : lone_) most = std::max(most, apart(*row, stream_.kind));
-    out_.push_back({.kind = Kind::outliers,
-                    .subject = stream_.sensor.str(),
-                    .begin_ns = lone_.front()->stamp_ns,
-                    .end_ns = lone_.back()->stamp_ns,
-                    .word = std::string(to_string(stream_.kind)),
-                    .figures = {{"count", static_cast<double>(alone_)},
-                                {"of", static_cast<double>(judged_count)},
-                                {"most", most}},
-                    .evidence = {{"fathom/v1/verdict", alone_, "rejected, alone or few at a time"}}});
+    double refused = 0.0;
+    TimeNs begin_ns = lone_.front()->stamp_ns;
+    TimeNs end_ns = begin_ns;
+    for (const VerdictRow* row : lone_) {
+      most = std::max(most, apart(*row, stream_.kind));
+      refused += is_refusal(row->kind) ? 1.0 : 0.0;
+      begin_ns = std::min(begin_ns, row->stamp_ns);
+      end_ns = std::max(end_ns, row->stamp_ns);
+    }
+    out_.push_back(
+        {.kind = Kind::outliers,
+         .subject = stream_.sensor.str(),
+         .begin_ns = begin_ns,
+         .end_ns = end_ns,
+         .word = std::string(to_string(stream_.kind)),
+         .figures = {{"count", alone},
+                     {"of", static_cast<double>(judged_count)},
+                     {"refused", refused},
+                     {"most", most}},
+         .evidence = {{"fathom/v1/verdict", lone_.size(), "beyond the gate, alone or few at a time"}}});
   }
 
   void refused(VerdictKind kind) {
@@ -258,7 +290,6 @@ class Refusals {
   Judged rows_;
   Findings& out_;
   double step_s_ = kUnknown;
-  std::uint64_t alone_ = 0;
   std::vector<const VerdictRow*> lone_;
 };
 

@@ -20,9 +20,9 @@ void watch_alignment(const History& history, Findings& out);
 void watch_receivers(const History& history, Findings& out);
 /// frozen, jump, drag, outliers, wrong_heading of a compass, refused.
 void watch_refusals(const History& history, const Track& track, Findings& out);
-/// drag of a receiver that is used; wrong_heading by the course over ground.
+/// wrong_heading, by what GPS and a DVL tell of the course over ground.
 void watch_course(const History& history, const Track& track, Findings& out);
-/// wrong_lever.
+/// wrong_lever. `out` holds the findings of all before.
 void watch_lever(const History& history, const Track& track, Findings& out);
 /// lost.
 void watch_losses(const History& history, const Track& track, Findings& out);

@@ -40,11 +40,11 @@ struct Stage::Fusion {
   std::uint64_t taken = 0;
 };
 
-Stage::Stage(sim::Scenario scenario, std::uint64_t seed)
+Stage::Stage(sim::Scenario scenario, std::uint64_t seed, const sim::Scenario* configured)
     : scenario_(std::move(scenario)),
       simulation_(scenario_, {kEpochNs, seed, "auv"}),
-      fusion_config_(load<config::FusionConfig>(scenario_, "fusion")),
-      monitor_config_(load<config::MonitorConfig>(scenario_, "monitor")) {
+      fusion_config_(load<config::FusionConfig>(configured == nullptr ? scenario_ : *configured, "fusion")),
+      monitor_config_(load<config::MonitorConfig>(configured == nullptr ? scenario_ : *configured, "monitor")) {
   std::vector<std::string> names{"monitor"};
   for (const std::string& bridge : scenario_.bridges) names.push_back(bridge + "_bridge");
   for (const std::string& name : names) services_[name] = {next_pid_++, kEpochNs};

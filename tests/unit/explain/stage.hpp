@@ -22,7 +22,8 @@ class Stage {
  public:
   static constexpr TimeNs kEpochNs = 1'700'000'000 * kNsPerSecond;
 
-  explicit Stage(sim::Scenario scenario, std::uint64_t seed);
+  /// `configured`: the vehicle that the services are told of, where it is another one.
+  explicit Stage(sim::Scenario scenario, std::uint64_t seed, const sim::Scenario* configured = nullptr);
   ~Stage();
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
