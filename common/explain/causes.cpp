@@ -31,7 +31,8 @@ bool touches_all(const Finding& cause) {
 }
 
 bool is_effect(Kind kind) {
-  return kind == Kind::alignment_lost || kind == Kind::state_gap || kind == Kind::reset || kind == Kind::growth;
+  return kind == Kind::alignment_lost || kind == Kind::state_gap || kind == Kind::reset ||
+         kind == Kind::growth;
 }
 
 bool may_bring_about(const Finding& cause, const Finding& effect) {

@@ -15,27 +15,27 @@ namespace fathom::explain {
 /// What was found. In the order of causes: what stands earlier may bring about what stands later, and not
 /// the other way round.
 enum class Kind : std::uint8_t {
-  clock_set,      ///< a host's clock was set; subject: host
-  clock_jump,     ///< stamps of a sensor jumped against their arrival
-  second_writer,  ///< two processes give one sensor's samples at once
-  takeover,       ///< another fusion gives the navigation state
-  restart,        ///< a service was started again
-  imu_late,       ///< inertial samples arrive late
-  imu_gap,        ///< inertial samples are missing
-  not_aligned,    ///< alignment was not reached, or late
-  wrong_heading,  ///< the compass, or navigation's heading, is off
-  interference,   ///< a receiver says itself that it is jammed or deceived
-  frozen,         ///< a value repeats while the vehicle moves
-  jump,           ///< a source stands aside of navigation at once, and for long
-  drag,           ///< a source walks away from navigation
-  outliers,       ///< single values far off among good ones
-  wrong_lever,    ///< innovations turn with the vehicle
-  lost,           ///< a source that had been used gave nothing that could be used
-  refused,        ///< many measurements not used for a reason of their own: late, twice, frame
-  alignment_lost, ///< navigation aligned itself anew
-  state_gap,      ///< the navigation state was silent
-  reset,          ///< the position stepped
-  growth,         ///< the uncertainty grew
+  clock_set,       ///< a host's clock was set; subject: host
+  clock_jump,      ///< stamps of a sensor jumped against their arrival
+  second_writer,   ///< two processes give one sensor's samples at once
+  takeover,        ///< another fusion gives the navigation state
+  restart,         ///< a service was started again
+  imu_late,        ///< inertial samples arrive late
+  imu_gap,         ///< inertial samples are missing
+  not_aligned,     ///< alignment was not reached, or late
+  wrong_heading,   ///< the compass, or navigation's heading, is off
+  interference,    ///< a receiver says itself that it is jammed or deceived
+  frozen,          ///< a value repeats while the vehicle moves
+  jump,            ///< a source stands aside of navigation at once, and for long
+  drag,            ///< a source walks away from navigation
+  outliers,        ///< single values far off among good ones
+  wrong_lever,     ///< innovations turn with the vehicle
+  lost,            ///< a source that had been used gave nothing that could be used
+  refused,         ///< many measurements not used for a reason of their own: late, twice, frame
+  alignment_lost,  ///< navigation aligned itself anew
+  state_gap,       ///< the navigation state was silent
+  reset,           ///< the position stepped
+  growth,          ///< the uncertainty grew
 };
 inline constexpr std::size_t kKinds = 21;
 [[nodiscard]] std::string_view to_string(Kind kind);

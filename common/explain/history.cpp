@@ -158,8 +158,7 @@ void History::fix(const GpsSample& sample) {
 void History::dvl(const DvlSample& sample) {
   const auto number = stream_of(SourceKind::dvl, sample.header.sensor);
   if (!number || sample.mode != DvlMode::bottom) return;
-  dvl_.push_back(
-      {sample.header.stamp_ns, *number, {sample.velocity_D_m_s[0], sample.velocity_D_m_s[1]}});
+  dvl_.push_back({sample.header.stamp_ns, *number, {sample.velocity_D_m_s[0], sample.velocity_D_m_s[1]}});
 }
 
 void History::add(const NavState& state, const Arrival& arrival) {

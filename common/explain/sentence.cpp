@@ -40,7 +40,8 @@ std::string support(const Finding& f) {
 }
 
 std::string who_is_wrong(const Finding& f) {
-  if (!f.follows_from && f.figure("supported") > 0.0) return support(f) + " So " + f.subject + " is the likelier wrong one.";
+  if (!f.follows_from && f.figure("supported") > 0.0)
+    return support(f) + " So " + f.subject + " is the likelier wrong one.";
   return support(f);
 }
 
@@ -51,7 +52,8 @@ std::string wrong_course(const Finding& f) {
                               : "Navigation's heading is";
   return who + " off by " + degrees(f.figure("first")) + ": for " + lasting(f.figure("for_s")) +
          ", on courses up to " + degrees(f.figure("courses_apart")) +
-         " apart, GPS had the vehicle go another way than the DVL with that heading, at the same speed. A DVL "
+         " apart, GPS had the vehicle go another way than the DVL with that heading, at the same speed. A "
+         "DVL "
          "that is mounted otherwise than configured would look the same.";
 }
 
@@ -114,6 +116,7 @@ std::string not_aligned(const Finding& f) {
   std::string text;
   const std::string time = lasting(f.figure("for_s"));
   if (f.word == "lost") text = "Navigation aligned itself anew and was without attitude for " + time;
+  if (f.word == "no_state") text = "No navigation state was given in " + time;
   if (f.word == "never") text = "Navigation was not aligned in " + time;
   if (f.word == "slow") text = "Alignment took " + time;
   for (const Evidence& one : f.evidence)
@@ -123,6 +126,24 @@ std::string not_aligned(const Finding& f) {
     text += ". " + counted(f.figure("waiting"), "measurement", "measurements") +
             " could not be used for want of it";
   return text + ".";
+}
+
+std::string wrong_lever(const Finding& f) {
+  const auto way = [](double value, const char* plus, const char* minus) {
+    return brief(std::abs(value)) + " m " + (value < 0.0 ? minus : plus);
+  };
+  std::string text = "The antenna of " + f.subject +
+                     " is not where the configuration has it: its innovations turn "
+                     "with the vehicle, as if it stood at least " +
+                     way(f.figure("forward_m"), "further forward", "further aft") + " and " +
+                     way(f.figure("right_m"), "further right", "further left") + " (+- " +
+                     brief(f.figure("sigma_m")) + " m, by " + counted(f.figure("fixes"), "fix", "fixes") +
+                     "; navigation takes a part of it for its own error).";
+  const double speed_m_s = f.figure("speed_m_s");
+  if (speed_m_s > 0.5)
+    text += " Stamps that are " + brief(std::abs(f.figure("forward_m")) / speed_m_s) + " s or more too " +
+            (f.figure("forward_m") < 0.0 ? "late" : "early") + " would look the same.";
+  return text;
 }
 
 }  // namespace
@@ -200,10 +221,7 @@ std::string sentence(const Finding& f) {
              ", among good ones; " + brief(f.figure("refused")) +
              " of them were refused, the others had little weight.";
     case Kind::wrong_lever:
-      return "The innovations of " + f.subject + " turn with the vehicle, as if its antenna were " +
-             brief(f.figure("forward_m")) + " m forward and " + brief(f.figure("right_m")) +
-             " m right of where the configuration has it (+- " + brief(f.figure("sigma_m")) + " m, by " +
-             counted(f.figure("fixes"), "fix", "fixes") + ").";
+      return wrong_lever(f);
     case Kind::lost:
       return lost(f);
     case Kind::refused:

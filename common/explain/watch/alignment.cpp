@@ -23,11 +23,44 @@ const AlignmentRow* said_at(const History& history, TimeNs at_ns) {
   return out;
 }
 
+/// What was said last, as evidence.
+void add_said(const History& history, TimeNs at_ns, Finding& found) {
+  const AlignmentRow* said = said_at(history, at_ns);
+  if (said == nullptr) return;
+  const std::string unmet = unmet_of(*said);
+  found.evidence.push_back(
+      {"fathom/v1/alignment", 1,
+       "phase " + std::string(to_string(said->phase)) + (unmet.empty() ? "" : "; not met: " + unmet)});
+  if (!said->advice.empty()) found.evidence.push_back({"fathom/v1/alignment", 1, said->advice});
+}
+
+/// Inertial samples, and not one navigation state.
+void silent(const History& history, Findings& out) {
+  const bool any = std::any_of(history.streams().begin(), history.streams().end(), [](const Stream& one) {
+    return one.kind == SourceKind::imu && one.samples > 0;
+  });
+  const double for_s = to_seconds(history.to_ns() - history.from_ns());
+  if (!any || for_s < kPatience_s) return;
+  Finding found{.kind = Kind::not_aligned,
+                .weight = Weight::bad,
+                .subject = "fusion",
+                .begin_ns = history.from_ns(),
+                .end_ns = history.to_ns(),
+                .word = "no_state",
+                .figures = {{"for_s", for_s}},
+                .evidence = {{"fathom/v1/nav_state", 0, "no states"}}};
+  add_said(history, history.to_ns(), found);
+  out.push_back(std::move(found));
+}
+
 }  // namespace
 
 void watch_alignment(const History& history, Findings& out) {
   const auto& states = history.states();
-  if (states.empty()) return;
+  if (states.empty()) {
+    silent(history, out);
+    return;
+  }
   const auto find = [&](auto from, auto&& what) {
     return std::find_if(from, states.end(), [&](const StateRow& row) { return what(row.alignment); });
   };
@@ -52,13 +85,7 @@ void watch_alignment(const History& history, Findings& out) {
                             : to == states.end() ? "never"
                                                  : "slow",
                     .figures = {{"for_s", for_s}, {"waiting", static_cast<double>(waiting)}}};
-      if (const AlignmentRow* said = said_at(history, end_ns - kNsPerSecond)) {
-        const std::string unmet = unmet_of(*said);
-        found.evidence.push_back(
-            {"fathom/v1/alignment", 1,
-             "phase " + std::string(to_string(said->phase)) + (unmet.empty() ? "" : "; not met: " + unmet)});
-        if (!said->advice.empty()) found.evidence.push_back({"fathom/v1/alignment", 1, said->advice});
-      }
+      add_said(history, end_ns - kNsPerSecond, found);
       if (waiting > 0) found.evidence.push_back({"fathom/v1/verdict", waiting, "not_aligned"});
       out.push_back(std::move(found));
     }

@@ -10,16 +10,17 @@ namespace fathom::explain {
 namespace {
 
 constexpr DurationNs kWindow_ns = 10 * kNsPerSecond;
-constexpr std::size_t kFixes = 5;                // of a window
+constexpr std::size_t kFixes = 5;                  // of a window
 constexpr DurationNs kNear_ns = kNsPerSecond / 2;  // between a fix and the DVL beside it
-constexpr double kSlow_m_s = 0.5;                // below it a course means little
+constexpr double kSlow_m_s = 0.5;                  // below it a course means little
 // Mountings of a DVL and a compass are known to some degrees; less than this is nothing to name.
 constexpr double kLeast_rad = 5.0 * std::numbers::pi / 180.0;
 constexpr double kSigmas = 5.0;
 constexpr double kSpeedApart = 0.1;  // of the speed: a heading turns a velocity, it does not stretch it
-// A wrong heading turns the velocity on every course alike; a current, or a receiver that is led away, does
-// not.
-constexpr double kCourses_rad = std::numbers::pi / 3.0;
+// A wrong heading turns the velocity on every course to the same side. A velocity that is added, of a
+// receiver that is led away or of a current, turns it to the same side without stretching it only on courses
+// that lie nearer together than this.
+constexpr double kCourses_rad = 2.0 * std::numbers::pi / 3.0;
 
 double turned(double to, double from) {
   return std::remainder(to - from, 2.0 * std::numbers::pi);
@@ -139,20 +140,15 @@ void say(const History& history, const std::vector<Window>& windows, std::size_t
          const std::string& dvl, Findings& out) {
   double apart_rad = 0.0;
   double sum = 0.0;
-  double low = 1e9;
-  double high = -1e9;
   double fixes = 0.0;
   for (std::size_t i = from; i < to; ++i) {
-    const double mean = windows[i].mean_rad();
     for (std::size_t k = from; k < i; ++k)
       apart_rad = std::max(apart_rad, std::abs(turned(windows[i].course_rad, windows[k].course_rad)));
-    low = std::min(low, mean);
-    high = std::max(high, mean);
-    sum += mean;
+    sum += windows[i].mean_rad();
     fixes += static_cast<double>(windows[i].off_rad.size());
   }
   const double mean = sum / static_cast<double>(to - from);
-  if (apart_rad < kCourses_rad || high - low > std::max(kLeast_rad, 0.5 * std::abs(mean))) return;
+  if (apart_rad < kCourses_rad) return;
   const TimeNs begin_ns = windows[from].begin_ns;
   const TimeNs end_ns = windows[to - 1].end_ns;
   const Stream* compass = compass_of(history, begin_ns, end_ns);

@@ -27,8 +27,8 @@ constexpr double kManyRefused = 0.01;     // of all; fewer late or doubled ones 
 constexpr std::uint64_t kManyCount = 5;
 constexpr DurationNs kApart_ns = 5 * kNsPerSecond;
 
-/// The largest of the first components in their sigmas, squared, over the gate's limit: above 1 it lies beyond
-/// what the gate believes, whatever weight a robust noise gave it in the end.
+/// The largest of the first components in their sigmas, squared, over the gate's limit: above 1 it lies
+/// beyond what the gate believes, whatever weight a robust noise gave it in the end.
 double beyond(const VerdictRow& row, std::size_t components = 6) {
   double most = 0.0;
   for (std::size_t i = 0; i < std::min<std::size_t>(components, row.dimensions); ++i) {

@@ -44,12 +44,14 @@ Stage::Stage(sim::Scenario scenario, std::uint64_t seed, const sim::Scenario* co
     : scenario_(std::move(scenario)),
       simulation_(scenario_, {kEpochNs, seed, "auv"}),
       fusion_config_(load<config::FusionConfig>(configured == nullptr ? scenario_ : *configured, "fusion")),
-      monitor_config_(load<config::MonitorConfig>(configured == nullptr ? scenario_ : *configured, "monitor")) {
+      monitor_config_(
+          load<config::MonitorConfig>(configured == nullptr ? scenario_ : *configured, "monitor")) {
   std::vector<std::string> names{"monitor"};
   for (const std::string& bridge : scenario_.bridges) names.push_back(bridge + "_bridge");
   for (const std::string& name : names) services_[name] = {next_pid_++, kEpochNs};
   monitor_config_.health.services.clear();
-  for (const std::string& name : names) monitor_config_.health.services.push_back({Name(name), Severity::warning});
+  for (const std::string& name : names)
+    monitor_config_.health.services.push_back({Name(name), Severity::warning});
   monitor_config_.health.services.push_back({"fusion", Severity::critical});
   monitor_ = std::make_unique<health::VehicleHealth>(monitor_config_.health, health::Instant{0, kEpochNs});
   start_fusion(false);
@@ -178,9 +180,9 @@ void Stage::deliver(const AnySample& sample, bool second) {
 void Stage::life() {
   for (const auto& [name, service] : services_) {
     if (silent_[name]) continue;
-    if (name.starts_with("fusion") &&
-        std::none_of(fusions_.begin(), fusions_.end(),
-                     [&](const auto& one) { return one->alive && one->pid == service.pid; }))
+    if (name.starts_with("fusion") && std::none_of(fusions_.begin(), fusions_.end(), [&](const auto& one) {
+          return one->alive && one->pid == service.pid;
+        }))
       continue;
     ServiceStatus status;
     status.header = {"auv", Name(name), now_ns_, now_ns_, ++sequence_};

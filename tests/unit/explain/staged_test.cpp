@@ -170,18 +170,18 @@ std::vector<Case> cases() {
                    stage.add_standby();
                    stage.at(kFault_s, [&stage] { stage.take_over(); });
                  }});
+  // On a stand without a compass: nothing tells where north is.
   out.push_back({"not_aligned", Kind::not_aligned, "fusion", 180,
                  [] {
                    sim::Scenario one = surface();
-                   one.environment.wave_height_m = 2.0;
-                   one.environment.wave_tilt_rad = 0.3;
                    one.mission.resize(1);
                    return one;
                  },
-                 [](Stage&) {}});
-  out.push_back({"clock_set", Kind::clock_set, "vehicle", 240, surface, [](Stage& stage) {
-                   stage.at(kFault_s, [&stage] { stage.set_clock(37.0); });
+                 [](Stage& stage) {
+                   stage.spoil = spoil<HeadingSample>([](HeadingSample&, double) { return false; });
                  }});
+  out.push_back({"clock_set", Kind::clock_set, "vehicle", 240, surface,
+                 [](Stage& stage) { stage.at(kFault_s, [&stage] { stage.set_clock(37.0); }); }});
   out.push_back({"clock_jump", Kind::clock_jump, "gps", 240, surface, [](Stage& stage) {
                    stage.spoil = spoil<GpsSample>([](GpsSample& one, double t) {
                      if (t >= kFault_s) one.header.stamp_ns -= 3 * kNsPerSecond;
@@ -235,8 +235,12 @@ TEST_P(Staged, TheCauseIsNamedFirst) {
     explain::History history;
     const Findings all = explained(stage, one.duration_s, history);
     SCOPED_TRACE(one.name + " seed " + std::to_string(seed) + "\n" + told(all, history));
-    if (std::getenv("FATHOM_TELL")) std::printf("== %s %zu\n%s", one.name.c_str(), seed, told(all, history).c_str());
-    ASSERT_FALSE(all.empty());
+    if (std::getenv("FATHOM_TELL"))
+      std::printf("== %s %zu\n%s", one.name.c_str(), seed, told(all, history).c_str());
+    if (all.empty()) {
+      ADD_FAILURE() << "nothing was found";
+      continue;
+    }
     EXPECT_EQ(to_string(all.front().kind), to_string(one.kind));
     EXPECT_EQ(all.front().subject, one.subject);
     EXPECT_TRUE(explain::named(all.front()));
@@ -256,7 +260,8 @@ TEST_P(Quiet, NothingIsNamed) {
     explain::History history;
     const Findings all = explained(stage, one.duration_s, history);
     SCOPED_TRACE(GetParam() + " seed " + std::to_string(seed) + "\n" + told(all, history));
-    if (std::getenv("FATHOM_TELL")) std::printf("== quiet %s %zu\n%s", GetParam().c_str(), seed, told(all, history).c_str());
+    if (std::getenv("FATHOM_TELL"))
+      std::printf("== quiet %s %zu\n%s", GetParam().c_str(), seed, told(all, history).c_str());
     for (const Finding& finding : all) EXPECT_FALSE(explain::named(finding)) << explain::sentence(finding);
   }
 }
