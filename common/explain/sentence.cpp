@@ -262,10 +262,27 @@ std::string advice(const Finding& f) {
       return "Look at the instrument and its link.";
     case Kind::drag:
     case Kind::jump:
-      return f.word == "gps" ? "Do not believe the receiver before its position was checked." : "";
+      return f.word == "gps"
+                 ? "Do not believe the receiver before its position was checked; it can be switched off by "
+                   "an order."
+                 : "Look at the instrument, at its mounting and at what the configuration has of it.";
     case Kind::outliers:
       return f.word == "usbl" ? "Multipath: look at the geometry, at noise and at the transponder's depth."
-                              : "";
+                              : "Look at the instrument and at what lies in its way.";
+    case Kind::interference:
+      return "Do not believe the receiver; look at transmitters near its antenna.";
+    case Kind::lost:
+      if (f.word == "no_fix") return "Look at the antenna, its cable and the sky above it.";
+      if (f.word == "out_of_range") return "Look at the instrument's range and at what it looks at.";
+      if (f.word == "silent")
+        return "Look at the instrument, its link and its bridge; fathom doctor tells which is there.";
+      return "";
+    case Kind::refused:
+      if (f.word == "late") return "Look at the link's delay, or raise horizon_s of the fusion service.";
+      if (f.word == "unknown_frame") return "Look at the instrument's frame and at its configuration.";
+      return "Look at the instrument's clock and its bridge.";
+    case Kind::not_aligned:
+      return "Do what alignment asks for, or give a position and a heading by order.";
     default:
       return "";
   }
