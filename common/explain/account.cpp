@@ -43,7 +43,8 @@ std::string used_text(const Around& then) {
     if (one.kind == SourceKind::imu) continue;
     const std::uint64_t all = one.all();
     if (all > 0 && one.counts[static_cast<std::size_t>(VerdictKind::source_disabled)] == all) {
-      off += (off.empty() ? "" : ", ") + one.sensor;
+      if ((", " + off + ", ").find(", " + one.sensor + ", ") == std::string::npos)
+        off += (off.empty() ? "" : ", ") + one.sensor;
       continue;
     }
     if (one.used() > 0) {
@@ -78,7 +79,7 @@ std::string instant(const History& history, const Around& then) {
     text += "    Navigation was " + std::string(to_string(then.state->mode)) + ", alignment " +
             std::string(to_string(then.state->alignment)) + ", horizontal sigma " +
             brief(then.state->sigma_m) + " m";
-    if (then.earlier != nullptr && then.earlier->at_ns < then.state->at_ns)
+    if (then.earlier != nullptr && then.earlier->at_ns < then.state->at_ns && known(then.earlier->sigma_m))
       text += " (" + brief(then.earlier->sigma_m) + " m " +
               lasting(to_seconds(then.state->at_ns - then.earlier->at_ns)) + " earlier)";
     text += ".\n";

@@ -11,8 +11,8 @@ namespace fathom::explain {
 
 /// What is asked.
 struct Question {
-  std::optional<TimeNs> at_ns;       ///< only what was under way around an instant, and what was used then
-  std::optional<std::string> alarm;  ///< only what led to alarms of this name, or of what stands before ':'
+  std::optional<TimeNs> at_ns{};       ///< only what was under way around an instant, and what was used then
+  std::optional<std::string> alarm{};  ///< only what led to alarms of this name, or of what stands before ':'
 };
 
 struct Answer {

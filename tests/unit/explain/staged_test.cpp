@@ -8,6 +8,7 @@
 
 #include "cli/explain/read.hpp"
 #include "config/scenario/scenario_config.hpp"
+#include "explain/account.hpp"
 #include "explain/explain.hpp"
 #include "explain/sentence.hpp"
 #include "geo/wgs84.hpp"
@@ -55,6 +56,8 @@ sim::Scenario surface() {
   return out;
 }
 
+constexpr double kFault_s = 120.0;
+
 struct Case {
   friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
@@ -66,9 +69,11 @@ struct Case {
   std::function<void(Stage&)> set_up;
   /// What the services are told of the vehicle, where that is another one.
   std::function<sim::Scenario()> configured = {};
+  [[nodiscard]] bool at_fault() const {
+    return kind != Kind::wrong_lever && kind != Kind::not_aligned && kind != Kind::outliers &&
+           !name.ends_with("always");
+  }
 };
-
-constexpr double kFault_s = 120.0;
 
 template <class T>
 auto spoil(std::function<bool(T&, double)> what) {
@@ -244,6 +249,12 @@ TEST_P(Staged, TheCauseIsNamedFirst) {
     EXPECT_EQ(to_string(all.front().kind), to_string(one.kind));
     EXPECT_EQ(all.front().subject, one.subject);
     EXPECT_TRUE(explain::named(all.front()));
+    // What was there from the beginning aside, it begins when it was done.
+    const double begin_s = to_seconds(all.front().begin_ns - Stage::kEpochNs);
+    if (one.at_fault()) {
+      EXPECT_NEAR(begin_s, kFault_s, 5.0);
+    }
+    EXPECT_TRUE(explain::account(history, explain::answer(history, {})).starts_with("Most likely: "));
   }
 }
 
