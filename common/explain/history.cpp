@@ -190,7 +190,7 @@ void History::add(const NavState& state, const Arrival& arrival) {
 }
 
 void History::add(const Verdict& verdict, const Arrival& arrival) {
-  if (!begin(verdict.header, arrival)) return;
+  if (static_cast<std::size_t>(verdict.kind) >= kVerdictKinds || !begin(verdict.header, arrival)) return;
   const auto stream = stream_of(verdict.source, verdict.header.sensor);
   if (!stream) return;
   const Measurement key{*stream, verdict.header.stamp_ns, verdict.header.sequence};
