@@ -16,6 +16,7 @@ constexpr DurationNs kAfter_ns = 15 * kNsPerSecond;
 bool touches_all(const Finding& cause) {
   switch (cause.kind) {
     case Kind::restart:
+    case Kind::stalled:
     case Kind::takeover:
     case Kind::imu_late:
     case Kind::imu_gap:
@@ -47,11 +48,16 @@ bool may_bring_about(const Finding& cause, const Finding& effect) {
   // It was there before: a thing of the whole log.
   if (effect.begin_ns < cause.begin_ns - kBefore_ns || effect.begin_ns > cause.end_ns + kAfter_ns)
     return false;
-  if (effect.kind == Kind::restart) return cause.kind == Kind::takeover && effect.subject == cause.word;
-  // A bridge that is started again is its own sensor's silence.
-  if (cause.kind == Kind::restart && cause.subject.ends_with("_bridge"))
-    return cause.subject.starts_with(effect.subject) ||
-           (cause.subject.starts_with("imu") && effect.kind != Kind::lost) || is_effect(effect.kind);
+  if (effect.kind == Kind::restart || effect.kind == Kind::stalled)
+    return cause.kind == Kind::takeover && effect.subject == cause.word;
+  // A service that is none of fusion's touches its own sensors, whose names begin as its own does.
+  if ((cause.kind == Kind::restart || cause.kind == Kind::stalled) && !(cause.figure("fusion") > 0.0)) {
+    constexpr std::string_view kBridge = "_bridge";
+    if (!cause.subject.ends_with(kBridge)) return false;
+    const std::string role = cause.subject.substr(0, cause.subject.size() - kBridge.size());
+    return effect.subject.starts_with(role) || (role == "imu" && effect.kind != Kind::lost) ||
+           is_effect(effect.kind);
+  }
   if (is_effect(effect.kind)) return cause.kind != Kind::interference || effect.kind != Kind::state_gap;
   return touches_all(cause) || cause.subject == effect.subject;
 }

@@ -20,6 +20,7 @@ enum class Kind : std::uint8_t {
   second_writer,   ///< two processes give one sensor's samples at once
   takeover,        ///< another fusion gives the navigation state
   restart,         ///< a service was started again
+  stalled,         ///< a service gave no life sign, and was not started again
   imu_late,        ///< inertial samples arrive late
   imu_gap,         ///< inertial samples are missing
   not_aligned,     ///< alignment was not reached, or late
@@ -37,7 +38,7 @@ enum class Kind : std::uint8_t {
   reset,           ///< the position stepped
   growth,          ///< the uncertainty grew
 };
-inline constexpr std::size_t kKinds = 21;
+inline constexpr std::size_t kKinds = 22;
 [[nodiscard]] std::string_view to_string(Kind kind);
 
 enum class Weight : std::uint8_t {

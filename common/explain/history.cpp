@@ -252,6 +252,7 @@ void History::add(const ServiceStatus& status, const Arrival& arrival) {
   for (auto last = life_.rbegin(); last != life_.rend(); ++last) {
     if (last->service != row.service) continue;
     constexpr DurationNs kSlow_ns = kNsPerSecond / 20;  // clocks drift
+    if (row.before_ns > 0 && row.log_ns - row.before_ns > LifeSign::kSilence_ns) break;
     if (last->pid == row.pid && last->started_ns == row.started_ns && last->state == row.state &&
         last->text == row.text && std::abs(last->utc_offset_ns - row.utc_offset_ns) < kSlow_ns)
       return;
@@ -279,13 +280,14 @@ void History::add(const Command& order, const Arrival& arrival) {
 
 void History::add(const IntakeRecord& intake, const Arrival& arrival) {
   if (!begin(intake.header, arrival)) return;
-  const RunRow row{arrival.log_ns, number_of(intake.header.sensor.str()), writer_of(arrival), intake.resumed,
+  const bool resumed = std::any_of(intake.entries.begin(), intake.entries.end(),
+                                   [](const IntakeEntry& one) { return one.kind == IntakeKind::state; });
+  const RunRow row{arrival.log_ns, number_of(intake.header.sensor.str()), writer_of(arrival), resumed,
                    intake.first};
-  for (auto last = runs_.rbegin(); last != runs_.rend(); ++last) {
-    if (last->writer != row.writer || last->instance != row.instance) continue;
-    if (last->resumed == row.resumed) return;
-    break;
-  }
+  const bool is_known = std::any_of(runs_.begin(), runs_.end(), [&](const RunRow& one) {
+    return one.writer == row.writer && one.instance == row.instance;
+  });
+  if (is_known && !resumed) return;
   runs_.push_back(row);
 }
 

@@ -108,8 +108,11 @@ struct DvlRow {
   std::array<double, 2> velocity_D_m_s{kUnknown, kUnknown};  ///< forward, right
 };
 
-/// The life sign of a service, where it says something new.
+/// The life sign of a service, where it says something new or comes after a silence.
 struct LifeSign {
+  /// They come once a second; the monitor misses them after as much.
+  static constexpr DurationNs kSilence_ns = 3 * kNsPerSecond;
+
   TimeNs log_ns = 0;
   std::uint32_t service = 0;
   std::string host;
@@ -138,7 +141,8 @@ struct OrderRow {
   Command order;
 };
 
-/// The begin of a run of a fusion service, by what it says that it took.
+/// The begin of a run of a fusion service, by what it says that it took; again where it goes on from a state
+/// that it had not made itself.
 struct RunRow {
   TimeNs log_ns = 0;
   std::uint32_t instance = 0;
@@ -180,6 +184,8 @@ class History {
   [[nodiscard]] const std::deque<FixRow>& fixes() const { return fixes_; }
   [[nodiscard]] const std::deque<DvlRow>& dvl() const { return dvl_; }
   [[nodiscard]] const std::deque<LifeSign>& life_signs() const { return life_; }
+  /// When each service last gave a life sign, by the number of its name.
+  [[nodiscard]] const std::map<std::uint32_t, TimeNs>& last_life_ns() const { return life_last_ns_; }
   [[nodiscard]] const std::deque<AlarmRow>& alarms() const { return alarms_; }
   [[nodiscard]] const std::deque<AlignmentRow>& alignment() const { return alignment_; }
   [[nodiscard]] const std::deque<OrderRow>& orders() const { return orders_; }

@@ -79,6 +79,9 @@ std::string lost(const Finding& f) {
   const std::string time = lasting(f.figure("for_s"));
   if (f.word == "silent") {
     text = f.subject + " fell silent for " + time;
+    if (known(f.figure("afterwards")))
+      text +=
+          " (" + counted(f.figure("afterwards"), "measurement", "measurements") + " of it came afterwards)";
   } else if (f.word == "no_fix") {
     text = f.subject + " had no fix for " + time;
   } else if (f.word == "out_of_range") {
@@ -189,6 +192,11 @@ std::string sentence(const Finding& f) {
              (f.word == "resumed" ? ". It went on from a state that it had kept."
               : f.word == "anew"  ? ". It began anew, without a state of before."
                                   : ".");
+    case Kind::stalled:
+      return f.subject + " gave no life sign for " + lasting(f.figure("silence_s")) +
+             (f.figure("to_end") > 0.0 ? ", up to the end: it died, or its host went."
+                                       : " and then went on as the same process: it stood still, or the "
+                                         "network between did.");
     case Kind::imu_late:
       return "Inertial samples of " + f.subject + " arrived " + brief(f.figure("age_s")) +
              " s after their instant, usual are " + brief(f.figure("usual_s")) +
@@ -250,7 +258,8 @@ std::string advice(const Finding& f) {
       return "End the one that does not belong there; fathom doctor names it.";
     case Kind::takeover:
     case Kind::restart:
-      return "Look at the log of " + (f.kind == Kind::restart ? f.subject : f.word) + " just before.";
+    case Kind::stalled:
+      return "Look at the log of " + (f.kind == Kind::takeover ? f.word : f.subject) + " just before.";
     case Kind::imu_late:
     case Kind::imu_gap:
       return "Look at the cable, the bridge and the load of the machine.";

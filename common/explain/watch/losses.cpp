@@ -15,13 +15,32 @@ constexpr double kLeast_s = 5.0;
 constexpr std::size_t kEnough = 5;  // used ones, before a usual step means anything
 constexpr double kWet_m = 0.5;      // an antenna is under water
 
+/// Whether nothing arrived in the most of a stretch: what of it came afterwards, all at once, was silent too.
+bool silent(const Stream& stream, TimeNs from_ns, TimeNs to_ns) {
+  DurationNs heard_ns = 0;
+  TimeNs last_ns = 0;
+  for (const Second& one : stream.seconds) {
+    if (one.at_ns == last_ns || one.at_ns + kNsPerSecond <= from_ns || one.at_ns >= to_ns) continue;
+    last_ns = one.at_ns;
+    heard_ns += kNsPerSecond;
+  }
+  return 2 * heard_ns < to_ns - from_ns;
+}
+
 /// Why nothing of a stretch was used.
-std::string reason_of(const Judged& rows, TimeNs from_ns, TimeNs to_ns, Finding& found) {
+std::string reason_of(const Stream& stream, const Judged& rows, TimeNs from_ns, TimeNs to_ns,
+                      Finding& found) {
   std::array<std::uint64_t, kVerdictKinds> counts{};
   for (const VerdictRow* row : rows)
     if (row->stamp_ns > from_ns && row->stamp_ns < to_ns) ++counts[static_cast<std::size_t>(row->kind)];
   const auto most = std::max_element(counts.begin(), counts.end());
   if (*most == 0) return "silent";
+  // A slow instrument gives less than one in a second.
+  if (!stream.seconds.empty() && *most > static_cast<std::uint64_t>(to_seconds(to_ns - from_ns)) &&
+      silent(stream, from_ns, to_ns)) {
+    found.figures.push_back({"afterwards", static_cast<double>(*most)});
+    return "silent";
+  }
   const auto kind = static_cast<VerdictKind>(std::distance(counts.begin(), most));
   found.figures.push_back({"count", static_cast<double>(*most)});
   found.evidence.push_back({"fathom/v1/verdict", *most, std::string(to_string(kind))});
@@ -50,7 +69,7 @@ void watch_losses(const History& history, const Track& track, Findings& out) {
       Finding found{
           .kind = Kind::lost, .subject = stream.sensor.str(), .begin_ns = used[k - 1], .end_ns = used[k]};
       found.figures = {{"for_s", for_s}, {"to_end", k + 1 == used.size() ? 1.0 : 0.0}};
-      found.word = reason_of(rows, used[k - 1], used[k], found);
+      found.word = reason_of(stream, rows, used[k - 1], used[k], found);
       if (found.word == "silent") {
         found.evidence.push_back(
             {"fathom/v1/" + std::string(to_string(stream.kind)), 0, "no samples in this time"});

@@ -10,7 +10,7 @@ namespace fathom::explain {
 
 /// clock_set, clock_jump.
 void watch_clocks(const History& history, Findings& out);
-/// second_writer, takeover, restart.
+/// second_writer, takeover, restart, stalled.
 void watch_writers(const History& history, Findings& out);
 /// imu_late, imu_gap. `out` holds the findings of clocks.
 void watch_inertial(const History& history, Findings& out);

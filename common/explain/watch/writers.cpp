@@ -86,13 +86,14 @@ void restarts(const History& history, Findings& out) {
     const std::string service = history.name(sign.service);
     const bool fusion = fusions.contains(service);
     const TimeNs begin_ns = sign.before_ns > 0 ? sign.before_ns : sign.log_ns;
-    Finding found{.kind = Kind::restart,
-                  .weight = fusion ? Weight::bad : Weight::caution,
-                  .subject = service,
-                  .begin_ns = begin_ns,
-                  .end_ns = sign.log_ns,
-                  .figures = {{"silence_s", to_seconds(sign.log_ns - begin_ns)}},
-                  .evidence = {{"fathom/v1/service_status", 1, "started_ns and pid changed"}}};
+    Finding found{
+        .kind = Kind::restart,
+        .weight = fusion ? Weight::bad : Weight::caution,
+        .subject = service,
+        .begin_ns = begin_ns,
+        .end_ns = sign.log_ns,
+        .figures = {{"silence_s", to_seconds(sign.log_ns - begin_ns)}, {"fusion", fusion ? 1.0 : 0.0}},
+        .evidence = {{"fathom/v1/service_status", 1, "started_ns and pid changed"}}};
     if (fusion) {
       found.figures.push_back({"state_silence_s", silence_s(history, sign.log_ns)});
       for (const RunRow& run : history.runs()) {
@@ -107,12 +108,45 @@ void restarts(const History& history, Findings& out) {
   }
 }
 
+/// Processes that were silent and went on, or went silent for good without saying that they stop.
+void stalls(const History& history, Findings& out) {
+  std::set<std::string> fusions;
+  for (const StateRow& row : history.states()) fusions.insert(history.name(row.instance));
+  const auto say = [&](std::uint32_t service, TimeNs begin_ns, TimeNs end_ns, bool to_end) {
+    const std::string name = history.name(service);
+    const bool fusion = fusions.contains(name);
+    out.push_back({.kind = Kind::stalled,
+                   .weight = fusion ? Weight::bad : Weight::caution,
+                   .subject = name,
+                   .begin_ns = begin_ns,
+                   .end_ns = end_ns,
+                   .figures = {{"silence_s", to_seconds(end_ns - begin_ns)},
+                               {"to_end", to_end ? 1.0 : 0.0},
+                               {"fusion", fusion ? 1.0 : 0.0}},
+                   .evidence = {{"fathom/v1/service_status", 0, "no life signs in this time"}}});
+  };
+  std::map<std::uint32_t, const LifeSign*> last;
+  for (const LifeSign& sign : history.life_signs()) {
+    const LifeSign* before = std::exchange(last[sign.service], &sign);
+    if (before == nullptr || before->started_ns != sign.started_ns || before->pid != sign.pid) continue;
+    if (sign.before_ns > 0 && sign.log_ns - sign.before_ns > LifeSign::kSilence_ns)
+      say(sign.service, sign.before_ns, sign.log_ns, false);
+  }
+  for (const auto& [service, last_ns] : history.last_life_ns()) {
+    if (history.to_ns() - last_ns <= LifeSign::kSilence_ns || last_ns < history.from_ns()) continue;
+    const auto sign = last.find(service);
+    if (sign != last.end() && sign->second->state == ServiceState::stopping) continue;
+    say(service, last_ns, history.to_ns(), true);
+  }
+}
+
 }  // namespace
 
 void watch_writers(const History& history, Findings& out) {
   for (const Stream& stream : history.streams()) second_writers(history, stream, out);
   takeovers(history, out);
   restarts(history, out);
+  stalls(history, out);
 }
 
 }  // namespace fathom::explain

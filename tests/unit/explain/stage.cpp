@@ -89,7 +89,12 @@ void Stage::kill_fusion() {
 void Stage::start_fusion(bool resumed) {
   auto fusion = std::make_unique<Fusion>(fusion_config_, "fusion", next_pid_++);
   if (resumed) (void)fusion->engine.restore(kept_);
-  fusion->intake.resumed = resumed;
+  if (resumed) {
+    IntakeEntry entry;
+    entry.kind = IntakeKind::state;
+    entry.sensor = fusion->name;
+    fusion->intake.entries.push_back(entry);
+  }
   services_["fusion"] = {fusion->pid, now_ns_};
   std::erase_if(fusions_, [](const auto& one) { return !one->alive; });
   fusions_.push_back(std::move(fusion));

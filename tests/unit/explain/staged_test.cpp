@@ -175,6 +175,12 @@ std::vector<Case> cases() {
                    stage.add_standby();
                    stage.at(kFault_s, [&stage] { stage.take_over(); });
                  }});
+  out.push_back({"bridge_died", Kind::stalled, "dvl_bridge", 200, surface,
+                 [](Stage& stage) { stage.at(kFault_s, [&stage] { stage.kill_bridge("dvl_bridge"); }); }});
+  out.push_back({"bridge_restarted", Kind::restart, "dvl_bridge", 200, surface, [](Stage& stage) {
+                   stage.at(kFault_s, [&stage] { stage.kill_bridge("dvl_bridge"); });
+                   stage.at(kFault_s + 12.0, [&stage] { stage.start_bridge("dvl_bridge"); });
+                 }});
   // On a stand without a compass: nothing tells where north is.
   out.push_back({"not_aligned", Kind::not_aligned, "fusion", 180,
                  [] {
