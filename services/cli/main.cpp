@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   fathom::cli::add_keygen(app, exit_code);
   fathom::cli::add_import(app, exit_code);
   fathom::cli::add_export(app, exit_code);
+  fathom::cli::add_explain(app, exit_code);
   fathom::cli::add_report(app, exit_code);
   fathom::cli::add_plot(app, exit_code);
   fathom::cli::add_record(app, exit_code);

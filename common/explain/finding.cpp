@@ -1,0 +1,35 @@
+#include "explain/finding.hpp"
+
+#include <array>
+
+namespace fathom::explain {
+
+std::string_view to_string(Kind kind) {
+  static constexpr std::array<std::string_view, kKinds> kWords{
+      "clock_set",      "clock_jump", "second_writer", "takeover",      "restart",      "stalled",
+      "imu_late",       "imu_gap",    "not_aligned",   "wrong_heading", "interference", "frozen",
+      "jump",           "drag",       "outliers",      "wrong_lever",   "lost",         "refused",
+      "alignment_lost", "state_gap",  "reset",         "growth"};
+  const auto number = static_cast<std::size_t>(kind);
+  return number < kWords.size() ? kWords[number] : "?";
+}
+
+std::string_view to_string(Weight weight) {
+  switch (weight) {
+    case Weight::bad:
+      return "bad";
+    case Weight::caution:
+      return "caution";
+    case Weight::note:
+      return "note";
+  }
+  return "?";
+}
+
+double Finding::figure(std::string_view name) const {
+  for (const Figure& one : figures)
+    if (one.name == name) return one.value;
+  return kUnknown;
+}
+
+}  // namespace fathom::explain
