@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -51,6 +52,10 @@ class Verification {
   }
 
   ExitCode run() {
+    for (const File& file : files_) {
+      const record::Statistics& all = file.reader.contents().statistics;
+      if (all.message_count > 0) begin_ns_ = std::min(begin_ns_, all.message_start_time);
+    }
     for (File& file : files_) find_runs(file);
     if (runs_.empty()) {
       throw Failure(ExitCode::bad_input,
@@ -84,6 +89,7 @@ class Verification {
     file.reader.read({{"fathom/v1/intake", "fathom/v1/service_status"}},
                      [&](const record::Channel& channel, const record::Message& message) {
                        if (channel.topic == "fathom/v1/intake") {
+                         if (said_before(message)) return true;
                          if (const auto intake = bus::from_cdr<IntakeRecord>(message.data))
                            look(runs_[process_of(channel)], *intake);
                        } else if (const auto status = bus::from_cdr<ServiceStatus>(message.data)) {
@@ -93,6 +99,12 @@ class Verification {
                        }
                        return true;
                      });
+  }
+
+  /// Before the recorder was there, and kept for it by the writer: the samples of that time are not in the
+  /// recording.
+  [[nodiscard]] bool said_before(const record::Message& message) const {
+    return message.publish_time < begin_ns_;
   }
 
   void look(Run& run, const IntakeRecord& intake) {
@@ -153,7 +165,7 @@ class Verification {
       if (proof != nullptr && sample) proof->add(*sample);
     };
     if (channel.topic == "fathom/v1/intake") {
-      give(bus::from_cdr<IntakeRecord>(message.data));
+      if (!said_before(message)) give(bus::from_cdr<IntakeRecord>(message.data));
     } else if (channel.topic == "fathom/v1/nav_state") {
       give(bus::from_cdr<NavState>(message.data));
     } else if (channel.topic == "fathom/v1/verdict") {
@@ -243,6 +255,7 @@ class Verification {
 
   std::string name_;  // of the first file
   std::vector<File> files_;
+  TimeNs begin_ns_ = std::numeric_limits<TimeNs>::max();  // log time of the first message
   StatePool pool_;
   std::map<std::string, Run> runs_;             // by process
   std::map<std::string, ServiceStatus> lives_;  // likewise, of all services: version and configuration

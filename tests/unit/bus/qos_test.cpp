@@ -172,6 +172,16 @@ TEST_F(QosTable, EngineState) {
   }
 }
 
+// A recorder that finds fusion late still hears from which entry on: 20 records a second, for 20 s at least.
+TEST_F(QosTable, Intake) {
+  const Pair& pair = pairs_->at("fathom/v1/intake");
+  for (const EffectiveQos* qos : {&pair.writer, &pair.reader, &pair.deep}) {
+    EXPECT_EQ(qos->matching.durability, 1);
+    EXPECT_EQ(qos->matching.deadline_ns, kForever);
+    EXPECT_GE(qos->depth, 400);
+  }
+}
+
 TEST_F(QosTable, Command) {
   const Pair& pair = pairs_->at("fathom/v1/command");
   for (const EffectiveQos* qos : {&pair.writer, &pair.reader}) {
