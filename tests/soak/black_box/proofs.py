@@ -18,6 +18,7 @@ def proof(vehicle, name):
     print(f"{name}: {'exact' if good else 'NOT EXACT'}, {states} states of {len(lines)} runs")
     if not good:
         print(said)
+        vehicle.keep_recordings(name)
     return good, states
 
 

@@ -1,6 +1,7 @@
 """A simulated vehicle whose services are started, killed and started again one by one, with a recorder."""
 import os
 import shlex
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -11,6 +12,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.a
 
 class Vehicle:
     """`start` starts everything, the simulator last; leaving the context ends everything. Recordings lie in `recordings`."""
+
+    keep = None  # a folder that gets the recordings of what did not hold
 
     def __init__(self, build, domain, scenario="survey", speed=1.0, standby=False, environment=None):
         self.bin = os.path.join(build, "bin")
@@ -35,6 +38,13 @@ class Vehicle:
     def __exit__(self, *_):
         self.stop()
         self.folder.cleanup()
+
+    def keep_recordings(self, name):
+        """Copies them, with what the services said, for a closer look."""
+        if self.keep:
+            shutil.copytree(self.folder.name, os.path.join(self.keep, name.replace(" ", "_")), dirs_exist_ok=True,
+                            ignore=lambda folder, names: [one for one in names if not one.endswith((".mcap", ".log"))
+                                                          and not os.path.isdir(os.path.join(folder, one))])
 
     def path(self, name):
         return os.path.join(self.folder.name, name)
