@@ -234,5 +234,62 @@ TEST(Proof, FindsAnOrderThatWasTakenOut) {
   EXPECT_NE(difference_of(items).find("an order of console 1 at"), std::string::npos);
 }
 
+/// What a recorder hears from some seconds before a state was saved to some seconds after, and that state. It
+/// is saved between any two samples.
+struct Part {
+  std::vector<Item> items;
+  std::uint64_t first_entry = 0;
+  TimeNs stamp_ns = 0;
+  Archive state;
+};
+
+std::vector<Part> parts(const std::vector<std::size_t>& saved_behind) {
+  std::vector<Part> out(saved_behind.size());
+  Fusion fusion;
+  constexpr std::size_t kBefore = 600;
+  constexpr std::size_t kAfter = 1200;
+  for (std::size_t at = 0; at < survey().size(); ++at) {
+    fusion.sample(survey()[at]);
+    const std::vector<Item> said = fusion.said();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      Part& part = out[i];
+      const std::size_t when = saved_behind[i];
+      if (at == when) {
+        part.state = fusion.state();
+        part.stamp_ns = fusion.stamp_ns();
+      }
+      if (at + kBefore < when || at > when + kAfter) continue;
+      part.items.emplace_back(any(survey()[at]));
+      append(part.items, said);
+    }
+  }
+  for (Part& part : out) {
+    for (const Item& item : part.items) {
+      if (const auto* intake = std::get_if<IntakeRecord>(&item)) {
+        part.first_entry = intake->first;
+        break;
+      }
+    }
+  }
+  return out;
+}
+
+TEST(Proof, BeginsFromAStateThatWasSavedBetweenAnyTwoSamples) {
+  std::mt19937 random(5);
+  std::vector<std::size_t> saved_behind;
+  for (int i = 0; i < 40; ++i) saved_behind.push_back(3000 + random() % (survey().size() - 4500));
+  for (const Part& part : parts(saved_behind)) {
+    SCOPED_TRACE(to_iso8601(part.stamp_ns, 3));
+    StatePool pool;
+    Proof proof(configuration(), pool, {part.first_entry, false, {{part.stamp_ns, part.state}}});
+    put(proof, part.items);
+    proof.finish();
+    EXPECT_EQ(proof.difference(), "");
+    EXPECT_EQ(proof.missing(), "");
+    EXPECT_EQ(proof.from_ns(), part.stamp_ns);
+    EXPECT_GT(proof.states(), 500U);
+  }
+}
+
 }  // namespace
 }  // namespace fathom
