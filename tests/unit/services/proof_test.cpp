@@ -25,9 +25,9 @@ using Item = std::variant<AnySample, Command, IntakeRecord, NavState, Verdict>;
 using Archive = std::vector<std::byte>;
 
 config::FusionConfig configuration() {
-  return config::load_service_config<config::FusionConfig>(
-             {std::string(FATHOM_SOURCE_DIR) + "/deploy/config/fusion.json", {}})
-      .value;
+  config::FusionConfig config;
+  config.engine = test::SurveyRun::config();
+  return config;
 }
 
 AnySample any(const test::Sample& sample) {
@@ -123,7 +123,7 @@ std::vector<Item> recorded() {
       Command order;
       order.header = {"auv", "console", test::header(sample).stamp_ns, test::header(sample).stamp_ns, 1};
       order.kind = CommandKind::disable_source;
-      order.target = "depth";
+      order.target = "depth0";
       out.emplace_back(order);
       fusion.order(order);
     }
@@ -182,6 +182,12 @@ TEST(Proof, IsExactForWhatFusionDid) {
   std::uint64_t states = 0;
   EXPECT_EQ(difference_of(recording(), &states), "");
   EXPECT_GT(states, 5000U);
+  // Of an engine that navigates: one that does not align says little.
+  const auto aligned = std::count_if(recording().begin(), recording().end(), [](const Item& item) {
+    const auto* state = std::get_if<NavState>(&item);
+    return state != nullptr && state->alignment == AlignmentPhase::aligned;
+  });
+  EXPECT_GT(aligned, 3000);
 }
 
 TEST(Proof, DoesNotDependOnTheOrderInWhichItWasHeard) {
