@@ -99,6 +99,18 @@ def late(build, domain, seconds):
         return [proof(vehicle, "late USBL")]
 
 
+def joined(build, domain, seconds):
+    """The recorder comes when fusion has been under way for a while: what fusion took before is not in the recording."""
+    with Vehicle(build, domain) as vehicle:
+        vehicle.start(*[name for name in vehicle.commands if name not in ("recorder", "simulator")])
+        time.sleep(2.0)
+        vehicle.start("simulator")
+        time.sleep(seconds / 3.0)
+        vehicle.start("recorder")
+        time.sleep(seconds / 3.0)
+        return [proof(vehicle, "a recorder that came later")]
+
+
 def clock(build, domain, seconds):
     """UTC of the host is set an hour ahead, an hour back and back again, with a bridge and fusion started anew in between."""
     library = glob.glob("/usr/lib/*/faketime/libfaketimeMT.so.1")
