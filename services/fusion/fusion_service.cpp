@@ -84,15 +84,13 @@ struct FusionService::Impl {
         details(host.participant(), slow_options(config)),
         alignments(host.participant(), slow_options(config)),
         forecasts(host.participant(), slow_options(config)),
-        taken(host, mutex),
+        taken(host, mutex, start.resumption),
         link(replica_link(config)),
         verdicts(host, mutex, engine, link ? [this] { return speaks(); } : std::function<bool()>()),
         aiding_readers(listen_to_aiding()),
         commands(host.participant(),
                  [this](const Command& command, const bus::SampleInfo&) { on_command(command); }),
         imu(host.participant(), arrivals_of<ImuSample>()) {
-    if (start.resumption.resumed)
-      taken.add_state(start.resumption.stamp_ns, start.resumption.digest, Name(host.name()));
     if (link) link->begin();
     host.on_tick(kNsPerSecond, [this] { publish_slow(); });
     host.on_status([this](ServiceStatus& status) { fill(status); });

@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "bus/writer.hpp"
+#include "fusion/checkpoint/start.hpp"
 #include "fusion/intake/intake_list.hpp"
 #include "host/service_host.hpp"
 
@@ -12,10 +13,11 @@ namespace fathom::fusion {
 /// from it.
 class IntakePublisher {
  public:
-  /// `mutex` guards the engine.
-  IntakePublisher(host::ServiceHost& host, std::mutex& mutex)
+  /// `mutex` guards the engine, which began with `start`: that comes before all that it is given.
+  IntakePublisher(host::ServiceHost& host, std::mutex& mutex, const Resumption& start)
       : host_(host), mutex_(mutex), writer_(host.participant()) {
     batch_.entries.reserve(IntakeRecord::kMostEntries);
+    if (start.resumed) add_state(start.stamp_ns, start.digest, Name(host.name()));
   }
 
   /// Given to the engine just now. `again`: what the engine says of it is not published. Mutex held.
