@@ -24,11 +24,6 @@ std::string span(const History& history, const Finding& one) {
   return text;
 }
 
-bool is_of(const Alarm& alarm, const std::string& asked) {
-  const std::string name = alarm.alarm.str();
-  return name == asked || name.substr(0, name.find(':')) == asked;
-}
-
 /// A finding in short: its first sentence.
 std::string in_short(const Finding& one) {
   const std::string text = sentence(one);
@@ -92,7 +87,6 @@ std::string tell(const History& history, const Answer& answer, std::size_t root,
   std::string text = (first ? "Most likely: " : "Besides: ") + sentence(one) + "\n";
   text += "  when: " + span(history, one) + "\n";
   for (const Evidence& evidence : one.evidence) {
-    if (evidence.topic.empty() || evidence.what.ends_with("used meanwhile")) continue;
     text += "  seen in: " + evidence.topic + ", " + evidence.what;
     if (evidence.count > 1) text += " (" + std::to_string(evidence.count) + ")";
     text += "\n";
@@ -150,6 +144,11 @@ nlohmann::ordered_json json_of(const Around& then) {
 }
 
 }  // namespace
+
+bool is_of(const Alarm& alarm, const std::string& asked) {
+  const std::string name = alarm.alarm.str();
+  return name == asked || name.substr(0, name.find(':')) == asked;
+}
 
 Answer answer(const History& history, const Question& question) {
   Answer out;
@@ -216,10 +215,13 @@ nlohmann::ordered_json to_json(const History& history, const Answer& answer) {
     row["figures"] = nlohmann::ordered_json::object();
     for (const Figure& figure : one.figures) row["figures"][figure.name] = number(figure.value);
     row["evidence"] = nlohmann::ordered_json::array();
-    for (const Evidence& evidence : one.evidence)
-      if (!evidence.topic.empty())
-        row["evidence"].push_back(
-            {{"topic", evidence.topic}, {"count", evidence.count}, {"what", evidence.what}});
+    const auto seen = [&row](const Evidence& evidence) {
+      row["evidence"].push_back(
+          {{"topic", evidence.topic}, {"count", evidence.count}, {"what", evidence.what}});
+    };
+    for (const Evidence& evidence : one.evidence) seen(evidence);
+    for (const Agreeing& other : one.agreeing)
+      seen({"fathom/v1/verdict", other.used, other.sensor + " used meanwhile"});
     out["findings"].push_back(std::move(row));
   }
   out["alarms"] = nlohmann::ordered_json::array();

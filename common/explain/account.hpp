@@ -15,6 +15,9 @@ struct Question {
   std::optional<std::string> alarm{};  ///< only what led to alarms of this name, or of what stands before ':'
 };
 
+/// Whether an alarm is asked for by this name, or by what stands before ':' in its own.
+[[nodiscard]] bool is_of(const Alarm& alarm, const std::string& asked);
+
 struct Answer {
   Findings findings;                    ///< all of them
   std::vector<std::size_t> roots;       ///< those to tell, most likely cause first

@@ -60,6 +60,12 @@ struct Evidence {
   std::string what;
 };
 
+/// A source that navigation used while it refused another one.
+struct Agreeing {
+  std::string sensor;
+  std::uint64_t used = 0;  ///< measurements
+};
+
 struct Finding {
   Kind kind = Kind::lost;
   Weight weight = Weight::caution;
@@ -69,6 +75,7 @@ struct Finding {
   std::string word{};  ///< what the sentence needs besides, by kind; e.g. the reason of a loss
   std::vector<Figure> figures{};
   std::vector<Evidence> evidence{};
+  std::vector<Agreeing> agreeing{};  ///< of two that contradict each other they tell which is wrong
   /// Index of the finding that brought it about, in the same list.
   std::optional<std::size_t> follows_from{};
 

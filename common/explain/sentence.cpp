@@ -34,13 +34,14 @@ std::string measurements(const Finding& f, double count) {
 std::string support(const Finding& f) {
   // What follows from another thing accuses nobody.
   if (f.follows_from) return "";
-  for (const Evidence& one : f.evidence)
-    if (one.topic.empty()) return " Meanwhile these " + one.what + ".";
-  return " Nothing else was there to tell which of the two is wrong.";
+  if (f.agreeing.empty()) return " Nothing else was there to tell which of the two is wrong.";
+  std::string who;
+  for (const Agreeing& one : f.agreeing) who += (who.empty() ? "" : ", ") + one.sensor;
+  return " Meanwhile these agreed with navigation: " + who + ".";
 }
 
 std::string who_is_wrong(const Finding& f) {
-  if (!f.follows_from && f.figure("supported") > 0.0)
+  if (!f.follows_from && !f.agreeing.empty())
     return support(f) + " So " + f.subject + " is the likelier wrong one.";
   return support(f);
 }

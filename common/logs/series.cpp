@@ -34,14 +34,18 @@ double Series::at(std::size_t row, const std::optional<std::size_t>& column) con
   return column ? at(row, *column) : kUnknown;
 }
 
-std::optional<std::array<std::size_t, 3>> Series::find_vector(const std::string& name) const {
+std::optional<std::array<std::size_t, 3>> Series::find_three(const std::array<std::string, 3>& names) const {
   std::array<std::size_t, 3> out{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto column = find(name + "[" + std::to_string(i) + "]");
+    const auto column = find(names[i]);
     if (!column) return std::nullopt;
     out[i] = *column;
   }
   return out;
+}
+
+std::optional<std::array<std::size_t, 3>> Series::find_vector(const std::string& name) const {
+  return find_three({name + "[0]", name + "[1]", name + "[2]"});
 }
 
 void Losses::add(std::optional<std::uint64_t> offset, std::uint64_t length, std::string what) {

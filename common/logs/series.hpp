@@ -42,6 +42,9 @@ struct Series {
   }
   /// Unknown where there is no such column.
   [[nodiscard]] double at(std::size_t row, const std::optional<std::size_t>& column) const;
+  /// The columns of these names; nothing when one is missing.
+  [[nodiscard]] std::optional<std::array<std::size_t, 3>> find_three(
+      const std::array<std::string, 3>& names) const;
   /// Takes the columns `name[0]`, `name[1]`, `name[2]`; nothing when one is missing.
   [[nodiscard]] std::optional<std::array<std::size_t, 3>> find_vector(const std::string& name) const;
   [[nodiscard]] std::string label() const { return topic + ":" + std::to_string(instance); }

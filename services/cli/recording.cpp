@@ -31,6 +31,16 @@ record::Reader open_recording(const std::string& file) {
   return std::move(reader.value());
 }
 
+std::string writer_of(const record::Channel& channel) {
+  const auto found = channel.metadata.find("writer");
+  return found == channel.metadata.end() ? "" : found->second;
+}
+
+std::string process_of(const record::Channel& channel) {
+  const auto guid = channel.metadata.find("writer_guid");
+  return guid == channel.metadata.end() ? "" : guid->second.substr(0, 24);
+}
+
 std::vector<std::string> topics_of(const std::vector<std::string>& words) {
   std::vector<std::string> out;
   const auto all = bus::all_topics();

@@ -12,6 +12,11 @@ namespace fathom::cli {
 /// Failure.
 [[nodiscard]] record::Reader open_recording(const std::string& file);
 
+/// The name of the participant that wrote a channel; empty where it is not told.
+[[nodiscard]] std::string writer_of(const record::Channel& channel);
+/// The part of its writer's identity that is its process'; empty where it is not told.
+[[nodiscard]] std::string process_of(const record::Channel& channel);
+
 /// Topics by their full or their short names, e.g. "nav_state". Throws Failure for one that there is not.
 [[nodiscard]] std::vector<std::string> topics_of(const std::vector<std::string>& words);
 

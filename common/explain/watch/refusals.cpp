@@ -210,7 +210,7 @@ class Refusals {
     return used == kBackAgain;
   }
 
-  /// Who agreed with navigation meanwhile: of two that contradict each other they tell which is wrong.
+  /// Who agreed with navigation meanwhile.
   void agreeing(Finding& found) const {
     std::vector<std::uint64_t> used(history_.streams().size());
     std::vector<std::uint64_t> refused(history_.streams().size());
@@ -219,16 +219,13 @@ class Refusals {
       if (row.kind == VerdictKind::used) ++used[row.stream];
       if (is_refusal(row.kind)) ++refused[row.stream];
     }
-    std::string with;
     for (std::size_t i = 0; i < used.size(); ++i) {
       const Stream& other = history_.streams()[i];
       if (&other == &stream_ || other.kind == SourceKind::imu) continue;
       if (used[i] < kInARow || used[i] < 10 * refused[i]) continue;
-      with += (with.empty() ? "" : ", ") + other.sensor.str();
-      found.evidence.push_back({"fathom/v1/verdict", used[i], other.sensor.str() + " used meanwhile"});
+      found.agreeing.push_back({other.sensor.str(), used[i]});
     }
-    found.figures.push_back({"supported", with.empty() ? 0.0 : 1.0});
-    if (!with.empty()) found.evidence.push_back({"", 0, "agreed with navigation: " + with});
+    found.figures.push_back({"supported", found.agreeing.empty() ? 0.0 : 1.0});
   }
 
   void outliers() {

@@ -76,10 +76,16 @@ void takeovers(const History& history, Findings& out) {
   }
 }
 
+/// Those that gave a navigation state.
+std::set<std::string> fusions_of(const History& history) {
+  std::set<std::string> out;
+  for (const StateRow& row : history.states()) out.insert(history.name(row.instance));
+  return out;
+}
+
 void restarts(const History& history, Findings& out) {
   std::map<std::uint32_t, const LifeSign*> last;
-  std::set<std::string> fusions;
-  for (const StateRow& row : history.states()) fusions.insert(history.name(row.instance));
+  const std::set<std::string> fusions = fusions_of(history);
   for (const LifeSign& sign : history.life_signs()) {
     const LifeSign* before = std::exchange(last[sign.service], &sign);
     if (before == nullptr || (before->started_ns == sign.started_ns && before->pid == sign.pid)) continue;
@@ -110,8 +116,7 @@ void restarts(const History& history, Findings& out) {
 
 /// Processes that were silent and went on, or went silent for good without saying that they stop.
 void stalls(const History& history, Findings& out) {
-  std::set<std::string> fusions;
-  for (const StateRow& row : history.states()) fusions.insert(history.name(row.instance));
+  const std::set<std::string> fusions = fusions_of(history);
   const auto say = [&](std::uint32_t service, TimeNs begin_ns, TimeNs end_ns, bool to_end) {
     const std::string name = history.name(service);
     const bool fusion = fusions.contains(name);

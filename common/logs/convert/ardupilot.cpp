@@ -13,11 +13,7 @@ constexpr double kTeslaPerGauss = 1e-4;
 constexpr double kMostGauss = 10.0;
 
 std::optional<std::array<std::size_t, 3>> triple(const Series& series, const std::string& stem) {
-  const auto x = series.find(stem + "X");
-  const auto y = series.find(stem + "Y");
-  const auto z = series.find(stem + "Z");
-  if (!x || !y || !z) return std::nullopt;
-  return std::array<std::size_t, 3>{*x, *y, *z};
+  return series.find_three({stem + "X", stem + "Y", stem + "Z"});
 }
 
 class ArduPilot {

@@ -15,7 +15,7 @@
 #include "logs/series.hpp"
 #include "samples/kinds.hpp"
 
-/// What the conversions of both autopilots share.
+/// What the conversions of all logs share.
 namespace fathom::logs {
 
 /// Stamps of samples: `zero_ns` is the autopilot's start.

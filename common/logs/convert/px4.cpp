@@ -82,11 +82,9 @@ class Px4 {
   }
 
   [[nodiscard]] static std::optional<Triad> triad(const Series& series) {
-    const auto x = series.find("x");
-    const auto y = series.find("y");
-    const auto z = series.find("z");
-    if (!x || !y || !z) return std::nullopt;
-    return Triad{&series, {*x, *y, *z}, series.find("timestamp_sample"), 1.0};
+    const auto xyz = series.find_three({"x", "y", "z"});
+    if (!xyz) return std::nullopt;
+    return Triad{&series, *xyz, series.find("timestamp_sample"), 1.0};
   }
 
   void combined(const Series& series, const std::array<std::size_t, 3>& gyro,

@@ -196,11 +196,7 @@ std::optional<Eigen::Vector3d> Ros2Frames::lever_B_m(const std::string& frame) c
 }
 
 std::optional<std::array<std::size_t, 3>> xyz_of(const Series& series, const std::string& stem) {
-  const auto x = series.find(stem + ".x");
-  const auto y = series.find(stem + ".y");
-  const auto z = series.find(stem + ".z");
-  if (!x || !y || !z) return std::nullopt;
-  return std::array<std::size_t, 3>{*x, *y, *z};
+  return series.find_three({stem + ".x", stem + ".y", stem + ".z"});
 }
 
 Eigen::Vector3d vector_at(const Series& series, std::size_t row, const std::array<std::size_t, 3>& xyz) {
@@ -237,10 +233,7 @@ std::optional<Twist> twist_of(const Series& series) {
     if (!linear) continue;
     Twist out{&series, *linear, std::nullopt};
     // 6 by 6, row by row: linear, then angular.
-    const auto x = series.find("twist.covariance[0]");
-    const auto y = series.find("twist.covariance[7]");
-    const auto z = series.find("twist.covariance[14]");
-    if (x && y && z) out.variance = {*x, *y, *z};
+    out.variance = series.find_three({"twist.covariance[0]", "twist.covariance[7]", "twist.covariance[14]"});
     return out;
   }
   return std::nullopt;

@@ -60,8 +60,8 @@ explain::Question question(const ExplainOptions& options, const explain::History
   out.alarm = options.alarm;
   std::string known;
   for (const explain::AlarmRow& row : history.alarms()) {
+    if (explain::is_of(row.alarm, options.alarm)) return out;
     const std::string name = row.alarm.alarm.str();
-    if (name == options.alarm || name.substr(0, name.find(':')) == options.alarm) return out;
     if ((", " + known + ", ").find(", " + name + ", ") == std::string::npos)
       known += (known.empty() ? "" : ", ") + name;
   }

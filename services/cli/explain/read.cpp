@@ -3,6 +3,7 @@
 #include <map>
 
 #include "bus/cdr.hpp"
+#include "cli/recording.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -37,11 +38,6 @@ const std::vector<Entry>& entries() {
   return all;
 }
 
-std::string of(const record::TextMap& metadata, const std::string& key) {
-  const auto found = metadata.find(key);
-  return found == metadata.end() ? "" : found->second;
-}
-
 }  // namespace
 
 std::vector<std::string> explained_topics() {
@@ -74,9 +70,8 @@ std::vector<std::string> read_into(explain::History& history, record::Reader& re
         if (is_new) {
           for (const Entry& one : entries())
             if (one.topic == channel.topic) source.entry = &one;
-          source.writer = of(channel.metadata, "writer");
-          // The part of the identity that is the process'.
-          source.process = of(channel.metadata, "writer_guid").substr(0, 24);
+          source.writer = writer_of(channel);
+          source.process = process_of(channel);
         }
         const explain::Arrival arrival{message.log_time, source.writer, source.process};
         if (source.entry == nullptr || !source.entry->add(history, message.data, arrival))

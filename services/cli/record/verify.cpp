@@ -31,14 +31,7 @@ struct Run {
   std::string config_hash;
   std::set<TimeNs> inertial;  ///< stamps of what it took, where its beginning is not in the recording
   std::unique_ptr<Proof> proof;
-  std::string no_proof;  ///< why there is none
 };
-
-/// The part of a writer's identity that is its process'.
-std::string process_of(const record::Channel& channel) {
-  const auto guid = channel.metadata.find("writer_guid");
-  return guid == channel.metadata.end() ? "" : guid->second.substr(0, 24);
-}
 
 struct File {
   std::string name;
@@ -174,8 +167,7 @@ class Verification {
       if (const auto order = bus::from_cdr<Command>(message.data))
         for (auto& [process, run] : runs_) run.proof->add(*order);
     } else {
-      const auto writer = channel.metadata.find("writer");
-      const Name name(writer == channel.metadata.end() ? "" : writer->second);
+      const Name name(writer_of(channel));
       for_each_kind([&](auto kind) {
         if (channel.topic != kind.kTopic) return;
         const auto sample = bus::from_cdr<typename decltype(kind)::Sample>(message.data);
