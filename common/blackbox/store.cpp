@@ -7,6 +7,7 @@
 
 #include "blackbox/enclosures.hpp"
 #include "record/idl.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom::blackbox {
 namespace {
@@ -18,6 +19,14 @@ constexpr DurationNs kSettled_ns = 3 * kNsPerSecond;  // then a file that change
 constexpr std::size_t kMostLatched = 4096;            // keys come from the network: bounded
 constexpr std::uint16_t kMostChannels = 8192;         // likewise writers
 constexpr std::uint64_t kMostMarks = 10'000;          // of a file
+
+/// Samples of instruments, and the truth that they are held against, have chunks of their own: navigating
+/// anew reads nothing else. They stand before those of what follows from them, wherever the file is cut off.
+bool is_measured(const std::string& topic) {
+  bool out = topic == "fathom/v1/truth";
+  for_each_kind([&](auto kind) { out = out || topic == decltype(kind)::kTopic; });
+  return out;
+}
 
 std::string file_stamp(TimeNs now_ns) {
   std::string text = to_iso8601(now_ns, 0);
@@ -68,7 +77,8 @@ void Store::write(Sample& sample, std::uint32_t sequence) {
     known.channel = writer_->add_channel(schema->second, origin.topic, "cdr",
                                          {{"writer", origin.writer},
                                           {"writer_guid", origin.writer_guid},
-                                          {"latched", origin.latched ? "true" : "false"}});
+                                          {"latched", origin.latched ? "true" : "false"}},
+                                         is_measured(origin.topic) ? 0U : 1U);
   }
   const std::string why =
       writer_->write({known.channel, sequence, sample.log_ns, sample.publish_ns, sample.bytes});

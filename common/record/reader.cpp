@@ -1,6 +1,7 @@
 #include "record/reader.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <set>
 #include <utility>
 
@@ -63,45 +64,110 @@ Outcome Reader::read(const Selection& selection, const Handler& handler) {
     stream(chosen, handler, outcome);
     return outcome;
   }
-  for (const ChunkIndex& chunk : contents_.chunks) {
-    if (chosen.takes(chunk) && !read_chunk(chunk, chosen, handler, outcome)) break;
+  for (std::size_t first = 0; first < contents_.chunks.size();) {
+    const std::size_t count = beside(first);
+    if (!read_chunks(std::span(contents_.chunks).subspan(first, count), chosen, handler, outcome)) break;
+    first += count;
   }
   return outcome;
 }
 
-bool Reader::read_chunk(const ChunkIndex& index, const Chosen& chosen, const Handler& handler,
-                        Outcome& outcome) {
+/// How many chunks from this one on were filled beside each other: they were flushed in the order of their
+/// groups.
+std::size_t Reader::beside(std::size_t first) const {
+  constexpr std::size_t kMost = 4;  // are in memory at once
+  const auto group_of = [&](const ChunkIndex& chunk) -> unsigned long {
+    if (chunk.message_index_offsets.empty()) return 0;
+    const auto channel = contents_.channels.find(chunk.message_index_offsets.begin()->first);
+    if (channel == contents_.channels.end()) return 0;
+    const auto group = channel->second.metadata.find(kChunkGroup);
+    return group == channel->second.metadata.end() ? 0 : std::strtoul(group->second.c_str(), nullptr, 10);
+  };
+  std::size_t next = first + 1;
+  while (next < contents_.chunks.size() && next - first < kMost &&
+         group_of(contents_.chunks[next]) > group_of(contents_.chunks[next - 1]))
+    ++next;
+  return next - first;
+}
+
+/// A chunk under reading, at one of its messages.
+struct Reader::Unpacked {
+  std::uint64_t at = 0;
+  TimeNs from = 0;
+  TimeNs to = 0;
+  Bytes records;
+  MemoryWalk inside{{}};
+  Place place;
+  TimeNs head = 0;
+
+  /// The next message; false at the end. A message that cannot be parsed has the time of the one before.
+  bool next() {
+    while (inside.next(place)) {
+      if (place.op != Op::message) continue;
+      place.offset += at;
+      if (const auto message = parse<Message>(place.content)) head = message.value().log_time;
+      return true;
+    }
+    return false;
+  }
+};
+
+bool Reader::read_chunks(std::span<const ChunkIndex> indexes, const Chosen& chosen, const Handler& handler,
+                         Outcome& outcome) {
+  std::vector<std::unique_ptr<Unpacked>> open;
+  const auto advance = [&](std::size_t i) {
+    if (open[i]->next()) return;
+    if (!open[i]->inside.fault().empty())
+      note(outcome.problems, open[i]->at, "in the chunk: " + open[i]->inside.fault());
+    open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+  };
+  for (const ChunkIndex& index : indexes) {
+    if (!chosen.takes(index)) continue;
+    auto chunk = unpack(index);
+    if (!chunk) {
+      note(outcome.problems, index.chunk_start_offset, chunk.error().message);
+      continue;
+    }
+    open.push_back(std::move(chunk.value()));
+    advance(open.size() - 1);
+  }
+  while (!open.empty()) {
+    std::size_t first = 0;
+    for (std::size_t i = 1; i < open.size(); ++i)
+      if (open[i]->head < open[first]->head) first = i;
+    if (!hand_over(open[first]->place, chosen, handler, outcome, open[first].get())) return false;
+    advance(first);
+  }
+  return true;
+}
+
+Result<std::unique_ptr<Reader::Unpacked>> Reader::unpack(const ChunkIndex& index) {
   const std::uint64_t at = index.chunk_start_offset;
   Walk walk(*source_, at, at + index.chunk_length, limits_);
   Place place;
-  const auto wrong = [&](const std::string& what) {
-    note(outcome.problems, at, what);
-    return true;
-  };
-  if (!walk.next(place)) return wrong(walk.fault().empty() ? "chunk: it has no bytes" : walk.fault());
-  if (place.op != Op::chunk) return wrong("a " + to_string(place.op) + ", expected a chunk");
+  if (!walk.next(place)) return Error{walk.fault().empty() ? "chunk: it has no bytes" : walk.fault()};
+  if (place.op != Op::chunk) return Error{"a " + to_string(place.op) + ", expected a chunk"};
   const auto chunk = parse<Chunk>(place.content);
-  if (!chunk) return wrong(chunk.error().message);
+  if (!chunk) return chunk.error();
   const Chunk& one = chunk.value();
   if (place.end() - at != index.chunk_length || one.message_start_time != index.message_start_time ||
       one.message_end_time != index.message_end_time || one.uncompressed_size != index.uncompressed_size ||
       one.compression != index.compression || one.records.size() != index.compressed_size) {
-    return wrong("chunk: it is another one than its index says");
+    return Error{"chunk: it is another one than its index says"};
   }
-  const auto records = open_chunk(one, limits_);
-  if (!records) return wrong(records.error().message);
-  MemoryWalk inside(records.value());
-  for (Place record; inside.next(record);) {
-    if (record.op != Op::message) continue;
-    record.offset += at;
-    if (!hand_over(record, chosen, handler, outcome, &one)) return false;
-  }
-  if (!inside.fault().empty()) return wrong("in the chunk: " + inside.fault());
-  return true;
+  auto records = open_chunk(one, limits_);
+  if (!records) return records.error();
+  auto out = std::make_unique<Unpacked>();
+  out->at = at;
+  out->from = one.message_start_time;
+  out->to = one.message_end_time;
+  out->records = std::move(records.value());
+  out->inside = MemoryWalk(out->records);
+  return out;
 }
 
 bool Reader::hand_over(const Place& place, const Chosen& chosen, const Handler& handler, Outcome& outcome,
-                       const Chunk* chunk) {
+                       const Unpacked* chunk) {
   const auto found = parse<Message>(place.content);
   if (!found) {
     note(outcome.problems, place.offset, found.error().message);
@@ -114,8 +180,7 @@ bool Reader::hand_over(const Place& place, const Chosen& chosen, const Handler& 
          "message: channel " + std::to_string(message.channel_id) + " is not there");
     return true;
   }
-  if (chunk != nullptr &&
-      (message.log_time < chunk->message_start_time || message.log_time > chunk->message_end_time)) {
+  if (chunk != nullptr && (message.log_time < chunk->from || message.log_time > chunk->to)) {
     note(outcome.problems, place.offset, "message: its time is outside of its chunk's");
   }
   if (!chosen.takes(message)) return true;
@@ -136,12 +201,13 @@ void Reader::stream(const Chosen& chosen, const Handler& handler, Outcome& outco
       if (!chunk) continue;  // known as a problem
       const auto records = open_chunk(chunk.value(), limits_);
       if (!records) continue;
-      MemoryWalk inside(records.value());
-      for (Place record; inside.next(record);) {
-        if (record.op != Op::message) continue;
-        record.offset += place.offset;
-        if (!hand_over(record, chosen, handler, outcome, &chunk.value())) return;
-      }
+      Unpacked one;
+      one.at = place.offset;
+      one.from = chunk.value().message_start_time;
+      one.to = chunk.value().message_end_time;
+      one.inside = MemoryWalk(records.value());
+      while (one.next())
+        if (!hand_over(one.place, chosen, handler, outcome, &one)) return;
     }
   }
   if (!walk.fault().empty()) note(outcome.problems, walk.at(), walk.fault());

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,7 +46,8 @@ class Reader {
   /// Schema of a channel; nothing where it has none.
   [[nodiscard]] const Schema* schema_of(const Channel& channel) const;
 
-  /// The messages of a selection in the order of the file. Chunks without any are not read.
+  /// The messages of a selection in the order of the file; where chunks of several groups of channels were
+  /// filled beside each other, in order of log time. Chunks without any are not read.
   Outcome read(const Selection& selection, const Handler& handler);
 
   /// The data of an attachment, held against its CRC.
@@ -62,10 +64,14 @@ class Reader {
       : source_(std::move(source)), limits_(limits), contents_(std::move(contents)) {}
 
   struct Chosen;
+  struct Unpacked;
+  [[nodiscard]] std::size_t beside(std::size_t first) const;
+  [[nodiscard]] Result<std::unique_ptr<Unpacked>> unpack(const ChunkIndex& index);
   /// False: the handler has enough.
-  bool read_chunk(const ChunkIndex& index, const Chosen& chosen, const Handler& handler, Outcome& outcome);
+  bool read_chunks(std::span<const ChunkIndex> indexes, const Chosen& chosen, const Handler& handler,
+                   Outcome& outcome);
   bool hand_over(const Place& place, const Chosen& chosen, const Handler& handler, Outcome& outcome,
-                 const Chunk* chunk);
+                 const Unpacked* chunk);
   void stream(const Chosen& chosen, const Handler& handler, Outcome& outcome);
   void check_indexes(Outcome& outcome);
 

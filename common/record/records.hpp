@@ -65,6 +65,9 @@ struct Schema {
   bool operator==(const Schema&) const = default;
 };
 
+/// In the metadata of a channel: which channels it shares chunks with; without it, "0".
+inline constexpr const char* kChunkGroup = "chunk_group";
+
 struct Channel {
   static constexpr Op kOp = Op::channel;
   std::uint16_t id = 0;

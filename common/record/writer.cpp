@@ -32,55 +32,73 @@ std::uint16_t Writer::add_schema(const std::string& name, const std::string& enc
 }
 
 std::uint16_t Writer::add_channel(std::uint16_t schema_id, const std::string& topic,
-                                  const std::string& message_encoding, const TextMap& metadata) {
+                                  const std::string& message_encoding, const TextMap& metadata,
+                                  unsigned group) {
   const auto id = static_cast<std::uint16_t>(channels_.size() + 1);
-  channels_[id] = {id, schema_id, topic, message_encoding, metadata};
+  Channel& channel = channels_[id] = {id, schema_id, topic, message_encoding, metadata};
+  if (group != 0) channel.metadata[kChunkGroup] = std::to_string(group);
+  open_of_[id] = &open_[group];
   return id;
 }
 
+std::uint64_t Writer::size() const {
+  std::uint64_t sum = sink_->size();
+  for (const auto& [group, open] : open_) sum += open.bytes.size();
+  return sum;
+}
+
 /// Schema and channel come into the chunk before the first message that needs them.
-void Writer::describe(std::uint16_t channel_id) {
-  if (!described_.insert(channel_id).second) return;
+void Writer::describe(Open& open, std::uint16_t channel_id) {
+  if (!open.channels.insert(channel_id).second) return;
   const Channel& channel = channels_.at(channel_id);
-  const bool schema_is_there = std::any_of(described_.begin(), described_.end(), [&](std::uint16_t other) {
-    return other != channel_id && channels_.at(other).schema_id == channel.schema_id;
-  });
-  if (channel.schema_id != 0 && !schema_is_there) append(chunk_, schemas_.at(channel.schema_id));
-  append(chunk_, channel);
+  if (channel.schema_id != 0 && open.schemas.insert(channel.schema_id).second)
+    append(open.bytes, schemas_.at(channel.schema_id));
+  append(open.bytes, channel);
 }
 
 std::string Writer::write(const Message& message) {
-  describe(message.channel_id);
-  MessageIndex& index = index_[message.channel_id];
+  Open& open = *open_of_.at(message.channel_id);
+  describe(open, message.channel_id);
+  MessageIndex& index = open.index[message.channel_id];
   index.channel_id = message.channel_id;
-  index.records.emplace_back(message.log_time, chunk_.size());
-  append(chunk_, message);
-  open_.emplace_back(message.channel_id, message.log_time);
-  return chunk_.size() >= options_.chunk_bytes ? flush() : std::string();
+  index.records.emplace_back(message.log_time, open.bytes.size());
+  append(open.bytes, message);
+  open.messages.emplace_back(message.channel_id, message.log_time);
+  return open.bytes.size() >= options_.chunk_bytes ? flush() : std::string();
 }
 
-void Writer::close_chunk() {
-  chunk_.clear();
-  index_.clear();
-  open_.clear();
+void Writer::Open::clear() {
+  bytes.clear();
+  index.clear();
+  messages.clear();
 }
 
 std::string Writer::flush() {
-  if (open_.empty()) return {};
-  const auto [earliest, latest] = std::minmax_element(
-      open_.begin(), open_.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-  compressor_.pack(chunk_, packed_);
+  std::string first;
+  for (auto& [group, open] : open_) {
+    const std::string why = flush(open);
+    if (first.empty()) first = why;
+  }
+  return first;
+}
+
+std::string Writer::flush(Open& open) {
+  if (open.messages.empty()) return {};
+  const auto [earliest, latest] =
+      std::minmax_element(open.messages.begin(), open.messages.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; });
+  compressor_.pack(open.bytes, packed_);
   Chunk chunk{earliest->second,
               latest->second,
-              chunk_.size(),
-              crc32(chunk_),
+              open.bytes.size(),
+              crc32(open.bytes),
               std::string(to_string(compressor_.kind())),
               packed_};
   out_.clear();
   append(out_, chunk);
-  ChunkIndex entry{chunk.message_start_time, chunk.message_end_time, sink_->size(), out_.size(), {}, 0,
-                   chunk.compression,        packed_.size(),         chunk_.size()};
-  for (const auto& [channel, index] : index_) {
+  ChunkIndex entry{chunk.message_start_time, chunk.message_end_time, sink_->size(),    out_.size(), {}, 0,
+                   chunk.compression,        packed_.size(),         open.bytes.size()};
+  for (const auto& [channel, index] : open.index) {
     entry.message_index_offsets[channel] = sink_->size() + out_.size();
     append(out_, index);
   }
@@ -88,7 +106,7 @@ std::string Writer::flush() {
   std::string why = put(out_);
   if (why.empty()) {
     contents_.chunks.push_back(std::move(entry));
-    for (const auto& [channel, log_time] : open_) {
+    for (const auto& [channel, log_time] : open.messages) {
       count(contents_.statistics, channel, log_time, contents_.statistics.message_count);
       if (!contents_.channels.contains(channel)) {
         const Channel& one = contents_.channels[channel] = channels_.at(channel);
@@ -96,15 +114,17 @@ std::string Writer::flush() {
       }
     }
   } else {
-    for (const auto& [channel, log_time] : open_) {
+    for (const auto& [channel, log_time] : open.messages) {
       Lost& lost = lost_[channel];
       if (lost.count++ == 0) lost.first_time = log_time;
       lost.last_time = log_time;
     }
     // Whatever was described in this chunk alone has to be described again.
-    std::erase_if(described_, [&](std::uint16_t id) { return !contents_.channels.contains(id); });
+    std::erase_if(open.channels, [&](std::uint16_t id) { return !contents_.channels.contains(id); });
+    open.schemas.clear();
+    for (const std::uint16_t id : open.channels) open.schemas.insert(channels_.at(id).schema_id);
   }
-  close_chunk();
+  open.clear();
   return why;
 }
 

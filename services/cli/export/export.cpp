@@ -11,7 +11,9 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
+#include "cli/export/recorded.hpp"
 #include "cli/export/tracks.hpp"
+#include "cli/log.hpp"
 #include "dataset/dataset.hpp"
 #include "exchange/track.hpp"
 
@@ -24,6 +26,7 @@ struct ExportOptions {
   std::string out;
   std::string epoch;
   std::string track;
+  std::string vehicle;
   double rate_hz = -1.0;
 };
 
@@ -55,15 +58,43 @@ void write_csv(const ExportOptions& options, TimeNs epoch_ns) {
   copy_with_utc(options.source, path, epoch_ns);
 }
 
-void export_tracks(const ExportOptions& options) {
+void refuse_without_recording(const ExportOptions& options) {
+  if (!options.vehicle.empty()) {
+    throw Failure(ExitCode::bad_configuration,
+                  "--vehicle: only a recording has vehicles, " + options.source + " is none");
+  }
+}
+
+/// The tracks of the source; none where the data themselves are exported, which is done then.
+std::vector<exchange::Track> tracks_of_source(const ExportOptions& options) {
+  const double rate_hz = options.rate_hz < 0.0 ? 1.0 : options.rate_hz;
+  const bool csv = options.format == "csv";
+  if (is_recording(options.source)) {
+    if (!options.epoch.empty()) {
+      throw Failure(ExitCode::bad_configuration,
+                    "--epoch: a recording has its own time, expected none with " + options.source);
+    }
+    const Recorded recorded = read_recorded(options.source, options.vehicle);
+    if (!csv) return tracks_of(recorded, rate_hz);
+    write_recorded(options.out, recorded);
+    for (const std::string& one : recorded.left_out)
+      std::fprintf(stderr, "fathom: export: %s: left out, a data set has one sensor of a kind\n",
+                   one.c_str());
+    return {};
+  }
+  refuse_without_recording(options);
   const TimeNs epoch_ns = epoch_of(options.source, options.epoch);
+  if (!csv) return read_tracks(options.source, epoch_ns, rate_hz);
+  write_csv(options, epoch_ns);
+  return {};
+}
+
+void export_tracks(const ExportOptions& options) {
+  std::vector<exchange::Track> tracks = tracks_of_source(options);
   if (options.format == "csv") {
-    write_csv(options, epoch_ns);
     std::printf("%s: csv\n", options.out.c_str());
     return;
   }
-  std::vector<exchange::Track> tracks =
-      read_tracks(options.source, epoch_ns, options.rate_hz < 0.0 ? 1.0 : options.rate_hz);
   if (!options.track.empty()) {
     std::string have;
     for (const exchange::Track& track : tracks) have += (have.empty() ? "" : ", ") + track.name;
@@ -74,8 +105,9 @@ void export_tracks(const ExportOptions& options) {
     }
   }
   if (tracks.empty())
-    throw Failure(ExitCode::bad_input,
-                  options.source + ": no positions, expected nav.csv or a data set with gps or reference");
+    throw Failure(
+        ExitCode::bad_input,
+        options.source + ": no positions, expected a recording, nav.csv or a data set with gps or reference");
   std::ofstream file = open(options.out);
   const std::string title = std::filesystem::path(options.source).filename().string();
   if (options.format == "kml") exchange::write_kml(file, title, tracks);
@@ -94,14 +126,17 @@ void export_tracks(const ExportOptions& options) {
 
 void add_export(CLI::App& app, ExitCode&) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      app.add_subcommand("export", "Writes a solution or a data set for the programs of others.");
+  CLI::App* command = app.add_subcommand(
+      "export", "Writes a recording, a solution or a data set for the programs of others.");
   command->footer(
-      "SOURCE is nav.csv of fathom solve, or the folder of a data set (tracks gps, usbl, reference).\n"
+      "SOURCE is a recording (tracks nav, as it was published, gps, usbl, reference), nav.csv of fathom "
+      "solve,\n"
+      "or the folder of a data set (tracks gps, usbl, reference).\n"
       "kml, gpx, geojson and nmea have one point a second unless --rate says otherwise; their altitudes are\n"
       "above the WGS-84 ellipsoid. nmea is of one track: the first, or --track. csv writes a folder: the\n"
-      "data set again, or nav.csv with a column utc.");
-  command->add_option("source", options->source, "nav.csv (or .gz), or a data set")->required();
+      "data set, of a recording with nav.csv, or nav.csv again with a column utc.");
+  command->add_option("source", options->source, "a recording (.mcap), nav.csv (or .gz), or a data set")
+      ->required();
   command->add_option("--format", options->format, "csv, kml, gpx, geojson or nmea")
       ->required()
       ->check(CLI::IsMember({"csv", "kml", "gpx", "geojson", "nmea"}));
@@ -110,6 +145,8 @@ void add_export(CLI::App& app, ExitCode&) {
                       "UTC of t_s = 0, e.g. 2026-01-31T12:00:00Z; default: that of import.json beside the "
                       "data, else 2020-01-01T00:00:00Z");
   command->add_option("--track", options->track, "only this track: nav, gps, usbl or reference");
+  command->add_option("--vehicle", options->vehicle,
+                      "of a recording: this one; without it: the one that is heard first");
   command->add_option("--rate", options->rate_hz, "points a second; 0: every one; default 1")
       ->check(CLI::Range(0.0, 1e5));
   command->callback([options] {

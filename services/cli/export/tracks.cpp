@@ -105,8 +105,22 @@ Track nav_track(const std::string& source, TimeNs epoch_ns, double rate_hz) {
   return track;
 }
 
-std::vector<Track> dataset_tracks(const std::string& source, TimeNs epoch_ns, double rate_hz) {
-  const dataset::Dataset data = dataset::read(source, {epoch_ns, "auv"});
+Quality quality_of(NavMode mode) {
+  switch (mode) {
+    case NavMode::gps_aided:
+      return Quality::fix_3d;
+    case NavMode::none:
+    case NavMode::aligning:
+      return Quality::none;
+    case NavMode::acoustic_aided:
+    case NavMode::dead_reckoning:
+    case NavMode::inertial:
+      return Quality::estimated;
+  }
+  return Quality::none;
+}
+
+std::vector<Track> tracks_of(const dataset::Dataset& data, double rate_hz) {
   Track gps{"gps", {}};
   Adder fixes(gps, rate_hz);
   for (const GpsSample& fix : data.of<GpsSample>()) {
@@ -162,9 +176,29 @@ TimeNs epoch_of(const std::string& source, const std::string& asked) {
 }
 
 std::vector<Track> read_tracks(const std::string& source, TimeNs epoch_ns, double rate_hz) {
-  if (std::filesystem::is_directory(source)) return dataset_tracks(source, epoch_ns, rate_hz);
+  if (std::filesystem::is_directory(source))
+    return tracks_of(dataset::read(source, {epoch_ns, "auv"}), rate_hz);
   std::vector<Track> tracks{nav_track(source, epoch_ns, rate_hz)};
   if (tracks.front().points.empty()) tracks.clear();
+  return tracks;
+}
+
+std::vector<Track> tracks_of(const Recorded& recorded, double rate_hz) {
+  Track nav{"nav", {}};
+  Adder states(nav, rate_hz);
+  for (const NavState& state : recorded.states) {
+    Point point;
+    point.utc_ns = state.header.stamp_ns;
+    point.altitude_m = state.altitude_m;
+    point.velocity_N_m_s = state.velocity_N_m_s;
+    point.heading_deg = heading_deg(state.rpy_rad[2]);
+    for (std::size_t i = 0; i < 3; ++i) point.sigma_N_m[i] = std::sqrt(state.position_covariance_N_m2[4 * i]);
+    point.quality = quality_of(state.mode);
+    states.add(point, state.latitude_rad, state.longitude_rad);
+  }
+  std::vector<Track> tracks;
+  if (!nav.points.empty()) tracks.push_back(std::move(nav));
+  for (Track& track : tracks_of(recorded.data, rate_hz)) tracks.push_back(std::move(track));
   return tracks;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "cli/export/recorded.hpp"
 #include "exchange/track.hpp"
 
 namespace fathom::cli {
@@ -16,6 +17,9 @@ namespace fathom::cli {
 /// most `rate_hz` points a second, all at 0. Throws DatasetError.
 [[nodiscard]] std::vector<exchange::Track> read_tracks(const std::string& source, TimeNs epoch_ns,
                                                        double rate_hz);
+
+/// Those of a recording: "nav", as it was published, and those of its data set.
+[[nodiscard]] std::vector<exchange::Track> tracks_of(const Recorded& recorded, double rate_hz);
 
 /// Copies a CSV with a column utc before the others. Throws DatasetError.
 void copy_with_utc(const std::string& source, const std::string& out, TimeNs epoch_ns);

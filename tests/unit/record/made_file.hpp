@@ -32,9 +32,10 @@ struct Made {
   record::Bytes attachment;
 };
 
-/// A file of `messages` messages over three topics, flushed now and then.
+/// A file of `messages` messages over three topics, flushed now and then. With `groups` they are brought
+/// together by their log times, which grow then.
 inline Made made_file(std::uint32_t seed, record::Compression compression, int messages = 200,
-                      std::size_t chunk_bytes = 2000) {
+                      std::size_t chunk_bytes = 2000, bool groups = false) {
   std::mt19937 random(seed);
   const auto below = [&](std::uint32_t limit) { return static_cast<std::uint32_t>(random() % limit); };
   Made out;
@@ -45,15 +46,15 @@ inline Made made_file(std::uint32_t seed, record::Compression compression, int m
   const std::uint16_t other = writer.add_schema("fathom::v1::B", "omgidl", "");
   std::vector<std::pair<std::uint16_t, std::string>> channels;
   channels.emplace_back(writer.add_channel(schema, "a", "cdr", {{"key", "value"}}), "a");
-  channels.emplace_back(writer.add_channel(other, "b", "cdr"), "b");
-  channels.emplace_back(writer.add_channel(schema, "c", "cdr"), "c");
+  channels.emplace_back(writer.add_channel(other, "b", "cdr", {}, groups ? 1 : 0), "b");
+  channels.emplace_back(writer.add_channel(schema, "c", "cdr", {}, groups ? 2 : 0), "c");
   writer.add_channel(0, "never", "cdr");
   out.attachment = {1, 2, 3, 0, 255};
   why += writer.attach({5, 4, "config.json", "application/json", out.attachment, 0});
   TimeNs now = 1'000;
   for (int i = 0; i < messages; ++i) {
     const auto& [id, topic] = channels[below(i < messages / 2 ? 2 : 3)];
-    now += below(3) * 10;
+    now += groups ? 7 : below(3) * 10;
     Said one{topic, static_cast<std::uint32_t>(i), now - below(5), now - 100, {}};
     one.data.resize(below(60));
     for (auto& byte : one.data) byte = static_cast<std::uint8_t>(below(4));

@@ -1,6 +1,8 @@
 // What was written is read again: random files, every compression, with and without the index.
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -30,6 +32,55 @@ TEST_P(RoundTrip, KeepsEveryMessageInTheOrderOfWriting) {
     EXPECT_TRUE(check.problems.empty()) << check.problems.front();
     EXPECT_EQ(check.messages, made.said.size());
   }
+}
+
+/// Counts what is read of a file.
+class CountingSource final : public record::Source {
+ public:
+  CountingSource(const Bytes& bytes, std::uint64_t& count) : inner_(bytes), count_(count) {}
+  [[nodiscard]] std::uint64_t size() const override { return inner_.size(); }
+  [[nodiscard]] std::string read(std::uint64_t offset, std::span<std::uint8_t> out) override {
+    count_ += out.size();
+    return inner_.read(offset, out);
+  }
+
+ private:
+  record::MemorySource inner_;
+  std::uint64_t& count_;
+};
+
+TEST_P(RoundTrip, GroupsOfChannelsComeTogetherByTime) {
+  for (std::uint32_t seed = 0; seed < 30; ++seed) {
+    const auto made = made_file(seed, GetParam(), 200, 2000, true);
+    auto reader = test::reader_of(made.bytes);
+    ASSERT_TRUE(reader) << reader.error().message;
+    record::Outcome outcome;
+    EXPECT_EQ(test::read_all(reader.value(), outcome), made.said) << "seed " << seed;
+    const auto check = reader.value().check();
+    EXPECT_TRUE(check.problems.empty()) << check.problems.front();
+    Bytes cut = made.bytes;
+    cut.pop_back();
+    auto unfinished = test::reader_of(cut);
+    ASSERT_TRUE(unfinished);
+    EXPECT_EQ(test::read_all(unfinished.value(), outcome), made.said) << "seed " << seed;
+  }
+}
+
+TEST_P(RoundTrip, WhoReadsOneGroupDoesNotReadTheOthers) {
+  const auto made = made_file(5, GetParam(), 2000, 20'000, true);
+  std::uint64_t count = 0;
+  auto reader = record::Reader::open(std::make_unique<CountingSource>(made.bytes, count));
+  ASSERT_TRUE(reader);
+  record::Outcome outcome;
+  count = 0;
+  const auto some = test::read_all(reader.value(), outcome, {{"c"}});
+  const std::uint64_t of_one = std::exchange(count, 0);
+  const auto all = test::read_all(reader.value(), outcome);
+  EXPECT_EQ(all, made.said);
+  EXPECT_EQ(static_cast<std::size_t>(
+                std::count_if(all.begin(), all.end(), [](const Said& one) { return one.topic == "c"; })),
+            some.size());
+  EXPECT_LT(of_one, count / 2);
 }
 
 TEST_P(RoundTrip, GivesTheSameWithoutTheSummary) {
