@@ -68,6 +68,17 @@ std::optional<std::string> CommandLine::value_of(const std::string& option) cons
   return all.back();
 }
 
+std::optional<fs::path> recording_of(std::uint32_t pid) {
+  std::error_code failed;
+  fs::directory_iterator at("/proc/" + std::to_string(pid) + "/fd", failed);
+  for (; !failed && at != fs::directory_iterator(); at.increment(failed)) {
+    std::error_code unreadable;
+    fs::path file = fs::read_symlink(at->path(), unreadable);
+    if (!unreadable && file.extension() == ".mcap") return file;
+  }
+  return std::nullopt;
+}
+
 std::optional<CommandLine> command_line_of(std::uint32_t pid) {
   const fs::path process = fs::path("/proc") / std::to_string(pid);
   std::error_code failed;

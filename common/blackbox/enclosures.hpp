@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,6 +25,10 @@ struct CommandLine {
 
 /// That of a process of this host. Nothing where it may not be seen, or is no service of this project.
 [[nodiscard]] std::optional<CommandLine> command_line_of(std::uint32_t pid);
+
+/// The recording that a process of this host has open; nothing where there is none, or where its files may
+/// not be seen.
+[[nodiscard]] std::optional<std::filesystem::path> recording_of(std::uint32_t pid);
 
 /// As JSON: {"executable", "folder", "arguments": [...]}; and back.
 [[nodiscard]] std::string to_json(const CommandLine& line);

@@ -38,7 +38,11 @@ std::string writer_of(const record::Channel& channel) {
 
 std::string process_of(const record::Channel& channel) {
   const auto guid = channel.metadata.find("writer_guid");
-  return guid == channel.metadata.end() ? "" : guid->second.substr(0, 24);
+  return guid == channel.metadata.end() ? "" : process_of_writer(guid->second);
+}
+
+std::string process_of_writer(const std::string& guid) {
+  return guid.substr(0, 24);
 }
 
 std::vector<std::string> topics_of(const std::vector<std::string>& words) {

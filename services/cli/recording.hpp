@@ -16,6 +16,8 @@ namespace fathom::cli {
 [[nodiscard]] std::string writer_of(const record::Channel& channel);
 /// The part of its writer's identity that is its process'; empty where it is not told.
 [[nodiscard]] std::string process_of(const record::Channel& channel);
+/// Likewise, of the hexadecimal identity of a writer.
+[[nodiscard]] std::string process_of_writer(const std::string& guid);
 
 /// Topics by their full or their short names, e.g. "nav_state". Throws Failure for one that there is not.
 [[nodiscard]] std::vector<std::string> topics_of(const std::vector<std::string>& words);

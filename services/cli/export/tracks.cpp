@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/iso8601.hpp"
 #include "cli/command.hpp"
 #include "dataset/csv_reader.hpp"
 #include "dataset/csv_writer.hpp"
@@ -23,19 +24,6 @@ using exchange::Quality;
 using exchange::Track;
 
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-
-std::optional<TimeNs> parse_utc(const std::string& text) {
-  CivilTime civil;
-  double seconds = 0.0;
-  int end = 0;
-  const int read = std::sscanf(text.c_str(), "%4d-%2d-%2dT%2d:%2d:%lf%n", &civil.year, &civil.month,
-                               &civil.day, &civil.hour, &civil.minute, &seconds, &end);
-  if (read != 6 || text.substr(static_cast<std::size_t>(end)) != "Z" || !(seconds >= 0.0 && seconds < 61.0))
-    return std::nullopt;
-  civil.second = static_cast<int>(seconds);
-  civil.nanosecond = from_seconds(seconds - civil.second);
-  return from_civil(civil);
-}
 
 Quality quality_of(GpsFix fix) {
   switch (fix) {
@@ -162,7 +150,7 @@ std::vector<Track> tracks_of(const dataset::Dataset& data, double rate_hz) {
 
 TimeNs epoch_of(const std::string& source, const std::string& asked) {
   if (!asked.empty()) {
-    if (const auto epoch_ns = parse_utc(asked)) return *epoch_ns;
+    if (const auto epoch_ns = from_iso8601(asked)) return *epoch_ns;
     throw Failure(ExitCode::bad_configuration,
                   "--epoch " + asked + ": is no instant, expected one like 2026-01-31T12:00:00Z");
   }
@@ -170,7 +158,7 @@ TimeNs epoch_of(const std::string& source, const std::string& asked) {
   if (file) {
     const auto json = nlohmann::json::parse(file, nullptr, false);
     if (json.is_object() && json.contains("utc_of_start") && json["utc_of_start"].is_string())
-      if (const auto epoch_ns = parse_utc(json["utc_of_start"].get<std::string>())) return *epoch_ns;
+      if (const auto epoch_ns = from_iso8601(json["utc_of_start"].get<std::string>())) return *epoch_ns;
   }
   return dataset::kDefaultEpochNs;
 }

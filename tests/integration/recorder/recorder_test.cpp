@@ -196,6 +196,30 @@ TEST(Recorder, SaysThatItCannotWriteAndLivesOn) {
   EXPECT_NE(recorder.err().find("cannot be written"), std::string::npos) << recorder.err();
 }
 
+std::vector<std::string> explain_arguments(const std::string& listen_s) {
+  return {"explain", "--live", "--domain", std::to_string(kDomain), "--listen", listen_s, "--json"};
+}
+
+TEST(ExplainCommand, ReadsWhatTheRecorderOfThisHostIsWriting) {
+  const TemporaryFolder folder;
+  const Vehicle vehicle;
+  Process recorder("fathom-recorder", recorder_arguments(folder.path().string()));
+  ASSERT_TRUE(wait_until([&] { return vehicle.heard(); })) << recorder.err();
+  std::this_thread::sleep_for(std::chrono::milliseconds(4000));
+  Process explain("fathom", explain_arguments("300"));
+  EXPECT_LE(explain.wait(), 1) << explain.err();
+  EXPECT_NE(explain.err().find(folder.path().string()), std::string::npos) << explain.err();
+  EXPECT_NE(explain.out().find("gps_outage"), std::string::npos) << "the alarm: " << explain.out();
+}
+
+TEST(ExplainCommand, ListensWhereThereIsNoRecorder) {
+  const Vehicle vehicle;
+  Process explain("fathom", explain_arguments("6"));
+  EXPECT_LE(explain.wait(), 1) << explain.err();
+  EXPECT_NE(explain.err().find("No recorder on this host"), std::string::npos) << explain.err();
+  EXPECT_NE(explain.out().find("gps_outage"), std::string::npos) << explain.out();
+}
+
 TEST(RecordCommand, RecordsForAWhileAndRecovers) {
   const TemporaryFolder folder;
   const std::string file = folder / "by_hand.mcap";

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.hpp"
+#include "base/iso8601.hpp"
 #include "base/name.hpp"
 #include "base/unknown.hpp"
 
@@ -94,6 +95,18 @@ TEST(Name, KeepsThirtyOneBytesInPlace) {
   EXPECT_LT(Name("a"), Name("b"));
   EXPECT_NE(Name("a"), Name("aa"));
   EXPECT_TRUE(std::is_trivially_copyable_v<Name>);
+}
+
+TEST(Iso8601, ReadsBackWhatItWrites) {
+  for (const TimeNs utc : {TimeNs{0}, TimeNs{1'577'836'799'999'999'999}, TimeNs{1'900'000'000'123'456'789}}) {
+    const auto read = from_iso8601(to_iso8601(utc, 9));
+    ASSERT_TRUE(read) << to_iso8601(utc, 9);
+    EXPECT_LE(std::abs(*read - utc), 10) << "a double has 16 digits";
+  }
+  for (const char* text :
+       {"", "2026", "2026-01-31T12:00:00", "2026-01-31T12:00:00+01:00", "2026-13-01T00:00:00Z",
+        "2026-01-31T12:00:61Z", "2026-01-31T12:00:-1Z", "2026-01-31T12:00:00Zulu"})
+    EXPECT_FALSE(from_iso8601(text)) << text;
 }
 
 }  // namespace
