@@ -1,5 +1,7 @@
 // What guidance software sees of the navigation state, as text for a script: each gap longer than --gap, each
 // change of the source with the step in position that came with it, and once a second the error.
+// With --latencies FILE each state's as well: monotonic time, seconds from the arrival of its inertial sample at the
+// bridge, where both clocks are this host's.
 // Usage: soak_nav_watch --domain N --interface ADDRESS --peer ADDRESS ... --gap SECONDS
 
 #include <array>
@@ -8,6 +10,8 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
+#include <iomanip>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -43,11 +47,17 @@ std::array<double, 3> apart_m(const NavState& a, double latitude_rad, double lon
 
 class Watch {
  public:
-  explicit Watch(double gap_s) : gap_s_(gap_s) {}
+  Watch(double gap_s, const std::string& latencies) : gap_s_(gap_s) {
+    if (!latencies.empty()) latencies_.open(latencies);
+  }
 
   void on_state(const NavState& state) {
     const std::lock_guard lock(mutex_);
     const TimeNs now_ns = clock_.monotonic_ns();
+    if (latencies_.is_open()) {
+      latencies_ << std::setprecision(12) << 1e-9 * static_cast<double>(now_ns) << ' '
+                 << to_seconds(clock_.utc_ns() - state.header.received_ns) << '\n';
+    }
     if (last_) {
       const double gap_s = to_seconds(now_ns - arrived_ns_);
       if (gap_s > gap_s_) say("gap %.3f s", gap_s);
@@ -119,6 +129,7 @@ class Watch {
   }
 
   const double gap_s_;
+  std::ofstream latencies_;
   SystemClock clock_;
   std::mutex mutex_;
   std::optional<NavState> last_;
@@ -135,15 +146,17 @@ int main(int argc, char** argv) {
   bus::ParticipantOptions options;
   options.name = "nav_watch";
   double gap_s = 0.1;
+  std::string latencies;
   CLI::App app{"Watches the navigation state"};
   app.add_option("--domain", options.domain);
   app.add_option("--interface", options.interfaces);
   app.add_option("--peer", options.peers);
   app.add_option("--gap", gap_s);
+  app.add_option("--latencies", latencies);
   CLI11_PARSE(app, argc, argv);
   std::signal(SIGTERM, [](int) { over = true; });
   std::signal(SIGINT, [](int) { over = true; });
-  Watch watch(gap_s);
+  Watch watch(gap_s, latencies);
   bus::Participant participant(options);
   ClientOptions as_guidance;
   as_guidance.domain = options.domain;

@@ -49,19 +49,19 @@ class Vehicle:
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def start(self, *names, sets=(), environment=None, wait_s=2.0):
-        """These services, or all of them; `sets`: further overrides."""
+    def start(self, *names, sets=(), environment=None, wait_s=2.0, out=None):
+        """These services, or all of them; `sets`: further overrides; `out`: where they write, instead of their logs."""
         chosen = names or [name for name in self.commands if name != "simulator"]
         for name in chosen:
             words = list(self.commands[name])
             for one in sets:
                 words += ["--set", one]
             with open(self.path(name + ".log"), "ab") as log:
-                self.running[name] = subprocess.Popen(words, stdout=log, stderr=log, stdin=subprocess.DEVNULL, env=dict(
+                self.running[name] = subprocess.Popen(words, stdout=out or log, stderr=out or log, stdin=subprocess.DEVNULL, env=dict(
                     self.environment, **self.service_environment, **(environment or {})))
         if not names:
             time.sleep(wait_s)
-            self.start("simulator", wait_s=0.0)
+            self.start("simulator", wait_s=0.0, out=out)
 
     def kill(self, name, how=signal.SIGKILL):
         process = self.running.pop(name)
