@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <map>
 #include <mutex>
 #include <span>
 #include <utility>
 
 #include "blackbox/enclosures.hpp"
+#include "blackbox/surroundings.hpp"
 #include "bus/cdr.hpp"
 #include "bus/raw.hpp"
 #include "bus/topics.hpp"
@@ -20,6 +22,8 @@ namespace {
 
 constexpr std::size_t kMostOrigins = 4096;  // writers come from the network: bounded
 constexpr std::size_t kMostNamed = 512;     // alarms and services
+
+constexpr DurationNs kClockWasSet_ns = kNsPerSecond / 100;
 
 std::string hexadecimal(const WriterGuid& guid) {
   std::string out;
@@ -38,6 +42,18 @@ std::string in_words(const Command& order) {
 }
 
 }  // namespace
+
+/// Which process a service is, and how its host's clock stands.
+struct Process {
+  std::string host;
+  std::uint32_t pid = 0;
+  TimeNs started_ns = 0;
+  DurationNs utc_offset_ns = 0;
+
+  [[nodiscard]] bool is(const Process& other) const {
+    return host == other.host && pid == other.pid && started_ns == other.started_ns;
+  }
+};
 
 struct Tap::Impl {
   Impl(bus::Participant& participant_in, Queue& queue_in, const Clock& clock_in,
@@ -119,15 +135,20 @@ struct Tap::Impl {
   }
 
   void enclose(const ServiceStatus& status, TimeNs now_ns) {
-    if (status.host != host) return;
+    bool is_new = false;
     {
       const std::lock_guard lock(mutex);
       const auto known = services.find(status.header.sensor);
-      const std::pair<std::uint32_t, TimeNs> process(status.pid, status.started_ns);
-      if (known != services.end() && known->second == process) return;
       if (known == services.end() && services.size() >= kMostNamed) return;
-      services[status.header.sensor] = process;
+      const Process now{status.host, status.pid, status.started_ns, status.utc_offset_ns};
+      is_new = known == services.end() || !known->second.is(now);
+      const bool was_set =
+          !is_new && std::abs(known->second.utc_offset_ns - now.utc_offset_ns) > kClockWasSet_ns;
+      if (!is_new && !was_set) return;
+      services[status.header.sensor] = now;
     }
+    queue.put(process_of(status, now_ns));
+    if (!is_new || status.host != host) return;
     const auto line = command_line_of(status.pid);
     if (!line) return;
     for (Enclosure& one : enclosures_of(status.header.sensor.str(), *line, now_ns)) queue.put(std::move(one));
@@ -142,7 +163,7 @@ struct Tap::Impl {
   std::mutex mutex;
   std::map<std::pair<const char*, WriterGuid>, std::uint32_t> origins;
   std::map<Name, bool> alarms;
-  std::map<Name, std::pair<std::uint32_t, TimeNs>> services;
+  std::map<Name, Process> services;
 
   std::vector<std::unique_ptr<bus::RawReader>> readers;  // end first: they use everything above
 };

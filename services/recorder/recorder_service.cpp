@@ -1,8 +1,10 @@
 #include "recorder/recorder_service.hpp"
 
 #include <string>
+#include <utility>
 
 #include "blackbox/recorder.hpp"
+#include "blackbox/surroundings.hpp"
 #include "blackbox/tap.hpp"
 #include "runtime/build_info.hpp"
 
@@ -53,6 +55,9 @@ struct RecorderService::Impl {
                    log->write(is_trouble ? runtime::LogLevel::warning : runtime::LogLevel::info, line);
                  }),
         tap(the_host.participant(), recorder.queue(), the_host.clock(), config.topics, runtime::host_name()) {
+    for (blackbox::Enclosure& one :
+         blackbox::qos_profiles(config.common.bus.profiles_dir, the_host.clock().utc_ns()))
+      recorder.queue().put(std::move(one));
     for (const std::string& topic : tap.refused()) host.log().warning("not recorded: " + topic);
     host.on_status([this](ServiceStatus& status) { fill(status); });
   }

@@ -6,12 +6,14 @@
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "base/clock.hpp"
 #include "blackbox/recorder.hpp"
+#include "blackbox/surroundings.hpp"
 #include "blackbox/tap.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
@@ -79,6 +81,8 @@ ExitCode record(const RecordOptions& options) {
       std::fprintf(stderr, "fathom: record: %s\n", line.c_str());
     });
     const blackbox::Tap tap(participant, recorder.queue(), clock, topics, runtime::host_name());
+    for (blackbox::Enclosure& one : blackbox::qos_profiles(options.bus.profiles_dir, clock.utc_ns()))
+      recorder.queue().put(std::move(one));
     for (const std::string& line : tap.refused()) std::fprintf(stderr, "fathom: record: %s\n", line.c_str());
     const TimeNs end_ns = clock.monotonic_ns() + from_seconds(options.duration_s);
     while (stopped == 0 && (options.duration_s <= 0.0 || clock.monotonic_ns() < end_ns))

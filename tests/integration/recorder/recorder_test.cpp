@@ -142,9 +142,10 @@ TEST(Recorder, KeepsEverySampleWithItsOrigin) {
   EXPECT_EQ(recorded.topics.count("fathom/v1/alarm"), 1U) << "latched, written before the recorder was there";
   EXPECT_GE(recorded.topics.at("fathom/v1/service_status"), 1U) << "its own life sign";
   EXPECT_EQ(recorded.events, 1U);
-  EXPECT_NE(
-      std::find(recorded.attachments.begin(), recorded.attachments.end(), "services/recorder/command.json"),
-      recorded.attachments.end());
+  for (const char* name : {"services/recorder/command.json", "services/recorder/config.json",
+                           "services/recorder/process.json", "qos/samples.xml", "qos/nav_state.xml"}) {
+    EXPECT_EQ(std::count(recorded.attachments.begin(), recorded.attachments.end(), name), 1) << name;
+  }
 }
 
 TEST(Recorder, LosesAtMostASecondWhenItIsKilled) {

@@ -3,8 +3,10 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "blackbox/surroundings.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -44,6 +46,24 @@ TEST(Enclosures, HoldConfigurationAndCheckpoint) {
   EXPECT_EQ(blackbox::read_enclosed(all[2].path), (record::Bytes{'b', 'y', 't', 'e', 's'}));
   EXPECT_EQ(blackbox::read_enclosed(folder / "absent"), std::nullopt);
   EXPECT_EQ(blackbox::enclosures_of("fusion", {"x", "/", {"--config", "absent"}}, 5).size(), 1U);
+}
+
+TEST(Surroundings, TellVersionAndClockOfAProcess) {
+  ServiceStatus status;
+  status.header.sensor = "gps_bridge";
+  status.host = "nose\xff";  // from the network: no UTF-8
+  status.pid = 7;
+  status.version = "1.2";
+  status.config_hash = "ab";
+  status.utc_offset_ns = -kNsPerSecond / 4;
+  const auto enclosure = blackbox::process_of(status, 5);
+  EXPECT_EQ(enclosure.name, "services/gps_bridge/process.json");
+  const auto json = nlohmann::json::parse(enclosure.data.begin(), enclosure.data.end());
+  EXPECT_EQ(json.at("pid"), 7);
+  EXPECT_EQ(json.at("version"), "1.2");
+  EXPECT_EQ(json.at("config_hash"), "ab");
+  EXPECT_EQ(json.at("utc_offset_s"), -0.25);
+  EXPECT_EQ(json.at("started"), "1970-01-01T00:00:00.000Z");
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "bus/detail/versions/settings.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
+#include "bus/profiles.hpp"
 #include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {
@@ -138,3 +139,7 @@ Policy policy_of(dds::QosPolicyId_t id) {
 }
 
 }  // namespace fathom::bus::detail
+
+std::string fathom::bus::profiles_folder(const std::string& configured) {
+  return detail::find_profiles_dir(configured);
+}
