@@ -1,8 +1,8 @@
 // What guidance software sees of the navigation state, as text for a script: each gap longer than --gap, each
 // change of the source with the step in position that came with it, and once a second the error.
-// With --latencies FILE each state's as well: monotonic time, seconds from the arrival of its inertial sample at the
-// bridge, where both clocks are this host's.
-// Usage: soak_nav_watch --domain N --interface ADDRESS --peer ADDRESS ... --gap SECONDS
+// With --latencies FILE each state's as well: monotonic time, seconds from the arrival of its inertial sample
+// at the bridge, where both clocks are this host's. Usage: soak_nav_watch --domain N --interface ADDRESS
+// --peer ADDRESS ... --gap SECONDS
 
 #include <array>
 #include <atomic>

@@ -1,5 +1,5 @@
-// Preloaded: while the file that FATHOM_SLOW_DISK names is there, a write takes as long as on a disk of 1 MB/s, and so
-// does bringing it to the disk after it.
+// Preloaded: while the file that FATHOM_SLOW_DISK names is there, a write takes as long as on a disk of 1
+// MB/s, and so does bringing it to the disk after it.
 
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -14,7 +14,7 @@ static const double bytes_per_second = 1e6;
 static const double seconds_of_sync = 0.05;
 
 static int is_slow(void) {
-  const char *file = getenv("FATHOM_SLOW_DISK");
+  const char* file = getenv("FATHOM_SLOW_DISK");
   return file != NULL && access(file, F_OK) == 0;
 }
 
@@ -31,9 +31,9 @@ static void take(double seconds) {
   }
 }
 
-ssize_t write(int fd, const void *bytes, size_t size) {
-  static ssize_t (*next)(int, const void *, size_t);
-  if (next == NULL) next = (ssize_t(*)(int, const void *, size_t))dlsym(RTLD_NEXT, "write");
+ssize_t write(int fd, const void* bytes, size_t size) {
+  static ssize_t (*next)(int, const void*, size_t);
+  if (next == NULL) next = (ssize_t(*)(int, const void*, size_t))dlsym(RTLD_NEXT, "write");
   if (is_slow() && is_recording(fd)) take((double)size / bytes_per_second);
   return next(fd, bytes, size);
 }
