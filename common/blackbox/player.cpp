@@ -67,7 +67,12 @@ Played play(record::Reader& reader, bus::Participant& participant, const PlayOpt
       continue;
     bus::WriterOptions silent;
     silent.may_rest = true;  // a recording has gaps
-    writers[channel.topic] = std::make_unique<bus::RawWriter>(participant, channel.topic, silent);
+    try {
+      writers[channel.topic] = std::make_unique<bus::RawWriter>(participant, channel.topic, silent);
+    } catch (const bus::BusError& error) {  // e.g. without permission for it
+      writers[channel.topic] = nullptr;
+      out.problems.push_back(channel.topic + " is not played: " + error.what());
+    }
   }
   std::this_thread::sleep_for(kToBeMet);
   Pace pace(options.speed, go_on);
@@ -75,7 +80,7 @@ Played play(record::Reader& reader, bus::Participant& participant, const PlayOpt
   const record::Outcome outcome = reader.read(options.selection, [&](const record::Channel& channel,
                                                                      const record::Message& message) {
     const auto writer = writers.find(channel.topic);
-    if (writer == writers.end()) return true;
+    if (writer == writers.end() || !writer->second) return true;
     if (!pace.wait_for(message.log_time)) return false;
     if (!shift_ns) shift_ns = options.now ? SystemClock().utc_ns() - message.log_time : 0;
     std::optional<std::vector<std::uint8_t>> bytes(std::in_place, message.data.begin(), message.data.end());
@@ -91,7 +96,7 @@ Played play(record::Reader& reader, bus::Participant& participant, const PlayOpt
     ++(written ? out.samples : out.refused);
     return true;
   });
-  out.problems = outcome.problems;
+  out.problems.insert(out.problems.end(), outcome.problems.begin(), outcome.problems.end());
   return out;
 }
 
