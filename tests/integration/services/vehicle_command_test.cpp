@@ -1,4 +1,5 @@
 // One file for a vehicle, as people use it: with the services, with config show and with solve.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,47 @@ TEST_F(VehicleCommand, WhatIsWrongIsNamedWhereItWasWritten) {
     EXPECT_THAT(err, HasSubstr(complaint));
     EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
   }
+}
+
+// From nothing to a file that services start with: instruments that speak on pseudo-terminals, UDP and TCP.
+TEST_F(VehicleCommand, InitFindsTheInstrumentsAndWritesTheVehicle) {
+  const std::string source = FATHOM_SOURCE_DIR;
+  Process simulator(
+      "fathom-simulator",
+      {"--config", source + "/deploy/config/simulator.json", "--set",
+       "scenario_dir=" + source + "/deploy/config/scenarios", "--set",
+       "bus.profiles_dir=" + source + "/deploy/dds", "--set", "bus.domain=202", "--set", "port_offset=3300",
+       "--set", "link_dir=" + path("dev"), "--set", "clock.anchor_file=" + path("clock")});
+  ASSERT_TRUE(wait_until([&] { return fs::exists(folder / "dev/imu"); }));
+  const std::vector<std::string> arguments{
+      "init",  "--serial",        path("dev/imu"), "--serial", path("dev/depth"), "--udp", "127.0.0.1:20301",
+      "--tcp", "127.0.0.1:20302", "--yes",         "--out",    path("found.json")};
+  ASSERT_EQ(run("fathom", arguments), 0) << err << out;
+  std::map<std::string, nlohmann::json> found;
+  const auto vehicle = nlohmann::json::parse(content("found.json"));
+  for (const auto& one : vehicle["instruments"]) found[one["name"]] = one;
+  ASSERT_EQ(found.size(), 4U) << out;
+  EXPECT_EQ(found["imu"]["protocol"], "vectornav");
+  EXPECT_EQ(found["imu"]["rate_hz"], 100.0);
+  EXPECT_EQ(found["imu"]["mounting_rpy_deg"], nlohmann::json::parse("[0.0, 0.0, 0.0]"));
+  EXPECT_EQ(found["gps"]["protocol"], "nmea0183");
+  EXPECT_EQ(found["gps"]["rate_hz"], 2.0);
+  EXPECT_EQ(found["dvl"]["protocol"], "pd0");
+  EXPECT_EQ(found["dvl"]["rate_hz"], 5.0);
+  EXPECT_EQ(found["depth"]["bridge"]["unit"], "psi");
+  EXPECT_NEAR(vehicle["latitude_deg"].get<double>(), 36.4, 0.051) << "of a fix that was heard";
+  for (const char* service : {"fathom-imu-bridge", "fathom-gps-bridge", "fathom-dvl-bridge", "fathom-fusion"})
+    EXPECT_EQ(run(service, {"--vehicle", path("found.json"), "--check"}), 0) << err;
+  EXPECT_EQ(run("fathom", arguments), 2);
+  EXPECT_THAT(err, HasSubstr("is there already"));
+}
+
+TEST_F(VehicleCommand, InitWritesNothingWithoutAnInertialUnit) {
+  EXPECT_EQ(
+      run("fathom", {"init", "--udp", "127.0.0.1:20399", "--seconds", "1", "--out", path("found.json")}), 1);
+  EXPECT_THAT(out, HasSubstr("nothing was heard"));
+  EXPECT_THAT(err, HasSubstr("no inertial unit was recognised"));
+  EXPECT_FALSE(fs::exists(folder / "found.json"));
 }
 
 }  // namespace
