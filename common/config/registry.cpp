@@ -14,6 +14,8 @@
 #include "config/recorder_config.hpp"
 #include "config/scenario/scenario_config.hpp"
 #include "config/scenario/simulator_config.hpp"
+#include "config/vehicle/catalogue.hpp"
+#include "config/vehicle/vehicle_config.hpp"
 
 namespace fathom::config {
 namespace {
@@ -47,7 +49,9 @@ std::span<const ConfigKind> config_kinds() {
                                  simulator_kind(),
                                  scenario_kind(),
                                  console_kind(),
-                                 discovery_kind()};
+                                 discovery_kind(),
+                                 vehicle_kind(),
+                                 catalogue_kind()};
   return kKinds;
 }
 

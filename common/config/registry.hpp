@@ -19,6 +19,7 @@ struct ConfigKind {
   void (*check)(const LoadRequest&) = nullptr;                     ///< throws ConfigError
   std::vector<FieldRow> (*rows)() = nullptr;                       ///< every key
   std::vector<SensorPlan> (*plans)(const LoadRequest&) = nullptr;  ///< of a bridge: its instruments
+  std::string (*effective)(const LoadRequest&) = nullptr;          ///< JSON of all values, defaults included
 };
 
 /// Every kind, for the schema writer and for the test that loads all shipped files.

@@ -16,8 +16,8 @@ set(CPACK_DEBIAN_FATHOM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_FATHOM_PACKAGE_DEPENDS systemd)
 set(CPACK_DEBIAN_FATHOM_DESCRIPTION "Navigation as services on a vehicle network
  Bridges from instruments to DDS, the estimator, the monitor, and their systemd units.")
-set(CPACK_DEBIAN_FATHOM_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/conffiles
-    ${CMAKE_CURRENT_SOURCE_DIR}/postinst ${CMAKE_CURRENT_SOURCE_DIR}/prerm)
+set(CPACK_DEBIAN_FATHOM_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/postinst ${CMAKE_CURRENT_SOURCE_DIR}/prerm
+    ${CMAKE_CURRENT_SOURCE_DIR}/postrm)
 set(CPACK_DEBIAN_FATHOM_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME fathom-client-dev)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION libdevel)
@@ -25,20 +25,17 @@ set(CPACK_DEBIAN_CLIENT_PACKAGE_DEPENDS "libfastrtps-dev, libfastcdr-dev, libssl
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "What guidance software needs to receive fathom's navigation state
  Library, headers, CMake package and QoS profiles.")
 
-# The configuration is the vehicle's: dpkg asks before it replaces what was changed. It goes below the prefix as
-# everything does; with /usr, which is the package's, that is /etc (GNU coding standards). The prefix is known at
-# installation only.
-file(GLOB configurations ${PROJECT_SOURCE_DIR}/deploy/config/*.json)
+# The configuration is the vehicle's: the package brings an example, which postinst puts in place where nothing is yet. A
+# file of the package would come with an upgrade as well, beneath the files of single services that a vehicle has so far.
+# Without the package it goes below the prefix as everything does, and with /usr to /etc (GNU coding standards). The prefix
+# is known at installation only. CPack stages what it packs in a folder of its own, which is named so.
 install(CODE "
   set(etc \"\${CMAKE_INSTALL_PREFIX}/etc\")
   if(CMAKE_INSTALL_PREFIX MATCHES \"^/usr/?\$\")
     set(etc /etc)
   endif()
-  file(INSTALL DESTINATION \"\${etc}/fathom\" TYPE FILE FILES ${configurations})" COMPONENT fathom)
-set(conffiles "")
-foreach(file ${configurations})
-  get_filename_component(name ${file} NAME)
-  string(APPEND conffiles "/etc/fathom/${name}\n")
-endforeach()
-file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/conffiles CONTENT "${conffiles}")
+  file(GLOB there \"\$ENV{DESTDIR}\${etc}/fathom/*.json\")
+  if(NOT there AND NOT \"\$ENV{DESTDIR}\" MATCHES \"_CPack_Packages\")
+    file(INSTALL DESTINATION \"\${etc}/fathom\" TYPE FILE FILES ${PROJECT_SOURCE_DIR}/deploy/config/vehicle.json)
+  endif()" COMPONENT fathom)
 include(CPack)

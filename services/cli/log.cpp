@@ -6,6 +6,7 @@
 #include "cli/command.hpp"
 #include "cli/recording.hpp"
 #include "config/json/error.hpp"
+#include "config/vehicle/vehicle_config.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -66,13 +67,21 @@ bool is_recording(const std::string& path) {
   return path.ends_with(".mcap");
 }
 
-config::LoadedConfig<config::FusionConfig> configuration_for(const std::string& log, const std::string& file,
+std::string ConfigFiles::text() const {
+  if (none()) return "its own configuration";
+  return vehicle.empty() || own.empty() ? vehicle + own : vehicle + ", over it " + own;
+}
+
+config::LoadedConfig<config::FusionConfig> configuration_for(const std::string& log, const ConfigFiles& files,
                                                              const std::vector<std::string>& sets) {
-  if (file.empty() && !is_recording(log))
-    throw Failure(ExitCode::bad_configuration,
-                  "--config is required: a data set has no configuration of its own; see --help");
+  if (files.none() && !is_recording(log))
+    throw Failure(
+        ExitCode::bad_configuration,
+        "--vehicle or --config is required: a data set has no configuration of its own; see --help");
   try {
-    if (!file.empty()) return config::load_service_config<config::FusionConfig>({file, sets});
+    config::LoadRequest request{files.own, sets};
+    if (!files.vehicle.empty()) request = config::with_vehicle(std::move(request), files.vehicle, "fusion");
+    if (!files.none()) return config::load_service_config<config::FusionConfig>(request);
     record::Reader reader = open_recording(log);
     return recorded_configuration(reader, log, "fusion", sets);
   } catch (const config::ConfigError& error) {

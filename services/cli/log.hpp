@@ -12,10 +12,20 @@ namespace fathom::cli {
 /// Whether a path names a recording rather than the folder of a data set.
 [[nodiscard]] bool is_recording(const std::string& path);
 
-/// The configuration of a file with overrides; of an empty name the one of the fusion service in the
-/// recording. Throws Failure.
+/// Where the configuration of fusion stands. Neither: a recording encloses its own.
+struct ConfigFiles {
+  std::string vehicle;  ///< the file of the vehicle
+  std::string own;      ///< fusion's own file; over that of the vehicle where both are named
+
+  [[nodiscard]] bool none() const { return vehicle.empty() && own.empty(); }
+  /// For people: "vehicle.json, over it fusion.json", or "its own configuration".
+  [[nodiscard]] std::string text() const;
+};
+
+/// The configuration that these files give, with overrides; without any file the one of the fusion service in
+/// the recording. Throws Failure.
 [[nodiscard]] config::LoadedConfig<config::FusionConfig> configuration_for(
-    const std::string& log, const std::string& file, const std::vector<std::string>& sets);
+    const std::string& log, const ConfigFiles& files, const std::vector<std::string>& sets);
 
 /// The data set in a folder. Throws Failure.
 [[nodiscard]] dataset::Dataset read_dataset(const std::string& directory, Name vehicle);

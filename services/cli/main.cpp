@@ -53,6 +53,8 @@ int main(int argc, char** argv) {
   fathom::cli::add_study(app, exit_code);
   fathom::cli::add_bench(app, exit_code);
   fathom::cli::add_doctor(app, exit_code);
+  fathom::cli::add_config(app, exit_code);
+  fathom::cli::add_init(app, exit_code);
   fathom::cli::add_keygen(app, exit_code);
   fathom::cli::add_import(app, exit_code);
   fathom::cli::add_export(app, exit_code);

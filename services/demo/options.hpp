@@ -14,7 +14,8 @@ struct Options {
   std::string config;       ///< fusion configuration for a data set; empty: chosen by the folder's name
   double duration_s = 0.0;  ///< vehicle time; 0: as the scenario or the data set says
   double speed = 1.0;
-  std::string commands;  ///< folder to write the services' command lines into, starting nothing; empty: run
+  std::string commands;  ///< folder to write the services' command lines and the vehicle's file into,
+                         ///< starting nothing; empty: run
   std::vector<std::string> expected_alarms;  ///< besides those of the scenario
   std::string report;                        ///< file for the report; empty: none
   int domain = 0;

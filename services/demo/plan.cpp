@@ -12,8 +12,10 @@
 #include "config/scenario/scenario_config.hpp"
 #include "config/scenario/scenario_wiring.hpp"
 #include "config/service_config.hpp"
+#include "config/vehicle/vehicle_config.hpp"
 #include "dataset/dataset.hpp"
 #include "demo/recording.hpp"
+#include "demo/vehicle.hpp"
 #include "security/keygen.hpp"
 
 namespace fathom::demo {
@@ -75,11 +77,11 @@ void write_private(const std::filesystem::path& path, const std::string& text) {
 class Builder {
  public:
   Builder(const Options& options, const std::filesystem::path& run_directory, Plan& plan)
-      : places_(find_places()), plan_(plan) {
+      : places_(find_places()), plan_(plan), vehicle_(run_directory / "vehicle.json") {
+    // Said on the command line as well: whoever looks for the processes of a run finds them by it.
     common_.push_back("bus.domain=" + std::to_string(options.domain));
-    common_.push_back("bus.interfaces=" + json(options.interfaces).dump());
-    common_.push_back("bus.peers=" + json(options.peers).dump());
-    if (!plan.credentials.empty()) common_.push_back("bus.security.folder=" + plan.credentials);
+    network_ = {{"domain", options.domain}, {"interfaces", options.interfaces}, {"peers", options.peers}};
+    if (!plan.credentials.empty()) network_["security"] = {{"folder", plan.credentials}};
     common_.push_back("clock.anchor_file=" + (run_directory / "clock").string());
     if (options.speed != 1.0) {
       plan.epoch_ns = SystemClock().utc_ns();
@@ -88,27 +90,44 @@ class Builder {
     }
   }
 
-  [[nodiscard]] std::filesystem::path file(const std::string& service) const {
-    return places_.config / (service + ".json");
+  /// Writes the file that every service reads. Every bridge and service that the monitor is to miss is known.
+  void write_vehicle(const sim::Scenario& scenario, const config::Wiring& wiring,
+                     const std::vector<std::string>& bridges, bool standby, const Sets& expected) {
+    json common = json::parse(std::ifstream(places_.config / "demo" / "vehicle.json"));
+    common["$schema"] = (places_.config / "schema" / "vehicle.schema.json").string();
+    std::ofstream out(vehicle_);
+    out << vehicle_of(std::move(common), scenario, wiring, {network_, bridges, standby, expected}).dump(2)
+        << "\n";
+    if (!out.flush()) throw std::runtime_error(vehicle_.string() + ": cannot be written");
   }
+  [[nodiscard]] const std::filesystem::path& vehicle() const { return vehicle_; }
 
   void add(const std::string& service, const Sets& sets, const std::filesystem::path& configuration = {}) {
     add_instance(service, service, sets, configuration);
   }
 
-  /// One of several services of a kind, by a name of its own.
+  /// One of several services of a kind, by a name of its own. With a configuration of its own it has nothing
+  /// of the vehicle's but the network.
   void add_instance(const std::string& name, const std::string& service, const Sets& sets,
                     const std::filesystem::path& configuration = {}) {
     std::string executable = "fathom-" + service;
     std::replace(executable.begin(), executable.end(), '_', '-');
     Program program{name, places_.executables / executable, {}, false};
-    program.arguments = {"--config", configuration.empty() ? file(service).string() : configuration.string()};
+    if (configuration.empty())
+      program.arguments = {"--vehicle", vehicle_.string()};
+    else
+      program.arguments = {"--config", configuration.string()};
     const auto append = [&program](const Sets& list) {
       for (const std::string& set : list) {
         program.arguments.emplace_back("--set");
         program.arguments.push_back(set);
       }
     };
+    if (!configuration.empty()) {
+      for (const auto& [key, value] : network_.items())
+        append({key == "security" ? "bus.security.folder=" + plan_.credentials
+                                  : "bus." + key + "=" + value.dump()});
+    }
     append(common_);
     append(sets);
     plan_.programs.push_back(std::move(program));
@@ -120,14 +139,14 @@ class Builder {
   void add_fusion(Sets sets, const std::filesystem::path& configuration, bool standby,
                   const std::filesystem::path& run_directory) {
     sets.emplace_back("checkpoint.period_s=0.2");
-    if (standby) sets.emplace_back("standby.enabled=true");
+    if (standby && !configuration.empty()) sets.emplace_back("standby.enabled=true");
     const auto add_one = [&](const std::string& name, int strength) {
       Sets own = sets;
       own.push_back("checkpoint.path=" + (run_directory / (name + ".checkpoint")).string());
       if (standby) {
         own.push_back("instance=" + name);
         if (!plan_.credentials.empty()) own.emplace_back("bus.security.identity=fusion");
-        own.push_back("ownership_strength=" + std::to_string(strength));
+        if (!configuration.empty()) own.push_back("ownership_strength=" + std::to_string(strength));
       }
       add_instance(name, "fusion", own, configuration);
     };
@@ -155,36 +174,20 @@ class Builder {
  private:
   Places places_;
   Plan& plan_;
+  std::filesystem::path vehicle_;
+  json network_;
   Sets common_;
 };
 
-// What the monitor has to expect of this vehicle: every service but itself, every instrument that is always
-// heard.
-Sets monitor_sets(const Plan& plan, const sim::Scenario& scenario, const std::vector<std::string>& bridges,
-                  const Sets& scenario_sets) {
-  json sensors = json::array();
-  for_each_kind([&](auto kind) {
-    using Sample = typename decltype(kind)::Sample;
-    const auto& sensor = scenario.sensors.of<Sample>();
-    const bool bridged = std::find_if(bridges.begin(), bridges.end(), [&](const std::string& bridge) {
-                           return bridge + "_bridge" == kind.kRole;
-                         }) != bridges.end();
-    if (!sensor.kAlwaysHeard || !bridged || !sensor.enabled) return;
-    json entry = {{"name", kind.kWord}, {"kind", kind.kWord}, {"rate_hz", sensor.rate_hz}};
-    if (kind.kUse == Use::integrated) entry["severity"] = "critical";
-    sensors.push_back(std::move(entry));
-  });
-  json services = json::array();
-  for (const std::string& name : plan.demands.services) {
-    json entry = {{"name", name}};
-    if (name == "fusion" || name == "imu_bridge") entry["severity"] = "critical";
-    services.push_back(std::move(entry));
-  }
-  Sets out{"sensors=" + sensors.dump(), "services=" + services.dump(),
-           "navigation.rate_hz=" + json(scenario.sensors.of<ImuSample>().rate_hz).dump()};
-  if (std::find(bridges.begin(), bridges.end(), "gps") == bridges.end())
-    out.emplace_back("gps.expected=false");
-  out.insert(out.end(), scenario_sets.begin(), scenario_sets.end());
+// What the scenario says of a service beyond its vehicle. Files that it names lie beside those of the
+// services.
+Sets overrides_of(const sim::Scenario& scenario, const std::string& service,
+                  const std::filesystem::path& config) {
+  Sets out;
+  const auto at = scenario.services.find(service);
+  if (at == scenario.services.end()) return out;
+  for (const auto& [key, value] : at->second)
+    out.push_back(key + "=" + (key.ends_with("coefficients_file") ? (config / value).string() : value));
   return out;
 }
 
@@ -215,7 +218,6 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
     plan.duration_s = options.duration_s > 0.0 ? options.duration_s : scenario.duration_s;
     plan.demands.limits = scenario.limits;
     plan.demands.whole_run = plan.duration_s >= scenario.duration_s;
-    fusion.push_back("engine.imu.nominal_rate_hz=" + json(scenario.sensors.of<ImuSample>().rate_hz).dump());
   } else {
     const Recording recording = describe_recording(options.dataset, options.config, builder.places().config);
     scenario.services.clear();
@@ -247,19 +249,20 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
     fusion = start_sets(recording, start_ns);
   }
 
-  auto overrides = config::service_overrides(scenario, wiring);
   if (!options.dataset.empty()) {  // what the scenario has no device for cannot be played
-    std::erase_if(bridges,
-                  [&](const std::string& bridge) { return overrides.count(bridge + "_bridge") == 0; });
+    const auto wired = config::service_overrides(scenario, wiring);
+    std::erase_if(bridges, [&](const std::string& bridge) { return wired.count(bridge + "_bridge") == 0; });
   }
-  const Sets& scenario_fusion = overrides["fusion"];
+  const Sets scenario_fusion = overrides_of(scenario, "fusion", builder.places().config);
   fusion.insert(fusion.end(), scenario_fusion.begin(), scenario_fusion.end());
 
-  for (const std::string& kind : bridges) builder.add(kind + "_bridge", overrides[kind + "_bridge"]);
+  builder.write_vehicle(scenario, wiring, bridges, options.standby, {"guidance_example", "simulator"});
+  for (const std::string& kind : bridges)
+    builder.add(kind + "_bridge", overrides_of(scenario, kind + "_bridge", builder.places().config));
   builder.add_fusion(fusion, fusion_file, options.standby, run_directory);
-  builder.add("guidance_example", overrides["guidance_example"]);
+  builder.add("guidance_example", overrides_of(scenario, "guidance_example", builder.places().config));
   builder.add("simulator", simulator);
-  Sets monitor = monitor_sets(plan, scenario, bridges, overrides["monitor"]);
+  Sets monitor = overrides_of(scenario, "monitor", builder.places().config);
   monitor.push_back("journal.path=" + (run_directory / "alarms.jsonl").string());
   monitor.push_back("metrics.port=" + std::to_string(kMetricsPort + options.domain));
   builder.add("monitor", monitor);
@@ -275,8 +278,8 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
                                          [](const Program& program) { return program.name == "simulator"; });
   std::rotate(simulator_at, simulator_at + 1, plan.programs.end());
 
-  const auto monitor_config =
-      config::load_service_config<config::MonitorConfig>({builder.file("monitor").string(), monitor});
+  const auto monitor_config = config::load_service_config<config::MonitorConfig>(
+      config::with_vehicle({"", monitor}, builder.vehicle().string(), "monitor"));
   plan.record.gps_limit_s = monitor_config.value.health.gps.outage.limit_s;
   plan.record.degraded_hold_s = monitor_config.value.health.service.degraded_hold_s;
   plan.record.score_from_s = plan.demands.limits.score_from_s;

@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "config/vehicle/folder.hpp"
+#include "config/vehicle/vehicle_config.hpp"
 #include "runtime/build_info.hpp"
 #include "runtime/signals.hpp"
 
@@ -32,9 +34,20 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const std::funct
   }
   CLI::App app{info.description, executable};
   config::LoadRequest request;
+  std::string vehicle;
+  std::string folder;
   bool check = false;
   bool explains = false;
-  app.add_option("--config", request.file, "configuration file (JSON)");
+  CLI::Option* own =
+      app.add_option("--config", request.file,
+                     "configuration file (JSON); with --vehicle it needs to say only what is different here");
+  CLI::Option* of_vehicle =
+      app.add_option("--vehicle", vehicle, "file of the vehicle (JSON): what it says of this service");
+  app.add_option("--folder", folder,
+                 "a folder with both, e.g. /etc/fathom: vehicle.json, and " + info.name +
+                     ".json over it; one of them may be missing")
+      ->excludes(own)
+      ->excludes(of_vehicle);
   app.add_option("--set", request.sets, "override: key.sub=value, may be repeated")->allow_extra_args(false);
   app.add_flag("--check", check, "check the configuration and exit");
   app.add_flag("--explain", explains,
@@ -51,23 +64,29 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const std::funct
     std::fputs(explain().c_str(), stdout);
     return static_cast<int>(ExitCode::done);
   }
-  if (request.file.empty())
-    return fail(executable, ExitCode::bad_configuration, "--config is required; see --help");
+  if (request.file.empty() && vehicle.empty() && folder.empty())
+    return fail(executable, ExitCode::bad_configuration,
+                "--vehicle, --config or --folder is required; see --help");
+  std::string named = request.file;
   try {
+    if (!folder.empty()) request = config::from_folder(std::move(request), folder, info.name);
+    if (!vehicle.empty()) request = config::with_vehicle(std::move(request), vehicle, info.name);
+    named = request.name();
     Prepared prepared = load(request, check);
     if (check) {
-      std::printf("%s: %s: valid\n", executable.c_str(), request.file.c_str());
+      std::printf("%s: %s: valid\n", executable.c_str(), config::files_of(request).c_str());
       return static_cast<int>(ExitCode::done);
     }
     ServiceInfo own = info;
     if (!prepared.instance.empty()) own.name = prepared.instance;
     ServiceHost host({own, std::move(prepared.common), std::move(prepared.config_hash),
                       std::move(prepared.discovery_listen)});
+    if (request.base) host.log().info("configured by " + config::files_of(request));
     return static_cast<int>(body(host));
   } catch (const config::ConfigError& error) {
     return fail(executable, ExitCode::bad_configuration, error.what());
   } catch (const bus::CredentialsError& error) {
-    return fail(executable, ExitCode::bad_configuration, request.file + ": bus.security: " + error.what());
+    return fail(executable, ExitCode::bad_configuration, named + ": bus.security: " + error.what());
   } catch (const std::exception& error) {
     return fail(executable, ExitCode::runtime_failure, error.what());
   }

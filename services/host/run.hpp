@@ -22,8 +22,9 @@ struct Prepared {
                               const std::function<Prepared(const config::LoadRequest&, bool check)>& load,
                               const std::function<ExitCode(ServiceHost&)>& body);
 
-/// The main of a service: `EXE --config FILE [--set key.sub=value ...] [--check]`, and
-/// `EXE --explain`, which prints the keys of FILE with their units, ranges and defaults, or `EXE --version`.
+/// The main of a service: `EXE --config FILE [--set key.sub=value ...] [--check]`, with `--vehicle FILE`
+/// beneath or in place of --config, and `EXE --explain`, which prints the keys of FILE with their units,
+/// ranges and defaults, or `EXE --version`.
 ///
 /// Loads the configuration before anything starts and calls `body(host, config)`, which builds the service
 /// and returns host.run(). An error becomes one line on standard error, `fathom-NAME: ...`, and the exit
@@ -42,7 +43,7 @@ template <class Config, class Body, class Verify>
       [&](const config::LoadRequest& request, bool check) {
         auto loaded = config::load_service_config<Config>(request);
         config = std::move(loaded.value);
-        verify(std::as_const(config), request.file, check);
+        verify(std::as_const(config), request.name(), check);
         Prepared prepared{config.common, std::move(loaded.hash)};
         if constexpr (requires { config.instance; }) prepared.instance = config.instance;
         if constexpr (requires { config.discovery_listen; })

@@ -9,7 +9,10 @@ using runtime::TimeConfig;
 using runtime::TimeMode;
 using Violation = std::pair<std::string, std::string>;
 
-void describe(Schema<ByteSourceConfig>& s) {
+namespace {
+
+template <class Source>
+void describe_source(Schema<Source>& s) {
   s.field("type", &ByteSourceConfig::type, "where the instrument's bytes come from")
       .words({{"serial", SourceType::serial},
               {"tcp_client", SourceType::tcp_client},
@@ -49,6 +52,16 @@ void describe(Schema<ByteSourceConfig>& s) {
   s.field("backoff_most_s", &ByteSourceConfig::backoff_most_s, "longest wait between attempts to connect")
       .unit("s")
       .range(0.01, 600);
+}
+
+}  // namespace
+
+void describe(Schema<InstrumentPort>& s) {
+  describe_source(s);
+}
+
+void describe(Schema<ByteSourceConfig>& s) {
+  describe_source(s);
   s.check([](const ByteSourceConfig& c) -> Violation {
     const bool by_path = c.type == SourceType::serial || c.type == SourceType::file;
     if (by_path && c.path.empty()) return {"path", "a path, because the type is serial or file"};

@@ -237,9 +237,13 @@ requires is_described<M> nlohmann::json described_schema() {
 /// Reads the file, applies the overrides, checks everything. Throws ConfigError.
 template <class T>
 [[nodiscard]] T load(const LoadRequest& request) {
-  const nlohmann::json json = read_json(request);
+  const Document document = read_document(request);
   T out{};
-  schema_of<T>().load(json, out, Place{request.file, ""});
+  try {
+    schema_of<T>().load(document.value, out, Place{document.file, ""});
+  } catch (const ConfigError& error) {
+    document.fail(error);
+  }
   return out;
 }
 
@@ -270,8 +274,10 @@ template <class T>
 /// The entry of a file kind for registry.cpp; call it in that kind's *_config.cpp.
 template <class T>
 [[nodiscard]] ConfigKind make_kind(std::string_view name) {
-  return {name, [] { return schema_text<T>("fathom"); },
-          [](const LoadRequest& request) { (void)load<T>(request); }, rows_of<T>};
+  ConfigKind kind{name, [] { return schema_text<T>("fathom"); },
+                  [](const LoadRequest& request) { (void)load<T>(request); }, rows_of<T>};
+  kind.effective = [](const LoadRequest& request) { return canonical(load<T>(request)); };
+  return kind;
 }
 
 }  // namespace fathom::config

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -36,14 +37,24 @@ struct Place {
   [[noreturn]] void fail_missing(const std::string& sentence) const;
 };
 
+/// The base of a request, its file and its overrides as one; who said what stands in `layers`.
+struct Document {
+  nlohmann::json value;
+  std::string file;
+  std::shared_ptr<const Layers> layers;
+
+  /// The same error about the file and the key that the value came from.
+  [[noreturn]] void fail(const ConfigError& error) const;
+};
+/// Throws ConfigError.
+[[nodiscard]] Document read_document(const LoadRequest& request);
+
 template <class M>
 inline constexpr bool is_number = std::is_arithmetic_v<M> && !std::is_same_v<M, bool>;
 template <class M>
 inline constexpr bool is_text = std::is_same_v<M, std::string> || std::is_same_v<M, Name>;
 template <class M>
 inline constexpr bool is_described = std::is_class_v<M> && !is_text<M> && std::is_same_v<M, Leaf<M>>;
-
-[[nodiscard]] nlohmann::json read_json(const LoadRequest& request);
 
 // What does not depend on the type, compiled once.
 /// The number, checked; NaN for null where that is allowed.

@@ -26,18 +26,39 @@ json source_of(const sim::LinkConfig& link, const Wiring& wiring) {
   return {{"type", "udp"}, {"address", link.address}, {"port", link.port + wiring.port_offset}};
 }
 
-// Devices with UTC are trusted, counters are tracked, the rest is known by its latency.
-json time_of(const sim::SensorCommon& sensor) {
+std::string_view protocol_of(const sim::SensorCommon& sensor) {
   const codec::Protocol* protocol = codec::find_protocol(sensor.protocol);
-  const std::string_view name = protocol == nullptr ? std::string_view{} : protocol->name;
-  if (name == "vectornav" || name == "pd0" || name == "waterlinked") {
-    return {{"mode", "device_clock"}, {"minimum_latency_s", sensor.latency_s}};
-  }
-  if (name == "ubx" || name == "psimssb") return {{"mode", "device_utc"}};
-  return {{"mode", "arrival"}, {"latency_s", sensor.latency_s + 0.5 * sensor.jitter_s}};
+  return protocol == nullptr ? std::string_view{} : protocol->name;
+}
+
+// Devices with UTC are trusted, counters are tracked, the rest is known by its latency.
+bool has_counter(const sim::SensorCommon& sensor) {
+  const std::string_view name = protocol_of(sensor);
+  return name == "vectornav" || name == "pd0" || name == "waterlinked";
+}
+bool has_utc(const sim::SensorCommon& sensor) {
+  const std::string_view name = protocol_of(sensor);
+  return name == "ubx" || name == "psimssb";
+}
+
+json time_of(const sim::SensorCommon& sensor) {
+  const double latency_s = latency_of(sensor, false);
+  if (has_counter(sensor)) return {{"mode", "device_clock"}, {"minimum_latency_s", latency_s}};
+  if (has_utc(sensor)) return {{"mode", "device_utc"}};
+  return {{"mode", "arrival"}, {"latency_s", latency_s}};
 }
 
 }  // namespace
+
+json port_of(const sim::SensorCommon& sensor, const Wiring& wiring) {
+  return source_of(sensor.link, wiring);
+}
+
+double latency_of(const sim::SensorCommon& sensor, bool says_utc) {
+  if (has_counter(sensor)) return sensor.latency_s;
+  if (says_utc || has_utc(sensor)) return 0.0;
+  return sensor.latency_s + 0.5 * sensor.jitter_s;
+}
 
 std::map<std::string, std::vector<std::string>> service_overrides(const sim::Scenario& scenario,
                                                                   const Wiring& wiring) {

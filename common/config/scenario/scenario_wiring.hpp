@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "sim/scenario.hpp"
 
 namespace fathom::config {
@@ -12,6 +14,12 @@ struct Wiring {
   std::string link_dir = "/tmp/fathom/devices";  ///< as the simulator's
   int port_offset = 0;                           ///< as the simulator's
 };
+
+/// The bridge's end of a simulated device's link.
+[[nodiscard]] nlohmann::json port_of(const sim::SensorCommon& sensor, const Wiring& wiring);
+/// From validity to arrival, as a bridge of this instrument counts it: of the quickest frame where the device
+/// has a counter, of the mean one where nothing but the arrival is known, 0 where the frame says its UTC.
+[[nodiscard]] double latency_of(const sim::SensorCommon& sensor, bool says_utc);
 
 /// What each service has to be told by --set so that it fits a simulated vehicle: bridges get source,
 /// protocol, rate and time mode of their first instrument from the scenario's devices; then come the

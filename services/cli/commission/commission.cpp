@@ -19,6 +19,7 @@
 #include "cli/log.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/json/error.hpp"
+#include "config/vehicle/vehicle_config.hpp"
 #include "dataset/dataset.hpp"
 
 namespace fathom::cli {
@@ -31,6 +32,7 @@ using commission::Severity;
 struct CommissionOptions {
   std::string log;
   std::string config;
+  std::string vehicle;
   std::vector<std::string> sets;
   std::string page;
   bool json = false;
@@ -81,11 +83,15 @@ void print(const commission::Commissioning& found) {
 }
 
 // Written beside the old one and checked before it takes its place.
-void replace_file(const std::string& path, const Json& config) {
+void replace_file(const std::string& path, const Json& config, bool vehicle) {
   const std::string beside = path + ".commissioned";
   write_text(beside, config.dump(2) + "\n");
   try {
-    (void)config::load_service_config<config::FusionConfig>({beside, {}});
+    if (vehicle) {
+      config::vehicle_kind().check({beside, {}});
+    } else {
+      (void)config::load_service_config<config::FusionConfig>({beside, {}});
+    }
   } catch (const config::ConfigError& error) {
     std::filesystem::remove(beside);
     throw Failure(ExitCode::runtime_failure,
@@ -97,19 +103,27 @@ void replace_file(const std::string& path, const Json& config) {
 }
 
 ExitCode run_commission(const CommissionOptions& options) {
-  if (options.apply && options.config.empty())
+  const bool of_vehicle = !options.vehicle.empty();
+  const std::string& corrected = of_vehicle ? options.vehicle : options.config;
+  if (of_vehicle && !options.config.empty())
+    throw Failure(
+        ExitCode::bad_configuration,
+        "commission: --vehicle and --config are both given, expected one: the file that is corrected");
+  if (options.apply && corrected.empty())
     throw Failure(ExitCode::bad_configuration,
-                  "commission: --apply needs --config: the file that it corrects");
+                  "commission: --apply needs --vehicle or --config: the file that it corrects");
   commission::Assumed assumed;
   Json config = Json::object();
   dataset::Dataset data;
-  if (!options.config.empty() || is_recording(options.log)) {
+  if (!corrected.empty() || is_recording(options.log)) {
     const config::LoadedConfig<config::FusionConfig> loaded =
-        configuration_for(options.log, options.config, options.sets);
+        of_vehicle ? config::load_service_config<config::FusionConfig>(
+                         config::with_vehicle({"", options.sets}, options.vehicle, "fusion"))
+                   : configuration_for(options.log, {"", options.config}, options.sets);
     assumed = assumed_by(loaded.value);
     data = read_log(options.log, loaded.value);
-    if (!options.config.empty()) {
-      std::ifstream file(options.config, std::ios::binary);
+    if (!corrected.empty()) {
+      std::ifstream file(corrected, std::ios::binary);
       config = Json::parse(file);
     }
   } else {
@@ -121,8 +135,9 @@ ExitCode run_commission(const CommissionOptions& options) {
                   options.log + "/imu.csv: " + std::to_string(imu.size()) +
                       " inertial samples, expected at least a hundred over five seconds");
   const commission::Commissioning found = commission::commission(data, assumed);
-  const std::vector<Change> changes =
-      options.config.empty() ? std::vector<Change>{} : changes_of(found.patch, config);
+  const std::vector<Change> changes = corrected.empty() ? std::vector<Change>{}
+                                      : of_vehicle      ? vehicle_changes_of(found.patch, config)
+                                                        : changes_of(found.patch, config);
   if (options.json) {
     std::printf("%s\n", json_of(found, changes).dump().c_str());
   } else {
@@ -135,7 +150,7 @@ ExitCode run_commission(const CommissionOptions& options) {
                   change.was.is_null() ? "not set" : change.was.dump().c_str());
   }
   if (!options.page.empty()) write_text(options.page, page_of(found, options.log));
-  if (options.apply && !changes.empty()) replace_file(options.config, patched(config, changes));
+  if (options.apply && !changes.empty()) replace_file(corrected, patched(config, changes), of_vehicle);
   return commission::any_wrong(found.findings) ? ExitCode::no : ExitCode::done;
 }
 
@@ -160,11 +175,13 @@ void add_commission(CLI::App& app, ExitCode& exit_code) {
                       "configuration of fusion that the log is held against; without one: that of a "
                       "recording, else nothing is "
                       "turned or late");
+  command->add_option("--vehicle", options->vehicle,
+                      "file of the vehicle that the log is held against, in place of --config");
   command->add_option("--set", options->sets, "override of the configuration: key.sub=value, may be repeated")
       ->allow_extra_args(false);
   command->add_flag("--json", options->json, "findings as JSON");
   command->add_option("--page", options->page, "write a page of HTML with plots, complete in itself");
-  command->add_flag("--apply", options->apply, "write what was found into the file of --config");
+  command->add_flag("--apply", options->apply, "write what was found into the file of --vehicle or --config");
   command->callback([options, &exit_code] { exit_code = run_commission(*options); });
 }
 

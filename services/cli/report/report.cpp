@@ -20,7 +20,7 @@ namespace {
 
 struct ReportOptions {
   std::string directory;
-  std::string config;
+  ConfigFiles config;
   std::vector<std::string> sets;
   std::string out;
   std::string outages;
@@ -48,7 +48,7 @@ report::Material make(const ReportOptions& options) {
   material.title =
       "Navigation of " + (folder.has_filename() ? folder : folder.parent_path()).filename().string();
   material.source = options.directory;
-  material.config = options.config.empty() ? "its own configuration" : options.config;
+  material.config = options.config.text();
   material.config_hash = loaded.hash;
   material.version = "fathom " + std::string(runtime::version());
   return material;
@@ -69,7 +69,9 @@ void add_report(CLI::App& app, ExitCode& exit_code) {
       "and is readable by day, by night and on paper.");
   command->add_option("directory", options->directory, "data set, or a recording (.mcap), as of fathom solve")
       ->required();
-  command->add_option("--config", options->config,
+  command->add_option("--vehicle", options->config.vehicle,
+                      "file of the vehicle: fusion as it would run there");
+  command->add_option("--config", options->config.own,
                       "configuration of the fusion service; of a recording without it: its own");
   command->add_option("--set", options->sets, "override: key.sub=value, may be repeated")
       ->allow_extra_args(false);

@@ -34,7 +34,7 @@ namespace {
 
 struct SolveOptions {
   std::string directory;
-  std::string config;
+  ConfigFiles config;
   std::vector<std::string> sets;
   std::string out;
   std::string metrics;
@@ -99,16 +99,17 @@ void say_refused(const dataset::AtInstants& at, const std::string& file, TimeNs 
 }
 
 // What a person gave, in one line.
-std::string settings_text(const std::string& config, const std::vector<std::string>& sets,
+std::string settings_text(const ConfigFiles& config, const std::vector<std::string>& sets,
                           const std::vector<std::string>& without) {
-  std::string out = config.empty() ? "its own configuration" : config;
+  std::string out = config.text();
   for (const std::string& set : sets) out += " --set " + set;
   for (const std::string& one : without) out += " --without " + one;
   return out;
 }
 
 report::Comparison compare(const SolveOptions& options) {
-  const std::string& second_config = options.compare_config.empty() ? options.config : options.compare_config;
+  const ConfigFiles second_config =
+      options.compare_config.empty() ? options.config : ConfigFiles{"", options.compare_config};
   const auto first = configuration_for(options.directory, options.config, {});
   const auto second = configuration_for(options.directory, second_config, options.sets);
   const dataset::Dataset data = read_log(options.directory, first.value);
@@ -202,7 +203,7 @@ SolveReport solve(const SolveOptions& options) {
   };
 
   report.dataset = options.directory;
-  report.config = options.config;
+  report.config = options.config.none() ? "" : options.config.text();
   report.config_hash = loaded.hash;
   report.start = solve_run.start ? "reference" : "configured";
   report.smoothed = options.smooth;
@@ -243,7 +244,7 @@ SolveReport solve(const SolveOptions& options) {
   }
   if (!options.calibrate_hydro.empty())
     report.calibration =
-        calibrate_hydro(solve_run, options.directory, options.config, options.calibrate_hydro);
+        calibrate_hydro(solve_run, options.directory, options.config.text(), options.calibrate_hydro);
   return report;
 }
 
@@ -266,7 +267,9 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
       ->add_option("directory", options->directory,
                    "data set: a folder with imu.csv and others, plain or .gz; or a recording, FILE.mcap")
       ->required();
-  command->add_option("--config", options->config,
+  command->add_option("--vehicle", options->config.vehicle,
+                      "file of the vehicle: fusion as it would run there; --config goes over it");
+  command->add_option("--config", options->config.own,
                       "configuration of the fusion service; of a recording: default as it was recorded");
   command->add_option("--set", options->sets, "override: key.sub=value, may be repeated")
       ->allow_extra_args(false);
@@ -310,11 +313,11 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
       ->allow_extra_args(false);
   CLI::Option* other =
       command
-          ->add_option(
-              "--compare", options->compare_config,
-              "solve twice and show both side by side: first as configured, second with this file "
-              "instead of --config and with --set and --without; errors are against the reference or, "
-              "without one, against the smoother")
+          ->add_option("--compare", options->compare_config,
+                       "solve twice and show both side by side: first as configured, second with this file "
+                       "instead of --vehicle and --config, and with --set and --without; errors are against "
+                       "the reference or, "
+                       "without one, against the smoother")
           ->expected(0, 1)
           ->excludes(out)
           ->excludes(at)

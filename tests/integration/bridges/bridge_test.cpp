@@ -395,7 +395,7 @@ TEST(BridgeProcess, BadConfigurationEndsWithOneLineBeforeAnythingStarts) {
   EXPECT_EQ(usage.wait(), 2);
   Process no_file("fathom-imu-bridge", {"--check"}, folder / "no_file");
   EXPECT_EQ(no_file.wait(), 2);
-  EXPECT_EQ(no_file.output(), "fathom-imu-bridge: --config is required; see --help\n");
+  EXPECT_EQ(no_file.output(), "fathom-imu-bridge: --vehicle, --config or --folder is required; see --help\n");
   Process none("fathom-imu-bridge", {"--config", folder / "none.json"}, folder / "none");
   EXPECT_EQ(none.wait(), 2);
 }
