@@ -34,17 +34,20 @@ struct CommandLine {
 [[nodiscard]] std::string to_json(const CommandLine& line);
 [[nodiscard]] std::optional<CommandLine> command_line_from(std::string_view json);
 
-/// What is kept of a service: its command line, its configuration file, the files that this refers to as
-/// parts of itself, its checkpoint. Files that cannot be read, and those of more than 4 MB, are left out; so
-/// is whatever else a configuration names: keys and tokens are nobody's business. The checkpoint is one that
-/// changes.
-///   services/NAME/command.json, .../config.json, .../files/PATH, .../checkpoint
-/// PATH is as the configuration says it, counted from the configuration's folder.
+/// What is kept of a service: its command line, its configuration file, the vehicle's file with the models of
+/// the catalogue that it names, the files that a configuration refers to as parts of itself, its checkpoint.
+/// Files that cannot be read, and those of more than 4 MB, are left out; so is whatever else a configuration
+/// names: keys and tokens are nobody's business. The checkpoint is one that changes.
+///   services/NAME/command.json, .../config.json, .../vehicle.json, .../catalogue/MODEL.json,
+///   .../files/PATH, .../checkpoint
+/// PATH is as the configuration says it, counted from the configuration's folder. `catalogue`: the folder of
+/// models that do not lie beside the vehicle's file.
 [[nodiscard]] std::vector<Enclosure> enclosures_of(const std::string& service, const CommandLine& line,
-                                                   TimeNs now_ns);
+                                                   TimeNs now_ns, const std::string& catalogue = {});
 
-/// Whether an enclosure's name, without services/NAME/, is that of a file that the configuration refers to;
-/// and where that has to lie, counted from the configuration's folder. It is always inside of it.
+/// Whether an enclosure's name, without services/NAME/, is that of the vehicle's file, of a model or of a
+/// file that the configuration refers to; and where that has to lie, counted from the configuration's folder.
+/// It is always inside of it.
 [[nodiscard]] bool is_referred(std::string_view name);
 [[nodiscard]] std::string referred_path(std::string_view name);
 

@@ -57,8 +57,12 @@ struct Process {
 
 struct Tap::Impl {
   Impl(bus::Participant& participant_in, Queue& queue_in, const Clock& clock_in,
-       const std::vector<std::string>& topics, std::string host_in)
-      : participant(participant_in), queue(queue_in), clock(clock_in), host(std::move(host_in)) {
+       const std::vector<std::string>& topics, std::string host_in, std::string catalogue_in)
+      : participant(participant_in),
+        queue(queue_in),
+        clock(clock_in),
+        host(std::move(host_in)),
+        catalogue(std::move(catalogue_in)) {
     for (const bus::TopicInfo& topic : bus::all_topics()) {
       const bool named = std::find(topics.begin(), topics.end(), topic.topic) != topics.end();
       // The engine's state is for those who may take over, unless it is asked for.
@@ -151,13 +155,15 @@ struct Tap::Impl {
     if (!is_new || status.host != host) return;
     const auto line = command_line_of(status.pid);
     if (!line) return;
-    for (Enclosure& one : enclosures_of(status.header.sensor.str(), *line, now_ns)) queue.put(std::move(one));
+    for (Enclosure& one : enclosures_of(status.header.sensor.str(), *line, now_ns, catalogue))
+      queue.put(std::move(one));
   }
 
   bus::Participant& participant;
   Queue& queue;
   const Clock& clock;
   const std::string host;
+  const std::string catalogue;
   std::vector<std::string> refused;
 
   std::mutex mutex;
@@ -169,8 +175,9 @@ struct Tap::Impl {
 };
 
 Tap::Tap(bus::Participant& participant, Queue& queue, const Clock& clock,
-         const std::vector<std::string>& topics, std::string host)
-    : impl_(std::make_unique<Impl>(participant, queue, clock, topics, std::move(host))) {}
+         const std::vector<std::string>& topics, std::string host, std::string catalogue)
+    : impl_(
+          std::make_unique<Impl>(participant, queue, clock, topics, std::move(host), std::move(catalogue))) {}
 Tap::~Tap() = default;
 const std::vector<std::string>& Tap::refused() const {
   return impl_->refused;

@@ -18,9 +18,9 @@ class Tap {
  public:
   /// `topics`: empty: all but the engine's state, which permissions keep to fusion. A topic that cannot be
   /// listened to is left out; refused() says why. `clock` is the vehicle's. All outlive this. `host`: name of
-  /// this host.
+  /// this host; `catalogue`: its folder of models of instruments.
   Tap(bus::Participant& participant, Queue& queue, const Clock& clock, const std::vector<std::string>& topics,
-      std::string host);
+      std::string host, std::string catalogue);
   ~Tap();
   Tap(const Tap&) = delete;
   Tap& operator=(const Tap&) = delete;

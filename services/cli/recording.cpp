@@ -10,6 +10,7 @@
 #include "blackbox/enclosures.hpp"
 #include "bus/topics.hpp"
 #include "cli/command.hpp"
+#include "config/vehicle/vehicle_config.hpp"
 
 namespace fathom::cli {
 
@@ -90,49 +91,77 @@ class Folder {
   fs::path path_;
 };
 
-/// What was enclosed of one service at one time.
+/// What was enclosed of one service at one time, with its command line.
 config::LoadedConfig<config::FusionConfig> load_enclosed(record::Reader& reader, const std::string& file,
                                                          const std::string& folder,
-                                                         const record::AttachmentIndex& config,
+                                                         const record::AttachmentIndex& command,
                                                          const std::vector<std::string>& sets) {
   const auto failed = [&](const std::string& what) {
     return Failure(ExitCode::bad_input,
                    file + ": " + folder + what + ", expected the configuration; give it with --config");
   };
+  const auto content = [&](const record::AttachmentIndex& one) {
+    auto bytes = reader.attachment(one);
+    if (!bytes) throw failed(one.name.substr(folder.size()) + ": " + bytes.error().message);
+    return std::move(bytes.value());
+  };
   Folder files;
-  std::optional<blackbox::CommandLine> line;
+  config::LoadRequest request;
+  std::string vehicle;
   for (const record::AttachmentIndex& one : reader.contents().attachments) {
-    const bool same = one.create_time == config.create_time && one.name.starts_with(folder);
+    const bool same = one.create_time == command.create_time && one.name.starts_with(folder);
     const std::string name = same ? one.name.substr(folder.size()) : "";
-    if (name != "command.json" && !blackbox::is_referred(name)) continue;
-    const auto bytes = reader.attachment(one);
-    if (!bytes) throw failed(name + ": " + bytes.error().message);
-    if (name == "command.json")
-      line = blackbox::command_line_from(record::text_of(bytes.value()));
-    else
-      files.put(blackbox::referred_path(name), bytes.value());
+    if (name == "config.json") {
+      request.file = files.put(name, content(one)).string();
+    } else if (blackbox::is_referred(name)) {
+      const fs::path path = files.put(blackbox::referred_path(name), content(one));
+      if (name == "vehicle.json") vehicle = path.string();
+    }
   }
+  const auto line = blackbox::command_line_from(record::text_of(content(command)));
   if (!line) throw failed("command.json: is no command line");
-  const auto text = reader.attachment(config);
-  if (!text) throw failed("config.json: " + text.error().message);
-  config::LoadRequest request{files.put("config.json", text.value()).string(), line->values_of("--set")};
+  request.sets = line->values_of("--set");
   request.sets.insert(request.sets.end(), sets.begin(), sets.end());
+  if (!vehicle.empty()) request = config::with_vehicle(std::move(request), vehicle, "fusion");
   return config::load_service_config<config::FusionConfig>(request);
 }
 
+/// Command lines of a service beside which its configuration is there.
+std::vector<record::AttachmentIndex> commands_of(const record::Reader& reader, const std::string& folder) {
+  const auto& all = reader.contents().attachments;
+  std::vector<record::AttachmentIndex> out;
+  for (const auto& command : all) {
+    if (command.name != folder + "command.json") continue;
+    const bool configured = std::any_of(all.begin(), all.end(), [&](const auto& one) {
+      return one.create_time == command.create_time &&
+             (one.name == folder + "config.json" || one.name == folder + "vehicle.json");
+    });
+    if (configured) out.push_back(command);
+  }
+  return out;
+}
+
+std::string folder_of(const std::string& service) {
+  return "services/" + service + "/";
+}
+
 }  // namespace
+
+bool holds_configuration(const record::Reader& reader, const std::string& service) {
+  return !commands_of(reader, folder_of(service)).empty();
+}
 
 config::LoadedConfig<config::FusionConfig> recorded_configuration(record::Reader& reader,
                                                                   const std::string& file,
                                                                   const std::string& service,
                                                                   const std::vector<std::string>& sets,
                                                                   const std::string& hash) {
-  const std::string folder = "services/" + service + "/";
-  std::vector<record::AttachmentIndex> all = reader.contents().attachments;
-  std::erase_if(all, [&](const auto& one) { return one.name != folder + "config.json"; });
+  const std::string folder = folder_of(service);
+  const std::vector<record::AttachmentIndex> all = commands_of(reader, folder);
   if (all.empty()) {
-    throw Failure(ExitCode::bad_input, file + ": " + folder + "config.json: is not there, expected the " +
-                                           "configuration of " + service + "; give it with --config");
+    throw Failure(ExitCode::bad_input, file + ": " + folder +
+                                           "config.json or vehicle.json: is not there, expected " +
+                                           "the configuration of " + service + "; give it with --config");
   }
   auto last = load_enclosed(reader, file, folder, all.back(), sets);
   for (std::size_t back = 2; !hash.empty() && last.hash != hash && back <= all.size(); ++back) {

@@ -22,6 +22,9 @@ namespace fathom::cli {
 /// Topics by their full or their short names, e.g. "nav_state". Throws Failure for one that there is not.
 [[nodiscard]] std::vector<std::string> topics_of(const std::vector<std::string>& words);
 
+/// Whether the configuration of a service of this name is enclosed in the recording.
+[[nodiscard]] bool holds_configuration(const record::Reader& reader, const std::string& service);
+
 /// The configuration that a fusion service of this name ran with, as it is enclosed in the recording, with
 /// further overrides behind its own. Of several it is the one of this hash, else the last one. Throws Failure
 /// where it is not there, and config::ConfigError.

@@ -6,6 +6,7 @@
 #include "blackbox/recorder.hpp"
 #include "blackbox/surroundings.hpp"
 #include "blackbox/tap.hpp"
+#include "config/vehicle/catalogue.hpp"
 #include "runtime/build_info.hpp"
 
 namespace fathom::recorder {
@@ -54,7 +55,8 @@ struct RecorderService::Impl {
                  [log = &the_host.log()](bool is_trouble, const std::string& line) {
                    log->write(is_trouble ? runtime::LogLevel::warning : runtime::LogLevel::info, line);
                  }),
-        tap(the_host.participant(), recorder.queue(), the_host.clock(), config.topics, runtime::host_name()) {
+        tap(the_host.participant(), recorder.queue(), the_host.clock(), config.topics, runtime::host_name(),
+            config::catalogue_directory()) {
     for (blackbox::Enclosure& one :
          blackbox::qos_profiles(config.common.bus.profiles_dir, the_host.clock().utc_ns()))
       recorder.queue().put(std::move(one));

@@ -87,6 +87,9 @@ std::vector<std::string> catalogue_models() {
 }
 
 std::string catalogue_file(const std::string& model, const std::string& file, const std::string& key) {
+  const fs::path beside = fs::path(file).parent_path() / "catalogue" / (model + ".json");
+  std::error_code failed;
+  if (model.find('/') == std::string::npos && fs::exists(beside, failed)) return beside.string();
   const std::vector<std::string> models = catalogue_models();
   if (std::find(models.begin(), models.end(), model) == models.end()) {
     if (models.empty())

@@ -35,7 +35,8 @@ struct CatalogueEntry {
 [[nodiscard]] std::string catalogue_directory();
 /// Its models, sorted.
 [[nodiscard]] std::vector<std::string> catalogue_models();
-/// The file of a model. Throws ConfigError about `key` of `file`, where the model is named.
+/// The file of a model: in a folder "catalogue" beside `file`, else in the catalogue. Throws ConfigError
+/// about `key` of `file`, where the model is named.
 [[nodiscard]] std::string catalogue_file(const std::string& model, const std::string& file,
                                          const std::string& key);
 /// A file of the catalogue. Throws ConfigError.

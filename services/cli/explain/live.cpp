@@ -35,7 +35,7 @@ class Listener {
   Listener(const LiveOptions& options, const explain::History::Limits& limits)
       : history_(limits, Name(options.vehicle)),
         participant_(options.bus),
-        tap_(participant_, queue_, clock_, explained_topics(), runtime::host_name()) {}
+        tap_(participant_, queue_, clock_, explained_topics(), runtime::host_name(), "") {}
 
   /// The recording that a recorder of this host is writing; nothing as long as none is heard.
   [[nodiscard]] const std::optional<fs::path>& recording() const { return recording_; }

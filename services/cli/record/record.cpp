@@ -18,6 +18,7 @@
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
 #include "cli/recording.hpp"
+#include "config/vehicle/catalogue.hpp"
 #include "record/recover.hpp"
 #include "runtime/build_info.hpp"
 
@@ -80,7 +81,8 @@ ExitCode record(const RecordOptions& options) {
     blackbox::Recorder recorder(keep, clock, [](bool /*is_trouble*/, const std::string& line) {
       std::fprintf(stderr, "fathom: record: %s\n", line.c_str());
     });
-    const blackbox::Tap tap(participant, recorder.queue(), clock, topics, runtime::host_name());
+    const blackbox::Tap tap(participant, recorder.queue(), clock, topics, runtime::host_name(),
+                            config::catalogue_directory());
     for (blackbox::Enclosure& one : blackbox::qos_profiles(options.bus.profiles_dir, clock.utc_ns()))
       recorder.queue().put(std::move(one));
     for (const std::string& line : tap.refused()) std::fprintf(stderr, "fathom: record: %s\n", line.c_str());

@@ -117,7 +117,7 @@ class Verification {
   /// From its beginning, or from the first state of its own that is in the recording.
   void begin(Run& run) {
     for (File& file : files_) {
-      if (!file.reader.attachment("services/" + run.service + "/config.json")) continue;
+      if (!holds_configuration(file.reader, run.service)) continue;
       const auto loaded = recorded_configuration(file.reader, file.name, run.service, {}, run.config_hash);
       const bool exact = run.config_hash.empty() || loaded.hash == run.config_hash;
       if (!exact && &file != &files_.back()) continue;  // it may be in the next file
@@ -130,7 +130,7 @@ class Verification {
     }
     throw Failure(ExitCode::bad_input, name_ + ": the configuration of " + run.service +
                                            " is not in the recording, expected services/" + run.service +
-                                           "/config.json");
+                                           "/config.json or vehicle.json");
   }
 
   /// The recorded states of a run, which others may have gone on from, too.

@@ -1,6 +1,9 @@
 #include "blackbox/enclosures.hpp"
 
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -46,6 +49,41 @@ TEST(Enclosures, HoldConfigurationAndCheckpoint) {
   EXPECT_EQ(blackbox::read_enclosed(all[2].path), (record::Bytes{'b', 'y', 't', 'e', 's'}));
   EXPECT_EQ(blackbox::read_enclosed(folder / "absent"), std::nullopt);
   EXPECT_EQ(blackbox::enclosures_of("fusion", {"x", "/", {"--config", "absent"}}, 5).size(), 1U);
+}
+
+TEST(Enclosures, HoldTheVehiclesFileAndTheModelsThatItNames) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path root(folder.path());
+  std::filesystem::create_directories(root / "etc" / "catalogue");
+  std::filesystem::create_directories(root / "shipped");
+  std::ofstream(root / "etc" / "vehicle.json")
+      << R"({"instruments": [{"model": "a"}, {"model": "b"}, {"model": "a"}, {"model": "../secret"}, {"model": 3}, 4],
+             "services": {"fusion": {"engine": {"vehicle_model": {"coefficients_file": "hull.json"}}}}})";
+  std::ofstream(root / "etc" / "hull.json") << "{}";
+  std::ofstream(root / "etc" / "catalogue" / "a.json") << "own";
+  std::ofstream(root / "shipped" / "a.json") << "shipped";
+  std::ofstream(root / "shipped" / "b.json") << "shipped";
+  std::ofstream(root / "secret.json") << "{}";
+  const CommandLine line{"/usr/bin/fathom-fusion", root.string(), {"--folder", "etc"}};
+  const auto all = blackbox::enclosures_of("fusion", line, 5, (root / "shipped").string());
+  std::vector<std::string> names;
+  for (const auto& one : all) names.push_back(one.name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"services/fusion/command.json", "services/fusion/vehicle.json",
+                                      "services/fusion/catalogue/a.json", "services/fusion/catalogue/b.json",
+                                      "services/fusion/files/hull.json", "services/fusion/checkpoint"}));
+  EXPECT_EQ(record::text_of(all.at(2).data), "own") << "beside the vehicle's file";
+  EXPECT_EQ(all.back().path, "/run/fathom/fusion.checkpoint");
+  std::ofstream(root / "etc" / "fusion.json") << R"({"checkpoint": {"path": "/x"}})";
+  EXPECT_EQ(blackbox::enclosures_of("fusion", line, 5).at(1).name, "services/fusion/config.json");
+  EXPECT_EQ(blackbox::enclosures_of("fusion", line, 5).back().path, "/x");
+  for (const char* name : {"vehicle.json", "catalogue/a.json", "files/hull.json"})
+    EXPECT_TRUE(blackbox::is_referred(name)) << name;
+  for (const char* name :
+       {"config.json", "catalogue/../../a", "files/../a", "files//etc/passwd", "checkpoint"})
+    EXPECT_FALSE(blackbox::is_referred(name)) << name;
+  EXPECT_EQ(blackbox::referred_path("catalogue/a.json"), "catalogue/a.json");
+  EXPECT_EQ(blackbox::referred_path("files/hull.json"), "hull.json");
 }
 
 TEST(Surroundings, TellVersionAndClockOfAProcess) {
