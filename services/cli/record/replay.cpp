@@ -108,7 +108,7 @@ void add_replay(CLI::App& app, ExitCode& exit_code) {
   command->add_flag(
       "--verify", options->verify,
       "publish nothing: prove that states and verdicts follow from the samples, to the last bit");
-  add_bus_options(*command, options->bus, "replay");
+  add_bus_options(*command, options->bus, "cli");
   command->callback(
       [options, &exit_code] { exit_code = options->verify ? verify(options->files) : replay(*options); });
 }
