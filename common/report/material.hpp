@@ -85,6 +85,25 @@ struct Place {
   double longitude_rad = kUnknown;
 };
 
+/// A service of the vehicle, by its life signs in a recording.
+struct ServiceRow {
+  std::string name;
+  std::string host;
+  double first_s = kUnknown;  ///< life sign
+  double last_s = kUnknown;
+  std::size_t processes = 0;       ///< more than one: it was started again
+  double longest_silence_s = 0.0;  ///< between two of them
+  double clock_set_s = 0.0;        ///< the farthest that its host's clock was set
+  bool ended_early = false;        ///< it gave none up to the end
+  std::string complaint;           ///< why it was not healthy; the first one
+};
+
+/// What the vehicle itself tells of the run.
+struct Told {
+  double t_s = 0.0;
+  std::string text;
+};
+
 struct Material {
   std::string title;
   std::string source;
@@ -104,6 +123,8 @@ struct Material {
   std::vector<Source> sources;
   std::vector<Outage> outages;
   std::vector<PhaseChange> phases;
+  std::vector<ServiceRow> services;  ///< of a recording, by name
+  std::vector<Told> told;            ///< of a recording, the likeliest cause first
   /// Rows of each sensor in the data.
   std::map<std::string, std::uint64_t> samples;
 };

@@ -133,6 +133,29 @@ std::string phase_table(const Material& m) {
   return out + "</table>\n";
 }
 
+std::string told_list(const Material& m) {
+  if (m.told.empty())
+    return "<p>Nothing stands out: all that was refused, lost or late belongs to such a run.</p>\n";
+  std::string out = "<ul>\n";
+  for (const Told& one : m.told) out += "<li>" + escaped(brief(one.t_s) + " s: " + one.text) + "</li>\n";
+  return out + "</ul>\n";
+}
+
+std::string service_table(const Material& m) {
+  std::string out =
+      "<table><tr><th>service</th><th>host</th><th>life signs from</th><th>to</th><th>starts</th>"
+      "<th>longest silence</th><th>clock set by</th><th>not healthy</th></tr>\n";
+  for (const ServiceRow& one : m.services) {
+    out += "<tr><td>" + escaped(one.name) + "</td><td>" + escaped(one.host) + "</td><td>" +
+           brief(one.first_s) + " s</td><td>" + brief(one.last_s) + " s" +
+           (one.ended_early ? " (silent since)" : "") + "</td><td>" + std::to_string(one.processes) +
+           "</td><td>" + (one.longest_silence_s > 0.0 ? brief(one.longest_silence_s) + " s" : std::string()) +
+           "</td><td>" + (std::abs(one.clock_set_s) > 1e-3 ? brief(one.clock_set_s) + " s" : std::string()) +
+           "</td><td class=\"words\">" + escaped(one.complaint) + "</td></tr>\n";
+  }
+  return out + "</table>\n";
+}
+
 }  // namespace
 
 std::string page(const Material& m) {
@@ -159,6 +182,10 @@ std::string page(const Material& m) {
   out += section("outages", "Without GPS, and the forecast against what came",
                  outage_table(m) + forecast_plot(m));
   out += section("alignment", "Alignment", phase_table(m) + alignment_plot(m));
+  if (!m.services.empty()) {
+    out += section("told", "What the vehicle itself tells", told_list(m));
+    out += section("services", "Services and clocks", service_table(m));
+  }
   return out + page_end();
 }
 

@@ -10,6 +10,7 @@
 #include "cli/command.hpp"
 #include "cli/log.hpp"
 #include "cli/report/gather.hpp"
+#include "cli/report/recorded.hpp"
 #include "cli/solve/outage.hpp"
 #include "cli/solve/run.hpp"
 #include "report/material.hpp"
@@ -51,6 +52,8 @@ report::Material make(const ReportOptions& options) {
   material.config = options.config.text();
   material.config_hash = loaded.hash;
   material.version = "fathom " + std::string(runtime::version());
+  if (is_recording(options.directory))
+    add_recorded(options.directory, loaded.value.common.vehicle, epoch_ns, material);
   return material;
 }
 
@@ -64,8 +67,8 @@ void add_report(CLI::App& app, ExitCode& exit_code) {
   command->footer(
       "The page says first what to look at, then shows the track, errors against reference.csv where there "
       "is\n"
-      "one, sigmas, innovations, outages with their forecasts, and alignment. It needs nothing from "
-      "elsewhere,\n"
+      "one, sigmas, innovations, outages with their forecasts, and alignment; of a recording also what the "
+      "vehicle\nitself tells, services and clocks. It needs nothing from elsewhere,\n"
       "and is readable by day, by night and on paper.");
   command->add_option("directory", options->directory, "data set, or a recording (.mcap), as of fathom solve")
       ->required();
