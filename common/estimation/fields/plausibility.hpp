@@ -38,6 +38,8 @@ template <class Archive, class Self>
 void Plausibility::fields(Archive& archive, Self& self) {
   archive("finding", self.finding_);
   archive("vouched", self.vouched_);
+  archive("sound", self.sound_);
+  archive("upright", self.upright_);
   archive("down_B", self.down_B_, fathom::archive::finite());
   archive("felt_s", self.felt_s_, fathom::archive::at_least_zero());
   archive("felt_rate_rad_s", self.felt_rate_rad_s_, fathom::archive::at_least_zero());

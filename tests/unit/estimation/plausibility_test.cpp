@@ -254,6 +254,32 @@ TEST(Plausibility, LostSamplesAreNoOtherRateUnlessTheyAreMost) {
   EXPECT_NE(heard(1000.0, [](int) { return true; }).find("1000.0 Hz"), std::string::npos);
 }
 
+/// The sentence after `seconds` with gravity felt along each of these, one after the other.
+std::string felt(const std::vector<std::array<double, 3>>& forces_B_m_s2, double seconds) {
+  FusionEngine engine(config());
+  ImuSample imu;
+  imu.angular_rate_B_rad_s = {0.0, 0.0, 0.0};
+  for (std::size_t k = 0; k < forces_B_m_s2.size(); ++k) {
+    for (int i = 0; i < static_cast<int>(100.0 * seconds); ++i) {
+      imu.specific_force_B_m_s2 = forces_B_m_s2[k];
+      imu.header.stamp_ns = 1'700'000'000 * kNsPerSecond +
+                            from_seconds(static_cast<double>(k) * seconds + 0.01 * static_cast<double>(i));
+      engine.add(imu);
+    }
+  }
+  AlignmentStatus status;
+  engine.fill(status);
+  return implausible(status) == nullptr ? "" : status.advice.data();
+}
+
+TEST(Plausibility, WhoHasBeenUprightMayFlyInvertedAndStandOnHisNose) {
+  EXPECT_NE(felt({{0.0, 0.0, 9.8}}, 10.0), "");
+  EXPECT_NE(felt({{9.8, 0.0, 0.0}}, 10.0), "");
+  EXPECT_EQ(felt({{0.0, 0.0, -9.8}, {0.0, 0.0, 9.8}}, 10.0), "");
+  EXPECT_EQ(felt({{0.0, 0.0, -9.8}, {9.8, 0.0, 0.0}, {0.0, -9.8, 0.0}}, 10.0), "");
+  EXPECT_EQ(felt({{0.0, 0.0, 9.8}, {0.0, 0.0, -9.8}}, 10.0), "") << "put right";
+}
+
 TEST(PairFit, BelievesAnotherFactorOnlyWhereItExplainsWhatTheConfiguredOneDoesNot) {
   sim::Random random(7, "pairs");
   PairFit right;

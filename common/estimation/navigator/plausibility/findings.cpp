@@ -82,6 +82,9 @@ std::string_view to_string(Implausible kind) {
 }
 
 bool Plausibility::judge_force() {
+  // How a unit lies does not change: a vehicle that has been upright once flies loops, or stands on its nose.
+  upright_ = upright_ || upwards_s_ > kHeld_s;
+  if (upright_) return false;
   if (in_g_s_ > kHeld_s) {
     finding_ = {Implausible::force_in_g, 9.80665};
   } else if (downwards_s_ > kHeld_s) {
@@ -92,11 +95,13 @@ bool Plausibility::judge_force() {
     finding_ = {Implausible::force_along_y, 0.0};
   } else {
     // It stands until gravity is felt as it should be.
-    const bool before =
-        finding_.kind >= Implausible::force_in_g && finding_.kind <= Implausible::force_along_y;
-    return before && upwards_s_ < kHeld_s;
+    return finding_.kind >= Implausible::force_in_g && finding_.kind <= Implausible::force_along_y;
   }
   return true;
+}
+
+double Plausibility::off(const Setup& setup, double count) const {
+  return std::abs(count / (interval_s_ * setup.config.imu.nominal_rate_hz) - 1.0);
 }
 
 void Plausibility::judge(const Setup& setup) {
@@ -109,13 +114,14 @@ void Plausibility::judge(const Setup& setup) {
     return;
   }
   const double rate_hz = interval_s_ > 0.0 ? intervals_ / interval_s_ : 0.0;
-  const double nominal_hz = setup.config.imu.nominal_rate_hz;
-  const auto off = [&](double count) { return std::abs(count / (interval_s_ * nominal_hz) - 1.0); };
+  const double by_intervals = off(setup, intervals_);
   if (interval_s_ > kHeard_s && intervals_ > kFewestIntervals &&
-      (off(intervals_) > kRateLost || (off(intervals_) > kRateShare && off(slots_) > kRateShare))) {
+      (by_intervals > kRateLost || (by_intervals > kRateShare && off(setup, slots_) > kRateShare))) {
     finding_ = {Implausible::imu_rate, rate_hz};
     return;
   }
+  // What is as it should be needs no more time; what is not has the time to be found out.
+  sound_ = sound_ || (upwards_s_ > 0.0 && by_intervals < kRateShare);
   judge_turns(compass_.fit, best);
   judge_turns(course_.fit, best);
   if (const auto other = axes_.other(); other.evidence > best.evidence)

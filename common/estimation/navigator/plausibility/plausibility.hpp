@@ -65,7 +65,9 @@ class Plausibility {
   [[nodiscard]] const PlausibilityFinding& finding() const { return finding_; }
   /// What gravity and the clock tell of the inertial unit, whether it moves or not, has been heard.
   [[nodiscard]] bool has_heard() const { return unheard_s() <= 0.0; }
-  [[nodiscard]] double unheard_s() const { return vouched_ ? 0.0 : std::max(0.0, kHeard_s - interval_s_); }
+  [[nodiscard]] double unheard_s() const {
+    return vouched_ || sound_ ? 0.0 : std::max(0.0, kHeard_s - interval_s_);
+  }
   /// The attitude is another's, who has heard.
   void vouch() { vouched_ = true; }
 
@@ -124,11 +126,15 @@ class Plausibility {
   void follow(const SensorConfig& config, const GpsSample& gps, const Eigen::Vector2d& v_N_m_s,
               double noise_m_s, TimeNs now_ns);
   void judge(const Setup& setup);
+  /// By how much of itself a count of samples is another one than the configured rate gives.
+  [[nodiscard]] double off(const Setup& setup, double count) const;
   /// What gravity alone says, and whether that says that nothing else can be judged.
   [[nodiscard]] bool judge_force();
 
   PlausibilityFinding finding_;
   bool vouched_ = false;
+  bool upright_ = false;  ///< gravity was felt upwards for seconds
+  bool sound_ = false;    ///< gravity was felt upwards, at the rate that is configured
   Eigen::Vector3d down_B_ = Eigen::Vector3d::Zero();  ///< against the smoothed force; zero: none yet
   double felt_s_ = 0.0;
   double felt_rate_rad_s_ = 0.0;

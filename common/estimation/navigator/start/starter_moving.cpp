@@ -23,11 +23,10 @@ constexpr double kSameMotion_s = 0.5;
 constexpr double kGain_m_s2 = 0.2;
 
 /// (ALN-6): the errors of velocity and attitude have causes in common. The filter's velocity error is the
-/// estimate less the truth (KF-4), that of the start the truth less what was found: `sign` is -1. Starts
-/// whose heading does not hang on the velocity still take it as 1, as long as they are to stay as they were.
-void correlate_moving(const Setup& setup, const MovingStart& start, double sign, ErrorFilter& filter) {
+/// estimate less the truth (KF-4), that of the start the truth less what was found.
+void correlate_moving(const Setup& setup, const MovingStart& start, ErrorFilter& filter) {
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) filter.set(3 + i, 6 + k, sign * start.P_vp(i, k));
+    for (int k = 0; k < 3; ++k) filter.set(3 + i, 6 + k, -start.P_vp(i, k));
     for (int k = 0; k <= i; ++k) {
       filter.set(3 + i, 3 + k, start.P_vv(i, k));
       filter.set(6 + i, 6 + k, start.P_pp(i, k));
@@ -184,7 +183,7 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   start.nav.v_N_m_s = found->v_N_m_s;
   start.nav.position = geo::moved_by(gps_position_, in.estimate.since(gps_seen_ns_) * found->v_N_m_s);
   begin(in, start, setup.initial_sigma, estimate);
-  correlate_moving(setup, *found, inputs.joint_course ? -1.0 : 1.0, estimate.filter);
+  correlate_moving(setup, *found, estimate.filter);
   if (by_dvl) correlate_dvl(setup, *found, estimate.filter);
   return true;
 }
