@@ -219,7 +219,7 @@ struct AlignmentConfig {
   double tilt_sigma_floor_rad = 2e-3;
   double compass_sigma_rad = 0.026;
   double gyrocompass_limit_rad = 0.09;
-  double in_motion_speed_m_s = 3.0;
+  double in_motion_speed_m_s = 0.0;
   double in_motion_heading_sigma_rad = 0.17;
   double in_motion_tilt_sigma_rad = 0.09;
   double in_motion_averaging_s = 2.0;

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "samples/alignment/help.hpp"
 #include "samples/uncertainty.hpp"
 #include "status/judgement.hpp"
 
@@ -60,7 +61,8 @@ json alignment(const StatusView& view) {
                           {"limit", number(condition.limit)},
                           {"held_s", number(condition.held_s)},
                           {"needed_s", number(condition.needed_s)},
-                          {"met", condition.met}});
+                          {"met", condition.met},
+                          {"help", condition.met ? std::string_view() : help_of(condition)}});
   }
   return {{"phase", to_string(status.phase)},
           {"in_phase_s", number(status.in_phase_s)},

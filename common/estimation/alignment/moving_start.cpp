@@ -67,7 +67,7 @@ std::optional<MovingStart> start_moving(const VelocityWindow& window, const Movi
   if (!felt.allFinite() || felt.norm() < kLeastForce_m_s2) return std::nullopt;
   const Matrix3d C_S_now = geo::to_matrix(window.now().q_start_now);
   const Matrix3d C_S_last = geo::to_matrix(last.span.q_start_now);
-  const Vector3d forward_start = in.heading_rad ? C_S_now.col(0) : C_S_last.col(0);
+  const Vector3d forward_start = in.heading_rad ? Vector3d(C_S_now.col(0)) : C_S_last * in.course_axis_B;
 
   // The antenna's velocity about the inertial unit depends on the attitude: twice is enough.
   Matrix3d C_NS = Matrix3d::Identity();
@@ -117,8 +117,15 @@ std::optional<MovingStart> start_moving(const VelocityWindow& window, const Movi
   out.by_accel_bias = keep * level * C_NS * last.span.by_accel_bias / t_s;
   out.by_gyro_bias =
       keep * (level * C_NS * last.span.dv_by_gyro_bias / t_s - C_NS * window.now().turn_by_bias);
-  const Matrix3d by_last = -keep * level / t_s;
+  Matrix3d by_last = -keep * level / t_s;
+  const Matrix3d by_first = -by_last;
   const Vector3d by_heading = -up / yaw_by_turn;
+  const bool joint = in.joint_course && !in.heading_rad;
+  if (joint) {
+    // A velocity that is wrong across the course turns it.
+    const double speed2 = v_last.head<2>().squaredNorm();
+    by_last += by_heading * RowVector3d(-v_last.y() / speed2, v_last.x() / speed2, 0.0);
+  }
 
   // The force must be as long as it was felt.
   const double strange = std::abs(felt.norm() - up_N_m_s2.norm());
@@ -128,14 +135,19 @@ std::optional<MovingStart> start_moving(const VelocityWindow& window, const Movi
   const double force_variance = in.force_sigma_m_s2 * in.force_sigma_m_s2 + unexplained * unexplained;
 
   double heading_variance = in.heading_sigma_rad * in.heading_sigma_rad;
-  if (!in.heading_rad) heading_variance += variance.head<2>().maxCoeff() / v_last.head<2>().squaredNorm();
+  if (!in.heading_rad && !joint)
+    heading_variance += variance.head<2>().maxCoeff() / v_last.head<2>().squaredNorm();
   const Matrix3d tilting = keep * level;
   out.P_vv = variance.asDiagonal();
   // v true = v found - e where the last velocity is wrong by e.
   out.P_vp = -(variance.asDiagonal() * by_last.transpose());
-  out.P_pp = by_last * (variance + first_variance).asDiagonal() * by_last.transpose() +
-             force_variance * tilting * tilting.transpose() +
+  const Matrix3d by_velocities =
+      joint ? Matrix3d(by_last * variance.asDiagonal() * by_last.transpose() +
+                       by_first * first_variance.asDiagonal() * by_first.transpose())
+            : Matrix3d(by_last * (variance + first_variance).asDiagonal() * by_last.transpose());
+  out.P_pp = by_velocities + force_variance * tilting * tilting.transpose() +
              heading_variance * by_heading * by_heading.transpose();
+  out.by_heading = by_heading;
   out.mean_force_B_m_s2 = C_S_now.transpose() * felt;
   out.mean_rate_B_rad_s = geo::log(last.span.q_start_now) / t_s;
   return out;

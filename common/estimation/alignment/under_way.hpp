@@ -15,6 +15,8 @@ struct UnderWay {
   bool two_antenna = false;  ///< the heading is that of two GPS antennas
   TimeNs dvl_ns = 0;
   Eigen::Vector3d dvl_velocity_B_m_s = Eigen::Vector3d::Zero();  ///< over ground
+  Eigen::Vector3d dvl_lever_B_m = Eigen::Vector3d::Zero();
+  double dvl_sigma_m_s = kUnknown;
   TimeNs usbl_ns = 0;
   double usbl_latitude_rad = kUnknown;
   double usbl_longitude_rad = kUnknown;

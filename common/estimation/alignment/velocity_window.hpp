@@ -45,6 +45,8 @@ class VelocityWindow {
   [[nodiscard]] const VelocityMark* middle() const { return has_middle_ ? &middle_ : nullptr; }
   [[nodiscard]] const VelocityMark& last() const { return last_; }
   [[nodiscard]] const InertialSpan& now() const { return now_; }
+  /// Of the velocity that was measured last; zero before the first.
+  [[nodiscard]] const Eigen::Vector3d& newest_sigma_m_s() const { return pending_sigma_m_s_; }
 
   template <class Self, class Visit>
   static void for_each_instant(Self& self, Visit&& visit) {

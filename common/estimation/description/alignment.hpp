@@ -56,10 +56,12 @@ void describe(Walk<AlignmentConfig>& s) {
       .unit("deg")
       .range(1e-3, 180)
       .scaled(kRadPerDeg);
-  s.field("in_motion_speed_m_s", &C::in_motion_speed_m_s,
-          "the course over ground is a heading above this speed")
+  s.field(
+       "in_motion_speed_m_s", &C::in_motion_speed_m_s,
+       "above this speed the course over ground is a heading within in_motion_heading_sigma_deg; 0: at any "
+       "speed at which that, the current's sigma and the noise of GPS over the speed leave 17 degrees")
       .unit("m/s")
-      .range(0.1, 1000);
+      .range(0, 1000);
   s.field("in_motion_heading_sigma_deg", &C::in_motion_heading_sigma_rad,
           "uncertainty of a heading taken from the course: how far the vehicle may crab")
       .unit("deg")

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "estimation/engine/output.hpp"
+#include "samples/alignment/help.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -45,11 +46,12 @@ const char* advice(const StartConditions& c, const Navigator& navigator, const A
     return "The heading was lost too: surface and run straight with GPS, or give a state to start from.";
   if (config.mode == StartMode::in_motion || config.mode == StartMode::air_drop)
     return "Move straight with a GPS fix until the course is steady.";
-  if (!c.slow) return "Stop the vehicle, or let it run straight with GPS.";
+  if (!c.slow) return "Run faster and straight with GPS, or give a compass or a DVL, or stop the vehicle.";
   if (!c.quiet) return "Keep the vehicle quiet: it moves too much to be levelled.";
   if (!c.window_full) return "Keep the vehicle quiet.";
   if (!c.position) return "A position is missing: wait for a GPS fix or set one.";
-  if (!c.heading) return "A heading is missing: check the compass or give one.";
+  if (!c.heading)
+    return "A heading is missing: run straight with GPS (and DVL), check the compass or give one.";
   return "The gyro is not good enough to find north: give a heading.";
 }
 
@@ -184,10 +186,12 @@ void fill_navigating(const Navigator& navigator, const EngineConfig& engine, con
   sigma_condition("roll_sigma_rad", sigma.x(), engine.aligned_tilt_sigma_rad());
   sigma_condition("pitch_sigma_rad", sigma.y(), engine.aligned_tilt_sigma_rad());
   sigma_condition("yaw_sigma_rad", sigma.z(), config.aligned_heading_sigma_rad);
+  const double unheard = navigator.unheard_s();
+  if (unheard > 0.0) add_condition(out, "imu_unjudged_s", unheard, 0.0, false);
   if (navigator.alignment().phase == AlignmentPhase::aligned) {
     out.time_to_aligned_s = 0.0;
   } else if (navigator.alignment().hold_since_ns != 0) {
-    out.time_to_aligned_s = std::max(0.0, config.aligned_hold_s - held);
+    out.time_to_aligned_s = std::max(unheard, config.aligned_hold_s - held);
   }
 }
 
@@ -205,9 +209,12 @@ void fill_waiting(const Navigator& navigator, const AlignmentConfig& config, con
                  window.force_spread_m_s2() <= config.force_spread_m_s2);
   rest_condition("gps_speed_m_s", navigator.starter().gps_speed_m_s(), config.max_speed_m_s, c.slow);
   add_condition(out, "heading_known", c.heading ? 1.0 : 0.0, 1.0, c.heading);
+  const double course = navigator.course_sigma_rad();
+  add_condition(out, "course_sigma_rad", course, kCoarsestHeading_rad, course <= kCoarsestHeading_rad);
   add_condition(out, "position_known", c.position ? 1.0 : 0.0, 1.0, c.position);
   if (c.quiet && c.slow && c.heading && c.position)
-    out.time_to_aligned_s = std::max(0.0, config.averaging_s - held) + config.aligned_hold_s;
+    out.time_to_aligned_s =
+        std::max(navigator.unheard_s(), std::max(0.0, config.averaging_s - held) + config.aligned_hold_s);
 }
 
 }  // namespace
@@ -229,6 +236,13 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
     fill_navigating(navigator, setup.config, sigma, out);
   } else if (!navigator.waits_for_state()) {
     fill_waiting(navigator, config, c, out);
+  }
+  if (const PlausibilityFinding& finding = navigator.implausible()) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%s%s", kImplausiblePrefix.data(), to_string(finding.kind).data());
+    add_condition(out, name, finding.value, kUnknown, false);
+    write_sentence(finding, setup.config.imu.nominal_rate_hz, out.advice);
+    return;
   }
   write(out.advice, "%s", advice(c, navigator, config, sigma));
 }

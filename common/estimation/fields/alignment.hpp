@@ -88,6 +88,9 @@ void fields(Archive& archive, Self& self) {
   archive("usbl_depth_m", self.usbl_depth_m, kOrUnknown);
   archive("usbl_sigma_m", self.usbl_sigma_m, fathom::archive::or_unknown(fathom::archive::at_least_zero()));
   archive("usbl_lever_B_m", self.usbl_lever_B_m, fathom::archive::finite());
+  if (!archive.since(6)) return;
+  archive("dvl_lever_B_m", self.dvl_lever_B_m, fathom::archive::finite());
+  archive("dvl_sigma_m_s", self.dvl_sigma_m_s, fathom::archive::or_unknown(fathom::archive::at_least_zero()));
 }
 
 template <class Archive, class Self>

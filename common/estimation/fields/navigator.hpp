@@ -2,6 +2,7 @@
 
 #include "estimation/fields/alignment.hpp"
 #include "estimation/fields/filter.hpp"
+#include "estimation/fields/plausibility.hpp"
 #include "estimation/navigator/navigator.hpp"
 
 /// Fields of the navigator and of what it remembers.
@@ -197,6 +198,7 @@ void Navigator::fields(Archive& archive, Self& self) {
     Estimate::later_fields(archive, self.estimate_);
     Starter::later_fields(archive, self.starter_);
   }
+  if (archive.since(6)) archive("plausibility", self.plausibility_);
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

@@ -94,6 +94,7 @@ bool Navigator::admit(Trial& trial) {
   if (trial.config.use_sample_sigma && !sound_sigmas(measurement.sample))
     return trial.end(VerdictKind::out_of_range);
   starter_.collect(*setup_, estimate_, measurement);
+  plausibility_.measured(*setup_, measurement, estimate_.now_ns);
   trial.drive = model_.drive(*setup_, estimate_, measurement);
   if (!estimate_.navigating) return trial.end(VerdictKind::not_aligned);
   if (descent_.aligning()) {

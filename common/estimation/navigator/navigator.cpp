@@ -8,6 +8,7 @@ Navigator::Navigator(const Setup& setup) : setup_(&setup), estimate_(setup), ins
 
 void Navigator::finish(const ImuStep& step) {
   if (step.gap_s > 0.0) finish_gap(step.gap_s);
+  plausibility_.add(*setup_, step, estimate_.now_ns);
   if (!estimate_.navigating) {
     align(step);
     return;
@@ -18,7 +19,7 @@ void Navigator::finish(const ImuStep& step) {
   }
   if (setup_->velocity_model) model_.predict(*setup_, step, estimate_);
   if (constraints_.apply(*setup_, step, estimate_)) usage_.velocity_used_ns = estimate_.now_ns;
-  alignment_.judge(setup_->config, rpy_sigma_rad(), estimate_.now_ns);
+  alignment_.judge(setup_->config, rpy_sigma_rad(), plausible(), estimate_.now_ns);
 }
 
 void Navigator::finish_gap(double gap_s) {
@@ -38,6 +39,13 @@ void Navigator::align(const ImuStep& step) {
     alignment_.waiting_since_ns = estimate_.now_ns;
   }
   if (waits_for_state() || step.increments.dt_s <= 0.0) return;
+  if (plausibility_.finding()) {
+    starter_.interrupt();
+    alignment_.enter(alignment_.is_late(setup_->config, estimate_.now_ns) ? AlignmentPhase::timed_out
+                                                                          : AlignmentPhase::waiting,
+                     estimate_.now_ns);
+    return;
+  }
   if (!starter_.align(start_inputs(), descent_.released(), step, estimate_, alignment_)) return;
   model_.stop();
   ordered_.is_set = false;
@@ -81,6 +89,7 @@ void Navigator::realign() {
     return;
   }
   lose_attitude();
+  plausibility_.forget();
   alignment_.enter(AlignmentPhase::waiting, estimate_.now_ns);
 }
 
@@ -106,6 +115,7 @@ void Navigator::start(const InitialState& initial, TimeNs now_ns) {
   if (setup_->config.alignment.mode == StartMode::air_drop) {
     descent_.start(*setup_, initial, estimate_, alignment_);
   } else {
+    plausibility_.vouch();
     alignment_.enter(AlignmentPhase::fine, estimate_.now_ns);
   }
 }
@@ -122,6 +132,7 @@ void Navigator::rebase(TimeNs now_ns, double unobserved_s) {
   AlignmentWatch::for_each_instant(alignment_, move);
   Starter::for_each_instant(starter_, move);
   OrderedPosition::for_each_instant(ordered_, move);
+  Plausibility::for_each_instant(plausibility_, move);
   Instruments::for_each(instruments_, [&](Instrument& one) {
     Instrument::for_each_instant(one, move);
     one.stamp_ns = 0;
@@ -144,6 +155,7 @@ bool Navigator::remembers_the_past_only() const {
   AlignmentWatch::for_each_instant(alignment_, hold);
   Starter::for_each_instant(starter_, hold);
   OrderedPosition::for_each_instant(ordered_, hold);
+  Plausibility::for_each_instant(plausibility_, hold);
   Instruments::for_each(instruments_,
                         [&](const Instrument& one) { Instrument::for_each_instant(one, hold); });
   return past;

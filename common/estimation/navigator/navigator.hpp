@@ -4,6 +4,7 @@
 #include "estimation/navigator/estimate.hpp"
 #include "estimation/navigator/instruments.hpp"
 #include "estimation/navigator/model_aiding.hpp"
+#include "estimation/navigator/plausibility/plausibility.hpp"
 #include "estimation/navigator/reacquisition.hpp"
 #include "estimation/navigator/start/alignment_watch.hpp"
 #include "estimation/navigator/start/descent.hpp"
@@ -57,6 +58,15 @@ class Navigator {
 
   [[nodiscard]] const AlignmentWatch& alignment() const { return alignment_; }
   [[nodiscard]] const Starter& starter() const { return starter_; }
+  /// What cannot be right; nothing aligns while there is anything.
+  [[nodiscard]] const PlausibilityFinding& implausible() const { return plausibility_.finding(); }
+  [[nodiscard]] Plausible plausible() const {
+    if (plausibility_.finding()) return Plausible::no;
+    return plausibility_.has_heard() ? Plausible::yes : Plausible::not_heard_enough;
+  }
+  /// For how long the inertial unit has to be heard still; 0: it was.
+  [[nodiscard]] double unheard_s() const { return plausibility_.unheard_s(); }
+  [[nodiscard]] double course_sigma_rad() const { return starter_.course_sigma_rad(start_inputs()); }
   [[nodiscard]] StartConditions conditions() const { return starter_.conditions(start_inputs()); }
   [[nodiscard]] const Descent& descent() const { return descent_; }
   /// Only a state from outside can start it: what the configuration says, and no release has happened yet.
@@ -125,6 +135,7 @@ class Navigator {
   Starter starter_;
   Descent descent_;
   OrderedPosition ordered_;
+  Plausibility plausibility_;
 };
 
 }  // namespace fathom::estimation

@@ -1,8 +1,10 @@
 #include "health/navigation/alignment_watch.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "health/text.hpp"
+#include "samples/alignment/help.hpp"
 
 namespace fathom::health {
 
@@ -38,8 +40,9 @@ std::string AlignmentWatch::unmet() const {
   for (std::size_t i = 0; i < count; ++i) {
     const AlignmentCondition& condition = last_.conditions[i];
     if (!condition.met) {
-      return sentence(", waiting for %s: %.3g, limit %.3g", condition.name.c_str(), condition.value,
-                      condition.limit);
+      const std::string help(help_of(condition));
+      return sentence(", waiting for %s: %.3g, limit %.3g%s%s", condition.name.c_str(), condition.value,
+                      condition.limit, help.empty() ? "" : "; ", help.c_str());
     }
   }
   return "";
@@ -59,6 +62,13 @@ void AlignmentWatch::report(AlarmBook& book, const Instant& now) const {
             .value = waiting_s,
             .limit = config_.limit_s,
             .began_ago_s = waiting_s},
+           now);
+  const AlignmentCondition* wrong = last_known_ ? implausible(last_) : nullptr;
+  book.set(wrong != nullptr,
+           {.key = "implausible",
+            .severity = Severity::critical,
+            .text = std::string(last_.advice.data(), strnlen(last_.advice.data(), last_.advice.size())),
+            .value = wrong != nullptr ? wrong->value : 0.0},
            now);
   const double lost_s = ever_aligned_ && !aligned ? to_seconds(now.monotonic_ns - lost_since_ns_) : 0.0;
   book.set(ever_aligned_ && !aligned,

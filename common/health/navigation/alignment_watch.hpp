@@ -21,7 +21,8 @@ class AlignmentWatch {
   /// The phase of the navigation state counts while such states come. The two topics do not arrive in one
   /// order, and a slightly older status must not look like a lost alignment.
   void add(const NavState& state, const Instant& now);
-  /// Alarms "not_aligned" (for too long, or timed out), "alignment_lost" (after it was aligned).
+  /// Alarms "not_aligned" (for too long, or timed out), "alignment_lost" (after it was aligned),
+  /// "implausible" (an instrument cannot be right: what the advice says).
   void report(AlarmBook& book, const Instant& now) const;
 
   [[nodiscard]] AlignmentPhase phase() const { return phase_; }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "runtime/build_info.hpp"
+#include "samples/alignment/help.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -161,12 +162,16 @@ std::string why_no_position(const SolveReport& report) {
     const AlignmentCondition& one = status.conditions[i];
     if (one.met) continue;
     std::snprintf(text.data(), text.size(), "%s", one.name.str().c_str());
-    if (one.needed_s > 0.0) {  // the others are yes or no
+    if (one.needed_s > 0.0) {  // the others are yes or no, or a figure that is good at once
       std::snprintf(text.data(), text.size(), "%s below %.4g for %.4g s (is %.4g, has been below for %.4g s)",
                     one.name.str().c_str(), one.limit, one.needed_s, one.value, one.held_s);
+    } else if (one.limit != 1.0 && known(one.limit)) {
+      std::snprintf(text.data(), text.size(), "%s below %.4g (is %.4g)", one.name.str().c_str(), one.limit,
+                    one.value);
     }
     out += separator + text.data();
-    separator = " and ";
+    if (const std::string_view help = help_of(one); !help.empty()) out += ": " + std::string(help);
+    separator = "; and ";
   }
   if (status.advice[0] != '\0')
     out += "; " + std::string(status.advice.data(), strnlen(status.advice.data(), status.advice.size()));
@@ -187,6 +192,16 @@ std::string to_json(const SolveReport& report) {
   out["nav_states"] = report.result.nav_states;
   out["positions"] = report.positions;
   out["alignment"] = std::string(to_string(report.alignment));
+  if (!report.smoothed) {
+    out["ever_aligned"] = report.result.ever_aligned;
+    out["implausible"] = json::array();
+    for (const ImplausibleSpan& one : report.result.implausibles)
+      out["implausible"].push_back({{"name", one.name},
+                                    {"text", one.text},
+                                    {"value", number(one.value)},
+                                    {"first_s", one.first_s},
+                                    {"last_s", one.last_s}});
+  }
   out["wall_time_s"] = report.result.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.result));
   out["verdicts"] = verdicts(report.result.verdicts);
@@ -228,6 +243,11 @@ std::string to_text(const SolveReport& report) {
     }
     out += words + "\n";
   }
+  for (const ImplausibleSpan& one : report.result.implausibles)
+    out += one.text + line(" (seen from %.1f s to %.1f s)", one.first_s, one.last_s);
+  if (implausible(report.result.alignment) != nullptr)
+    out += report.result.ever_aligned ? "it is not aligned at the end because of that\n"
+                                      : "it did not align because of that\n";
   if (report.positions == 0) out += why_no_position(report) + "\n";
   const dataset::Score& score = report.score;
   if (score.count > 0) {

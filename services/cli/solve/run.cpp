@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "base/clock.hpp"
@@ -10,8 +11,15 @@
 #include "cli/command.hpp"
 #include "cli/progress.hpp"
 #include "estimation/engine/fusion_engine.hpp"
+#include "samples/alignment/help.hpp"
 
 namespace fathom::cli {
+namespace {
+
+/// Inertial samples from one look at the alignment to the next.
+constexpr std::uint64_t kStatusEvery = 20;
+
+}  // namespace
 
 void SolveResult::add(const Verdict& verdict) {
   if (!verdict.is_final) return;
@@ -77,6 +85,18 @@ std::optional<estimation::InitialState> start_of(const SolveRun& solve_run) {
   return std::nullopt;
 }
 
+void SolveResult::note(const AlignmentStatus& status, double at_s) {
+  const AlignmentCondition* found = implausible(status);
+  if (found == nullptr) return;
+  auto known = std::find_if(implausibles.begin(), implausibles.end(),
+                            [&](const ImplausibleSpan& one) { return one.name == found->name.view(); });
+  if (known == implausibles.end())
+    known = implausibles.insert(known, {std::string(found->name.view()), {}, at_s});
+  known->text.assign(status.advice.data(), strnlen(status.advice.data(), status.advice.size()));
+  known->value = found->value;
+  known->last_s = at_s;
+}
+
 SolveResult run(const SolveRun& solve_run) {
   estimation::FusionEngine engine(config::engine_config(*solve_run.config));
   if (const auto start = start_of(solve_run)) engine.start_from(*start);
@@ -92,12 +112,19 @@ SolveResult run(const SolveRun& solve_run) {
     }
   };
   std::uint64_t done = 0;
+  TimeNs first_ns = 0;
+  bool ever_aligned = false;
   for_each_sample(solve_run, [&](const auto& sample) {
     progress.update(++done);
     if constexpr (std::is_same_v<std::decay_t<decltype(sample)>, ImuSample>) {
       ++result.imu_samples;
       if (engine.add(sample)) {
-        ++result.nav_states;
+        if (result.nav_states++ == 0) first_ns = sample.header.stamp_ns;
+        ever_aligned = ever_aligned || engine.nav_state().alignment == AlignmentPhase::aligned;
+        if (result.nav_states % kStatusEvery == 0) {
+          engine.fill(result.alignment);
+          result.note(result.alignment, to_seconds(sample.header.stamp_ns - first_ns));
+        }
         if (solve_run.on_state) solve_run.on_state(engine.nav_state(), engine);
       }
     } else {
@@ -112,6 +139,7 @@ SolveResult run(const SolveRun& solve_run) {
   engine.fill(detail);
   result.gps_latency_s = gps_latency_s(detail);
   engine.fill(result.alignment);
+  result.ever_aligned = ever_aligned;
   return result;
 }
 

@@ -86,6 +86,16 @@ void for_each_sample(const SolveRun& solve_run, Consumer&& consumer) {
 /// The state that the run or its configuration gives to start from, if any.
 [[nodiscard]] std::optional<estimation::InitialState> start_of(const SolveRun& solve_run);
 
+/// What was not plausible for a while: see samples/alignment/help.hpp. Seconds since the first inertial
+/// sample.
+struct ImplausibleSpan {
+  std::string name;
+  std::string text;  ///< one sentence that says what would make it right
+  double first_s = 0.0;
+  double last_s = 0.0;
+  double value = 0.0;
+};
+
 struct SolveResult {
   VerdictCounts verdicts;
   std::map<std::string, InnovationTally> innovations;  ///< by sensor and model
@@ -95,6 +105,11 @@ struct SolveResult {
   double gps_latency_s = 0.0;  ///< found beyond the configured one, at the end
   AlignmentStatus alignment;   ///< at the end; of the engine only, not of the smoother
 
+  bool ever_aligned = false;
+  std::vector<ImplausibleSpan> implausibles;
+
+  /// Keeps what a status finds implausible.
+  void note(const AlignmentStatus& status, double at_s);
   /// Counts a final verdict; others change nothing.
   void add(const Verdict& verdict);
 };

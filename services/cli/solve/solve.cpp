@@ -28,6 +28,7 @@
 #include "estimation/engine/fusion_engine.hpp"
 #include "report/comparison.hpp"
 #include "runtime/build_info.hpp"
+#include "samples/alignment/help.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -345,7 +346,9 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
     if (!options->metrics.empty()) write_text(options->metrics, to_json(report));
     std::fputs((options->json ? to_json(report) : to_text(report)).c_str(), stdout);
     if (!options->json) std::fputs(report.calibration.c_str(), stdout);
-    if (report.positions == 0) exit_code = ExitCode::no;
+    const bool refused =
+        implausible(report.result.alignment) != nullptr && report.alignment != AlignmentPhase::aligned;
+    if (report.positions == 0 || refused) exit_code = ExitCode::no;
   });
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "health/text.hpp"
+#include "samples/alignment/help.hpp"
 #include "samples/uncertainty.hpp"
 #include "status/judgement.hpp"
 
@@ -222,6 +223,8 @@ class Table {
                 " s");
       }
       put(one);
+      if (const std::string_view help = help_of(condition); !condition.met && !help.empty())
+        put(row("").add("        ").add(help));
     }
     if (status.advice[0] != '\0') put(row("").add(status.advice.data()));
   }

@@ -69,6 +69,7 @@ TEST(CourseHeading, IsFoundInMotionAndAsGoodAsItSays) {
 TEST(CourseHeading, AnAirspeedInAnUnknownWindTellsNothingOfIt) {
   EngineConfig config = RoadRun::config();
   config.alignment.in_motion_heading_sigma_rad = 20.0 * kDeg;
+  config.alignment.in_motion_speed_m_s = 3.0;  // no current of water: the wheels do not crab in the wind
   config.groups.current = true;
   config.states.current_sigma_m_s = 8.0;
   config.sensors.push_back(default_sensor(SourceKind::airspeed, "air0"));

@@ -169,6 +169,36 @@ TEST(MovingStart, BiasesTurnTheAttitudeAsTheJacobiansSay) {
   }
 }
 
+TEST(MovingStart, ACourseThatTurnsWithTheVelocityIsInTheCovarianceToo) {
+  for (const Motion& motion : {straight(), turn(30.0, 0.3)}) {
+    double joint = 0.0;
+    double across = 0.0;  // what a DVL would measure: the velocity in the vehicle, free of the course
+    constexpr int kDraws = 2000;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      MovingStartInputs in = inputs();
+      in.heading_sigma_rad = 1e-3;
+      in.joint_course = true;
+      Errors errors;
+      errors.velocity_m_s = 0.5;
+      const auto start = start_moving(measure(motion, errors, static_cast<std::uint64_t>(draw)), in);
+      ASSERT_TRUE(start);
+      const Vector3d velocity = motion.velocity_N_m_s(end_s()) - start->v_N_m_s;
+      const double course = std::atan2(start->v_N_m_s.y(), start->v_N_m_s.x());
+      const double speed = start->v_N_m_s.head<2>().norm();
+      Eigen::Matrix<double, 2, 1> z(velocity.dot(Vector3d(-std::sin(course), std::cos(course), 0.0)),
+                                    attitude_error(motion, *start).z());
+      across += std::pow(z(0) - speed * z(1), 2) / kDraws;
+      const Vector3d side(-std::sin(course), std::cos(course), 0.0);
+      Eigen::Matrix2d p;
+      const double vp = (side.transpose() * start->P_vp).z();
+      p << side.dot(start->P_vv * side), vp, vp, start->P_pp(2, 2);
+      joint += z.dot(p.ldlt().solve(z)) / kDraws;
+    }
+    EXPECT_LT(joint, 2.2);
+    EXPECT_LT(std::sqrt(across), 0.1);
+  }
+}
+
 TEST(MovingStart, NoiseOfTheVelocitiesIsAllInTheCovariance) {
   // Chi-squared with 3 degrees of freedom: its mean over 2,000 draws has a sigma of 0.055.
   for (const Motion& motion : {straight(), turn(30.0, 0.3)}) {

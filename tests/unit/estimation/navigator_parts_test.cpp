@@ -54,7 +54,7 @@ TEST(AlignmentWatch, IsAlignedAfterTheHoldAndFallsOutAtTwiceTheLimit) {
   AlignmentWatch watch;
   const auto at = [&](double t_s, double tilt_deg, double heading_deg) {
     const Vector3d sigma = kDegree * Vector3d(tilt_deg, tilt_deg, heading_deg);
-    watch.judge(config, sigma, kNow_ns + from_seconds(t_s));
+    watch.judge(config, sigma, Plausible::yes, kNow_ns + from_seconds(t_s));
     return watch.phase;
   };
   EXPECT_EQ(at(0.0, 1.1, 1.0), AlignmentPhase::fine);
@@ -65,6 +65,24 @@ TEST(AlignmentWatch, IsAlignedAfterTheHoldAndFallsOutAtTwiceTheLimit) {
   EXPECT_EQ(at(7.0, 1.9, 3.9), AlignmentPhase::aligned);
   EXPECT_EQ(at(8.0, 1.0, 4.1), AlignmentPhase::fine);
   EXPECT_EQ(watch.hold_since_ns, 0);
+}
+
+TEST(AlignmentWatch, WaitsForWhatGravitySaysToComeInAndFallsOutOfWhatCannotBeRight) {
+  EngineConfig config;
+  config.alignment.aligned_hold_s = 1.0;
+  AlignmentWatch watch;
+  const auto at = [&](double t_s, Plausible plausible) {
+    watch.judge(config, Vector3d::Zero(), plausible, kNow_ns + from_seconds(t_s));
+    return watch.phase;
+  };
+  EXPECT_NE(at(0.0, Plausible::not_heard_enough), AlignmentPhase::aligned);
+  EXPECT_NE(at(4.0, Plausible::not_heard_enough), AlignmentPhase::aligned);
+  EXPECT_EQ(at(5.0, Plausible::yes), AlignmentPhase::aligned);
+  // As one that an older release saved.
+  EXPECT_EQ(at(6.0, Plausible::not_heard_enough), AlignmentPhase::aligned);
+  EXPECT_EQ(at(7.0, Plausible::no), AlignmentPhase::fine);
+  EXPECT_EQ(at(7.5, Plausible::yes), AlignmentPhase::fine);
+  EXPECT_EQ(at(8.5, Plausible::yes), AlignmentPhase::aligned);
 }
 
 TEST(AlignmentWatch, AsksForNoMoreThanTheAccelerometersCanShow) {

@@ -282,6 +282,47 @@ TEST(AlignmentWatch, TooLongTimedOutLostAndRegained) {
   EXPECT_FALSE(alarmed(book, "alignment_lost"));
 }
 
+TEST(AlignmentWatch, WhatCannotBeRightIsAnAlarmWithTheAdviceUntilItIsPutRight) {
+  AlignmentWatch watch{AlignmentWatchConfig{}};
+  AlarmBook book;
+  AlignmentStatus status;
+  status.phase = AlignmentPhase::fine;
+  status.condition_count = 2;
+  status.conditions[0].name = "yaw_sigma_rad";
+  status.conditions[0].met = true;
+  status.conditions[1].name = "implausible_dvl_unit";
+  status.conditions[1].value = 0.001;
+  std::snprintf(status.advice.data(), status.advice.size(), "%s", "DVL velocity is not in m/s.");
+  watch.add(status, at(1.0));
+  watch.report(book, at(1.0));
+  ASSERT_TRUE(alarmed(book, "implausible"));
+  EXPECT_EQ(book.find("implausible")->severity, Severity::critical);
+  EXPECT_EQ(book.find("implausible")->text, "DVL velocity is not in m/s.");
+  EXPECT_EQ(book.find("implausible")->value, 0.001);
+  status.condition_count = 1;
+  watch.add(status, at(2.0));
+  for (double t = 2.0; t < 60.0; t += 1.0) watch.report(book, at(t));
+  EXPECT_FALSE(alarmed(book, "implausible"));
+}
+
+TEST(AlignmentWatch, WhatIsWaitedForIsNamedWithWhatHelps) {
+  AlignmentWatch watch{AlignmentWatchConfig{}};
+  AlarmBook book;
+  AlignmentStatus status;
+  status.phase = AlignmentPhase::waiting;
+  status.condition_count = 1;
+  status.conditions[0].name = "yaw_sigma_rad";
+  status.conditions[0].value = 0.2;
+  status.conditions[0].limit = 0.1;
+  watch.add(status, at(0.0));
+  status.phase = AlignmentPhase::timed_out;
+  watch.add(status, at(1.0));
+  watch.report(book, at(1.0));
+  ASSERT_TRUE(alarmed(book, "not_aligned"));
+  EXPECT_NE(book.find("not_aligned")->text.find("turn by 90 degrees"), std::string::npos)
+      << book.find("not_aligned")->text;
+}
+
 TEST(AlignmentWatch, ALateStatusIsNoLossWhileNavigationStatesCome) {
   AlignmentWatch watch{AlignmentWatchConfig{}};
   AlarmBook book;

@@ -44,7 +44,8 @@ void Starter::collect_gps(const Setup& setup, const Estimate& estimate, const Se
   if (!std::isfinite(v.x()) || !std::isfinite(v.y())) v.head<2>().setConstant(kUnknown);
   const double speed = std::hypot(v.x(), v.y());
   gps_speed_m_s_ = speed;
-  const bool fast = speed > setup.config.alignment.in_motion_speed_m_s && speed < 1000.0;
+  const double fast_m_s = setup.config.alignment.in_motion_speed_m_s;
+  const bool fast = fast_m_s > 0.0 && speed > fast_m_s && speed < 1000.0;
   fast_fixes_ = fast ? fast_fixes_ + 1 : 0;
   gps_seen_ns_ = estimate.now_ns;
   const bool high = std::abs(gps.altitude_m) < 5e4;  // false where it is unknown

@@ -15,6 +15,9 @@ namespace fathom::estimation {
 /// A fix that is older does not place the vehicle any more.
 inline constexpr double kFreshFix_s = 5.0;
 
+/// The filter's errors are small angles: a heading that is worse is none to begin with.
+inline constexpr double kCoarsestHeading_rad = 0.3;
+
 /// Why a start is not possible yet, or that it is.
 struct StartConditions {
   bool window_full = false;
@@ -51,6 +54,9 @@ class Starter {
 
   [[nodiscard]] StartConditions conditions(const StartInputs& in) const;
   [[nodiscard]] const RestWindow& window() const { return window_; }
+  /// Of the heading that the motion gives now: by the DVL and GPS, else by the course alone. Unknown without
+  /// a fresh velocity of GPS.
+  [[nodiscard]] double course_sigma_rad(const StartInputs& in) const;
   [[nodiscard]] double gps_speed_m_s() const { return gps_speed_m_s_; }
 
   template <class Self, class Visit>
@@ -91,6 +97,17 @@ class Starter {
   // starter_moving.cpp
   void collect_under_way(const Setup& setup, const Estimate& estimate, const Measurement& measurement,
                          const SensorConfig& config);
+  /// What the course of a velocity of GPS is the heading of.
+  struct Course {
+    Eigen::Vector3d axis_B = Eigen::Vector3d::UnitX();
+    double sigma_rad = kUnknown;  ///< between the two, without the noise of GPS's velocity
+    double whole_sigma_rad = kUnknown;
+    bool by_dvl = false;
+  };
+  /// By `v_N_m_s` of GPS at `stamp_ns`.
+  [[nodiscard]] Course course(const Setup& setup, TimeNs stamp_ns, const Eigen::Vector3d& v_N_m_s,
+                              const Eigen::Vector3d& sigma_m_s, const Eigen::Vector3d& rate_B_rad_s) const;
+  [[nodiscard]] bool hears_compass(const StartInputs& in) const;
   [[nodiscard]] bool can_start_in_motion(const StartInputs& in) const;
   /// False, with nothing done, where what was measured gives no attitude.
   [[nodiscard]] bool start_in_motion(const StartInputs& in, Estimate& estimate) const;

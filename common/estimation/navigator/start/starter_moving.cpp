@@ -18,11 +18,15 @@ using Eigen::Vector3d;
 constexpr double kFreshVelocity_s = 1.0;
 constexpr double kVelocitySigma_m_s = 0.3;
 constexpr int kFastFixes = 2;
+/// A DVL's velocity this old is still that of the vehicle, but for what it may have gained meanwhile.
+constexpr double kSameMotion_s = 0.5;
+constexpr double kGain_m_s2 = 0.2;
 
-/// (ALN-6): the errors of velocity and attitude have causes in common.
+/// (ALN-6): the errors of velocity and attitude have causes in common. The filter's velocity error is the
+/// estimate less the truth (KF-4), that of the start the truth less what was found.
 void correlate_moving(const Setup& setup, const MovingStart& start, ErrorFilter& filter) {
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < 3; ++k) filter.set(3 + i, 6 + k, start.P_vp(i, k));
+    for (int k = 0; k < 3; ++k) filter.set(3 + i, 6 + k, -start.P_vp(i, k));
     for (int k = 0; k <= i; ++k) {
       filter.set(3 + i, 3 + k, start.P_vv(i, k));
       filter.set(6 + i, 6 + k, start.P_pp(i, k));
@@ -30,6 +34,21 @@ void correlate_moving(const Setup& setup, const MovingStart& start, ErrorFilter&
   }
   correlate_accelerometers(setup, start.by_accel_bias, start.mean_force_B_m_s2, filter);
   correlate_gyros(setup, start.by_gyro_bias, start.mean_rate_B_rad_s, filter);
+}
+
+/// (ALN-6): a heading that was taken by a DVL is off by what the DVL is turned by.
+void correlate_dvl(const Setup& setup, const MovingStart& start, ErrorFilter& filter) {
+  const int states = setup.index.of(Group::dvl_misalignment);
+  if (states < 0) return;
+  const auto dvl = std::find_if(setup.config.sensors.begin(), setup.config.sensors.end(),
+                                [](const SensorConfig& one) { return one.kind == SourceKind::dvl; });
+  if (dvl == setup.config.sensors.end()) return;
+  const Matrix3d C_ND =
+      geo::to_matrix(start.q_NB) * geo::to_matrix(geo::from_rpy(geo::vec(dvl->mounting_rpy_rad)));
+  for (int k = 0; k < 3; ++k) {
+    const double variance = filter(states + k, states + k);
+    for (int i = 0; i < 3; ++i) filter.set(6 + i, states + k, start.by_heading(i) * C_ND(2, k) * variance);
+  }
 }
 
 }  // namespace
@@ -51,6 +70,10 @@ void Starter::collect_under_way(const Setup& setup, const Estimate& estimate, co
     const Vector3d v_D = geo::vec(dvl->velocity_D_m_s);
     if (dvl->mode != DvlMode::bottom || !v_D.allFinite()) return;
     under_way_.dvl_velocity_B_m_s = geo::to_matrix(geo::from_rpy(geo::vec(config.mounting_rpy_rad))) * v_D;
+    under_way_.dvl_lever_B_m = geo::vec(config.lever_B_m);
+    const double own = *std::max_element(config.sigma.begin(), config.sigma.end());
+    under_way_.dvl_sigma_m_s = sigma_of(std::hypot(own, config.proportional_sigma * v_D.norm()),
+                                        dvl->sigma_m_s, config.use_sample_sigma);
     under_way_.dvl_ns = estimate.now_ns;
   } else if (const auto* usbl = std::get_if<UsblSample>(&measurement.sample)) {
     const double surface_m = setup.config.states.surface_altitude_m;
@@ -67,8 +90,55 @@ void Starter::collect_under_way(const Setup& setup, const Estimate& estimate, co
   }
 }
 
+Starter::Course Starter::course(const Setup& setup, TimeNs stamp_ns, const Vector3d& v_N_m_s,
+                                const Vector3d& sigma_m_s, const Vector3d& rate_B_rad_s) const {
+  // (ALN-6)
+  const double noise_m_s = sigma_m_s.head<2>().maxCoeff();
+  const double age_s = to_seconds(stamp_ns - under_way_.dvl_ns);
+  Course out;
+  if (under_way_.dvl_ns != 0 && std::abs(age_s) <= kSameMotion_s) {
+    const Vector3d measured_B =
+        under_way_.dvl_velocity_B_m_s - geo::cross(rate_B_rad_s, under_way_.dvl_lever_B_m);
+    const double speed_m_s = measured_B.norm();
+    const double noise_B_m_s = std::hypot(under_way_.dvl_sigma_m_s, kGain_m_s2 * age_s);
+    if (speed_m_s > 3.0 * noise_B_m_s) {
+      out.axis_B = geo::to_matrix(geo::exp(-age_s * rate_B_rad_s)) * measured_B / speed_m_s;
+      out.sigma_rad = std::hypot(setup.config.states.dvl_misalignment_sigma_rad, noise_B_m_s / speed_m_s);
+      out.whole_sigma_rad = std::hypot(out.sigma_rad, noise_m_s / v_N_m_s.head<2>().norm());
+      out.by_dvl = true;
+      return out;
+    }
+  }
+  const double speed_m_s = v_N_m_s.head<2>().norm();
+  out.sigma_rad = std::hypot(setup.config.alignment.in_motion_heading_sigma_rad,
+                             setup.config.states.current_sigma_m_s / speed_m_s);
+  out.whole_sigma_rad = std::hypot(out.sigma_rad, noise_m_s / speed_m_s);
+  return out;
+}
+
+double Starter::course_sigma_rad(const StartInputs& in) const {
+  if (!(in.estimate.since(gps_seen_ns_) <= kFreshVelocity_s) || !known(gps_speed_m_s_)) return kUnknown;
+  const Vector3d sigma = velocities_.newest_sigma_m_s();
+  return course(in.setup, gps_seen_ns_, gps_velocity_N_, sigma, in.estimate.rate_B_rad_s).whole_sigma_rad;
+}
+
+bool Starter::hears_compass(const StartInputs& in) const {
+  const HeadingSource source = in.setup.config.alignment.heading_source;
+  return source != HeadingSource::given && source != HeadingSource::gyrocompass &&
+         in.estimate.since(under_way_.heading_ns) <= kFreshVelocity_s;
+}
+
 bool Starter::can_start_in_motion(const StartInputs& in) const {
-  return fast_fixes_ >= kFastFixes && in.estimate.since(gps_seen_ns_) <= 1.0 && velocities_.complete();
+  if (!(in.estimate.since(gps_seen_ns_) <= 1.0) || !velocities_.complete()) return false;
+  if (in.setup.config.alignment.in_motion_speed_m_s > 0.0 && fast_fixes_ >= kFastFixes) return true;
+  if (hears_compass(in)) return false;
+  // The first velocity must not be one of rest: an outlier alone is no motion.
+  const VelocityMark& first = velocities_.first();
+  const double noise_m_s = first.sigma_m_s.head<2>().maxCoeff();
+  if (!(noise_m_s <= kCoarsestHeading_rad * first.v_N_m_s.head<2>().norm())) return false;
+  const VelocityMark& last = velocities_.last();
+  const Course found = course(in.setup, gps_seen_ns_, last.v_N_m_s, last.sigma_m_s, last.rate_B_rad_s);
+  return found.whole_sigma_rad <= kCoarsestHeading_rad;
 }
 
 bool Starter::start_in_motion(const StartInputs& in, Estimate& estimate) const {
@@ -89,6 +159,16 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   inputs.lever_B_m = lever_of_gps_B_m(setup);
   inputs.heading_rad = heading_rad;
   inputs.heading_sigma_rad = heading_sigma_rad;
+  bool by_dvl = false;
+  const bool by_speed = setup.config.alignment.in_motion_speed_m_s > 0.0 && fast_fixes_ >= kFastFixes;
+  if (!heading_rad && !by_speed) {
+    const VelocityMark& last = velocities_.last();
+    const Course found = course(setup, gps_seen_ns_, last.v_N_m_s, last.sigma_m_s, last.rate_B_rad_s);
+    inputs.course_axis_B = found.axis_B;
+    inputs.joint_course = true;
+    by_dvl = found.by_dvl;
+    inputs.heading_sigma_rad = found.sigma_rad;
+  }
   const double oblique =
       setup.index.has(Group::accel_misalignment) ? 0.0 : g * imu.accel_misalignment_sigma_rad;
   const double stretched = setup.index.has(Group::accel_scale) ? 0.0 : g * imu.accel_scale_sigma;
@@ -104,14 +184,13 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   start.nav.position = geo::moved_by(gps_position_, in.estimate.since(gps_seen_ns_) * found->v_N_m_s);
   begin(in, start, setup.initial_sigma, estimate);
   correlate_moving(setup, *found, estimate.filter);
+  if (by_dvl) correlate_dvl(setup, *found, estimate.filter);
   return true;
 }
 
 bool Starter::can_start_under_way(const StartInputs& in) const {
   const AlignmentConfig& config = in.setup.config.alignment;
-  const bool measured =
-      config.heading_source != HeadingSource::given && config.heading_source != HeadingSource::gyrocompass;
-  if (!measured || !(in.estimate.since(under_way_.heading_ns) <= kFreshVelocity_s)) return false;
+  if (!hears_compass(in)) return false;
   if (smooth_time_s_ < config.in_motion_averaging_s) return false;
   const bool gps = in.estimate.since(gps_seen_ns_) <= kFreshVelocity_s && known(gps_speed_m_s_);
   const bool dvl = in.estimate.since(under_way_.dvl_ns) <= kFreshVelocity_s;

@@ -248,18 +248,20 @@ function updateAlarm(node, alarm) {
 }
 
 function makeCondition() {
-  return el("div", {class: "condition"}, el("span"), el("span"), el("progress", {max: 1}));
+  return el("div", {class: "condition"}, el("span"), el("span"), el("progress", {max: 1}), el("small", {class: "soft"}));
 }
 
 function updateCondition(node, one) {
   const {group, name, unit, scale} = units.stateName(one.name);
   const label = group === name ? group : `${group} ${name}`;
-  const [state, text, bar] = node.children;
+  const [state, text, bar, help] = node.children;
   put(state, one.met ? "✔ met" : "… waiting");
   state.className = one.met ? "good-text" : "caution-text";
   const shown = unit === "‰" ? ["", 1] : [unit, scale];
-  put(text, `${label} ${units.fixed(one.value * shown[1], 2)} of ${units.fixed(one.limit * shown[1], 2)} ${shown[0]}`);
+  const limit = one.limit === null ? "" : ` of ${units.fixed(one.limit * shown[1], 2)}`;
+  put(text, `${label} ${units.fixed(one.value * shown[1], 2)}${limit} ${shown[0]}`);
   bar.setAttribute("aria-label", label);
+  put(help, one.help ?? "");
   bar.value = one.needed_s > 0 ? Math.min(1, one.held_s / one.needed_s) : one.met ? 1 : 0;
 }
 

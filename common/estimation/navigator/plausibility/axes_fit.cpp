@@ -1,0 +1,123 @@
+#include "estimation/navigator/plausibility/axes_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "estimation/navigator/plausibility/pair_fit.hpp"
+#include "geo/so3.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+constexpr double kG_m_s2 = 9.80665;
+/// Of the mean force of a block: an acceleration of 0.2 m/s^2 that no speed tells of, as swell or a heave.
+constexpr double kShaken_rad = 0.02;
+constexpr double kShare = 0.3;  // of a turn: blocks are not instants
+constexpr double kStandsOut = 4.0;
+constexpr double kMost_rad = 1.5;
+constexpr double kLongest_s = 8.0;
+constexpr double kKept = 0.99;
+constexpr double kFewest = 4.0;
+constexpr double kExplained = 0.25;
+
+struct Hypothesis {
+  Matrix3d M;  // the gyro's axes as they should be, by those as they are
+  const char* remedy;
+};
+
+Matrix3d rows(const Vector3d& x, const Vector3d& y, const Vector3d& z) {
+  Matrix3d out;
+  out << x.transpose(), y.transpose(), z.transpose();
+  return out;
+}
+
+const std::array<Hypothesis, AxesFit::kHypotheses>& hypotheses() {
+  static const auto kAll = [] {
+    const Vector3d x = Vector3d::UnitX();
+    const Vector3d y = Vector3d::UnitY();
+    const Vector3d z = Vector3d::UnitZ();
+    // An exchange of accelerometer axes mirrors: it looks like the negated exchange of the gyro's.
+    return std::array<Hypothesis, AxesFit::kHypotheses>{
+        {{rows(x, y, z), ""},
+         {rows(y, x, z), "exchange gyro x and y"},
+         {rows(z, y, x), "exchange gyro x and z"},
+         {rows(x, z, y), "exchange gyro y and z"},
+         {rows(-x, -y, -z), "negate gyro x, y and z"},
+         {rows(-x, y, z), "negate gyro x"},
+         {rows(x, -y, z), "negate gyro y"},
+         {rows(x, y, -z), "negate gyro z"},
+         {rows(-x, -y, z), "negate gyro x and y, or accelerometer z"},
+         {rows(-y, -x, -z), "exchange accelerometer x and y"},
+         {rows(-z, -y, -x), "exchange accelerometer x and z"},
+         {rows(x, -y, -z), "negate accelerometer x, or gyro y and z"},
+         {rows(-x, y, -z), "negate accelerometer y, or gyro x and z"}}};
+  }();
+  return kAll;
+}
+
+/// Where down comes to lie in a body that turns.
+Vector3d turned(const Vector3d& turn_rad, const Vector3d& down) {
+  return geo::to_matrix(geo::exp(-turn_rad)) * down;
+}
+
+}  // namespace
+
+const char* AxesFit::remedy(std::size_t number) {
+  return hypotheses()[std::min(number, kHypotheses - 1)].remedy;
+}
+
+void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double lasted_s, double speed_m_s) {
+  const double length = down_B.norm();
+  if (!(length > 0.0) || !std::isfinite(length) || !(turn_rad.norm() < 1e3)) {
+    has_before_ = false;
+    return;
+  }
+  const Vector3d down = down_B / length;
+  if (has_before_ && speed_m_s >= 0.0 && speed_before_m_s_ >= 0.0) {
+    // From the middle of one block to that of another.
+    const Vector3d turn = turn_rad_ + 0.5 * turn_rad;
+    lasted_s_ += lasted_s;
+    const Vector3d as_configured = turned(turn, down_before_);
+    const double gained_m_s = std::abs(speed_m_s - speed_before_m_s_);
+    const double noise =
+        std::hypot(kShaken_rad, (speed_m_s * turn.norm() + gained_m_s) / (lasted_s_ * kG_m_s2));
+    const double moved = (down - down_before_).norm();
+    if (std::max(moved, (as_configured - down_before_).norm()) < kStandsOut * noise &&
+        lasted_s_ < kLongest_s && turn.norm() < kMost_rad) {
+      turn_rad_ += turn_rad;
+      return;
+    }
+    for (std::size_t i = 1; i < kHypotheses && turn.norm() < kMost_rad; ++i) {
+      const Vector3d expected = turned(hypotheses()[i].M * turn, down_before_);
+      const double apart = (expected - as_configured).norm();
+      if (apart < kStandsOut * noise) continue;  // these two say the same
+      const double variance = noise * noise + std::pow(kShare * std::min(moved, apart), 2);
+      count_[i] = kKept * count_[i] + 1.0;
+      configured_[i] = kKept * configured_[i] + (down - as_configured).squaredNorm() / variance;
+      left_[i] = kKept * left_[i] + (down - expected).squaredNorm() / variance;
+    }
+  }
+  has_before_ = true;
+  down_before_ = down;
+  turn_rad_ = 0.5 * turn_rad;
+  lasted_s_ = 0.0;
+  speed_before_m_s_ = speed_m_s >= 0.0 ? speed_m_s : -1.0;
+}
+
+AxesFit::Other AxesFit::other() const {
+  Other out;
+  for (std::size_t i = 1; i < kHypotheses; ++i) {
+    const double expected = 2.0 * count_[i];
+    if (count_[i] < kFewest || configured_[i] < chi_square_mean(expected, kRefutedSigmas) * expected ||
+        left_[i] > kExplained * configured_[i])
+      continue;
+    const double evidence = count_[i] * std::log((configured_[i] + expected) / (left_[i] + expected));
+    if (evidence > out.evidence) out = {i, evidence};
+  }
+  return out;
+}
+
+}  // namespace fathom::estimation

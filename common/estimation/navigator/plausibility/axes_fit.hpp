@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace fathom::estimation {
+
+/// Whether gravity turns in the body as the gyro says, and which exchange or sign of axes would explain it
+/// better. A value of fixed size.
+class AxesFit {
+ public:
+  static constexpr std::size_t kHypotheses = 13;
+  struct Other {
+    std::size_t number = 0;
+    double evidence = 0.0;  ///< log likelihood ratio against "as configured"
+  };
+
+  /// One block of some `lasted_s`: where down is on average (any length), and the sum of the gyro's
+  /// increments. `speed_m_s` and its change bound what turning, braking and gaining speed add to gravity;
+  /// without it the block says nothing.
+  void add(const Eigen::Vector3d& down_B, const Eigen::Vector3d& turn_rad, double lasted_s, double speed_m_s);
+  void interrupt() { has_before_ = false; }
+  /// The best explanation besides "as configured"; no evidence where that is not refuted.
+  [[nodiscard]] Other other() const;
+  /// What makes it right: "exchange gyro x and y".
+  [[nodiscard]] static const char* remedy(std::size_t number);
+
+  /// For archives: see fields/plausibility.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
+ private:
+  bool has_before_ = false;
+  Eigen::Vector3d down_before_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();  ///< since
+  double lasted_s_ = 0.0;
+  double speed_before_m_s_ = -1.0;  ///< negative: unknown
+  // Of each hypothesis, over the pairs in which it differs from "as configured": squares in sigma.
+  std::array<double, kHypotheses> count_{};
+  std::array<double, kHypotheses> configured_{};
+  std::array<double, kHypotheses> left_{};
+};
+
+}  // namespace fathom::estimation

@@ -1,0 +1,209 @@
+// What the sums say, and how it is said.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "estimation/navigator/plausibility/plausibility.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Matrix2d;
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr double kKnot_m_s = 1852.0 / 3600.0;
+constexpr double kFoot_m = 0.3048;
+/// A likelihood ratio above c is seen once in c times where all is as configured, however often one looks
+/// (Ville); of all explanations together once in ten thousand.
+constexpr double kExplanations = 42.0;
+constexpr double kFalseAlarms = 1e-4;
+const double kClaim = std::log(kExplanations / kFalseAlarms);
+constexpr double kHeld_s = 4.5;
+constexpr double kFewestIntervals = 50.0;
+/// Of the rate of the IMU: oscillators are off by far less, and a stamp by 0.1 s at either end of the time
+/// that is needed.
+constexpr double kRateShare = 0.05;
+/// Where lost samples are no excuse any more.
+constexpr double kRateLost = 0.3;
+/// Less may be a compass's deviation, or a current that nobody knows.
+constexpr double kLeastTurn_rad = 25.0 * kDegree;
+
+struct Best {
+  PlausibilityFinding finding;
+  double evidence = kClaim;
+  void hear(Implausible kind, double value, double evidence_for_it) {
+    if (!(evidence_for_it > evidence)) return;
+    evidence = evidence_for_it;
+    finding = {kind, value};
+  }
+};
+
+Matrix2d matrix(double a, double b, double c, double d) {
+  Matrix2d out;
+  out << a, b, c, d;
+  return out;
+}
+
+void judge_turns(const PairFit& fit, Best& best) {
+  best.hear(Implausible::gyro_negated, -1.0, fit.evidence(-1.0));
+  for (const double sign : {1.0, -1.0}) {
+    best.hear(Implausible::gyro_in_degrees, sign * kDegree, fit.evidence(sign * kDegree));
+    best.hear(Implausible::gyro_too_slow, sign / kDegree, fit.evidence(sign / kDegree));
+  }
+}
+
+void judge_track(const PairFit& fit, Best& best) {
+  for (const double factor : {kKnot_m_s, 1.0 / 3.6, 1e-2, 1e-3})
+    best.hear(Implausible::gps_unit, factor, fit.evidence(factor));
+  best.hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(0, 1, 1, 0)));
+  best.hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(-1, 0, 0, 1)));
+  best.hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(1, 0, 0, -1)));
+  best.hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(-1, 0, 0, -1)));
+}
+
+void judge_ground(const PairFit& ground, const PairFit& mirror, Best& best) {
+  const double angle = ground.turn_rad();
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  if (std::abs(angle) > kLeastTurn_rad)
+    best.hear(Implausible::dvl_turned, angle, ground.evidence(matrix(c, -s, s, c)));
+  best.hear(Implausible::dvl_mirrored, 0.0, ground.evidence_of(mirror.left_over(Matrix2d::Identity())));
+}
+
+}  // namespace
+
+std::string_view to_string(Implausible kind) {
+  static constexpr std::array<std::string_view, kImplausibles> kNames{
+      "none",         "force_in_g", "force_downwards", "force_along_x", "force_along_y", "imu_rate",
+      "gyro_negated", "gyro_axes",  "gyro_in_degrees", "gyro_too_slow", "gps_axes",      "gps_unit",
+      "dvl_unit",     "dvl_turned", "dvl_mirrored",    "depth_unit",    "depth_upwards"};
+  return kNames[std::min(static_cast<std::size_t>(kind), kImplausibles - 1)];
+}
+
+bool Plausibility::judge_force() {
+  // How a unit lies does not change: a vehicle that has been upright once flies loops, or stands on its nose.
+  upright_ = upright_ || upwards_s_ > kHeld_s;
+  if (upright_) return false;
+  if (in_g_s_ > kHeld_s) {
+    finding_ = {Implausible::force_in_g, 9.80665};
+  } else if (downwards_s_ > kHeld_s) {
+    finding_ = {Implausible::force_downwards, -1.0};
+  } else if (along_x_s_ > kHeld_s) {
+    finding_ = {Implausible::force_along_x, 0.0};
+  } else if (along_y_s_ > kHeld_s) {
+    finding_ = {Implausible::force_along_y, 0.0};
+  } else {
+    // It stands until gravity is felt as it should be.
+    return finding_.kind >= Implausible::force_in_g && finding_.kind <= Implausible::force_along_y;
+  }
+  return true;
+}
+
+double Plausibility::off(const Setup& setup, double count) const {
+  return std::abs(count / (interval_s_ * setup.config.imu.nominal_rate_hz) - 1.0);
+}
+
+void Plausibility::judge(const Setup& setup) {
+  Best best;
+  if (judge_force()) {
+    // Nobody knew which way was down.
+    compass_.fit.reset();
+    course_.fit.reset();
+    depth_.fit.reset();
+    return;
+  }
+  const double rate_hz = interval_s_ > 0.0 ? intervals_ / interval_s_ : 0.0;
+  const double by_intervals = off(setup, intervals_);
+  if (interval_s_ > kHeard_s && intervals_ > kFewestIntervals &&
+      (by_intervals > kRateLost || (by_intervals > kRateShare && off(setup, slots_) > kRateShare))) {
+    finding_ = {Implausible::imu_rate, rate_hz};
+    return;
+  }
+  // What is as it should be needs no more time; what is not has the time to be found out.
+  sound_ = sound_ || (upwards_s_ > 0.0 && by_intervals < kRateShare);
+  judge_turns(compass_.fit, best);
+  judge_turns(course_.fit, best);
+  if (const auto other = axes_.other(); other.evidence > best.evidence)
+    best.hear(Implausible::gyro_axes, other.number, other.evidence);
+  judge_track(track_.fit, best);
+  // Only a GPS velocity that goes along its positions can speak against a DVL.
+  if (!best.finding && track_.fit.agrees()) {
+    for (const double factor : {1e-3, 1e-2, kKnot_m_s, kFoot_m, 1e3})
+      best.hear(Implausible::dvl_unit, factor, speed_.evidence(factor));
+    judge_ground(ground_, mirror_, best);
+  }
+  // And only a DVL that goes along with GPS, where there is one, against a depth.
+  const bool vouched = (speed_.is_empty() || speed_.agrees()) && (ground_.is_empty() || ground_.agrees());
+  if (!best.finding && vouched) {
+    // The reading of one metre: bar, millibar, pascal, feet.
+    for (const double reading : {0.0997, 99.7, 9970.0, 1.0 / kFoot_m})
+      best.hear(Implausible::depth_unit, 1.0 / reading, depth_.fit.evidence(reading));
+    best.hear(Implausible::depth_upwards, -1.0, depth_.fit.evidence(-1.0));
+  }
+  finding_ = best.finding;
+}
+
+void write_sentence(const PlausibilityFinding& finding, double nominal_rate_hz, std::array<char, 128>& out) {
+  out.fill('\0');
+  const auto say = [&out](const char* format, auto... values) {
+    std::snprintf(out.data(), out.size(), format, values...);
+  };
+  const double v = finding.value;
+  switch (finding.kind) {
+    case Implausible::none:
+      return;
+    case Implausible::force_in_g:
+      return say("%s",
+                 "Not plausible: accelerometer reads 1 in rest, m/s2 are expected: multiply it by 9.80665.");
+    case Implausible::force_downwards:
+      return say("%s",
+                 "Not plausible: force is felt downwards: negate accelerometer x, y, z, or turn the IMU by "
+                 "180 deg.");
+    case Implausible::force_along_x:
+      return say("%s",
+                 "Not plausible: gravity lies along x: exchange accelerometer x and z, or set the IMU's "
+                 "mounting pitch.");
+    case Implausible::force_along_y:
+      return say("%s",
+                 "Not plausible: gravity lies along y: exchange accelerometer y and z, or set the IMU's "
+                 "mounting roll.");
+    case Implausible::gyro_axes:
+      return say("Not plausible: the gyro turns otherwise than gravity: %s.",
+                 AxesFit::remedy(static_cast<std::size_t>(v)));
+    case Implausible::imu_rate:
+      return say(
+          "Not plausible: the IMU gives %.1f Hz, configured are %.1f Hz: check its clock, or set the rate.",
+          v, nominal_rate_hz);
+    case Implausible::gyro_negated:
+      return say(
+          "%s", "Not plausible: the gyro turns against compass or course: negate its z (or all three) axes.");
+    case Implausible::gyro_in_degrees:
+      return say("Not plausible: the gyro is in deg/s, rad/s are expected: multiply it by %.6f.", v);
+    case Implausible::gyro_too_slow:
+      return say("Not plausible: the gyro turns 57 times too slowly: multiply it by %.4f.", v);
+    case Implausible::gps_axes:
+      return say("%s",
+                 "Not plausible: GPS velocity does not go along its positions: is it east, north, up? NED is "
+                 "expected.");
+    case Implausible::gps_unit:
+      return say(
+          "Not plausible: GPS velocity is not in m/s: multiply it by %.4g to agree with its positions.", v);
+    case Implausible::dvl_unit:
+      return say("Not plausible: DVL velocity is not in m/s: multiply it by %.4g to agree with GPS.", v);
+    case Implausible::dvl_turned:
+      return say(
+          "Not plausible: DVL and GPS point apart: turn the DVL's mounting yaw by %+.0f deg, or check the "
+          "compass.",
+          v / kDegree);
+    case Implausible::dvl_mirrored:
+      return say("%s", "Not plausible: DVL velocity is mirrored against GPS: negate its y axis.");
+    case Implausible::depth_unit:
+      return say("Not plausible: depth is not in m: multiply it by %.4g to agree with the DVL.", v);
+    case Implausible::depth_upwards:
+      return say("%s",
+                 "Not plausible: depth falls as the DVL goes down: negate the depth, or the DVL's z axis.");
+  }
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,66 @@
+#include "estimation/navigator/plausibility/pair_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::estimation {
+namespace {
+
+/// What was longer ago than some hundred pairs is forgotten: an instrument may have been put right.
+constexpr double kKept = 0.99;
+constexpr double kFewest = 4.0;
+constexpr double kMost = 1e7;
+constexpr double kStandsOut = 4.0;
+/// The share of the misfit that the other hypothesis may leave.
+constexpr double kExplained = 0.25;
+
+}  // namespace
+
+double chi_square_mean(double count, double sigmas) {
+  const double variance = 2.0 / (9.0 * count);
+  return std::pow(1.0 - variance + sigmas * std::sqrt(variance), 3);
+}
+
+void PairFit::add(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double noise, double share) {
+  add(a, b, 2.0, noise, share);
+}
+
+void PairFit::add(double a, double b, double noise, double share) {
+  add({a, 0.0}, {b, 0.0}, 1.0, noise, share);
+}
+
+void PairFit::add(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double components, double noise,
+                  double share) {
+  const double least = std::min(a.norm(), b.norm());
+  const double most = std::max(a.norm(), b.norm());
+  if (!(most < kMost) || !(noise < kMost) || most < kStandsOut * noise) return;
+  const double sigma = std::hypot(noise, share * least);
+  count_ = kKept * count_ + components;
+  expected_ = kKept * expected_ + components * sigma * sigma;
+  aa_ = kKept * aa_ + a * a.transpose();
+  ba_ = kKept * ba_ + b * a.transpose();
+  bb_ = kKept * bb_ + b.squaredNorm();
+}
+
+double PairFit::left_over(const Eigen::Matrix2d& M) const {
+  return std::max(0.0, bb_ - 2.0 * (M.transpose() * ba_).trace() + (M * aa_ * M.transpose()).trace());
+}
+
+double PairFit::turn_rad() const {
+  return std::atan2(ba_(1, 0) - ba_(0, 1), ba_(0, 0) + ba_(1, 1));
+}
+
+bool PairFit::agrees() const {
+  return count_ >= kFewest &&
+         left_over(Eigen::Matrix2d::Identity()) <= chi_square_mean(count_, kAgreesSigmas) * expected_;
+}
+
+double PairFit::evidence_of(double left_over) const {
+  const double as_configured = this->left_over(Eigen::Matrix2d::Identity());
+  if (count_ < kFewest || as_configured < chi_square_mean(count_, kRefutedSigmas) * expected_ ||
+      left_over > kExplained * as_configured)
+    return 0.0;
+  return 0.5 * count_ * std::log((as_configured + expected_) / (left_over + expected_));
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fathom::estimation {
+
+/// The mean of `count` squares of standard normal figures that is exceeded as seldom as one figure exceeds
+/// `sigmas`, by Wilson and Hilferty.
+[[nodiscard]] double chi_square_mean(double count, double sigmas);
+inline constexpr double kRefutedSigmas = 4.75;  ///< once in a million
+inline constexpr double kAgreesSigmas = 2.75;   ///< once in three hundred
+
+/// Sums over pairs of figures in the plane that should be the same, fading: what each hypothesis `b = M a`
+/// leaves over. A value of fixed size; figures of one dimension stand in the first.
+class PairFit {
+ public:
+  /// Of b - a where all is as configured, each component: `noise`, and `share` of their length for what is
+  /// not modelled. A pair that does not stand out of the noise says nothing and is left out.
+  void add(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double noise, double share);
+  /// Of figures in one dimension.
+  void add(double a, double b, double noise, double share);
+  void reset() { *this = PairFit(); }
+
+  /// Sum of |b - M a|^2.
+  [[nodiscard]] double left_over(const Eigen::Matrix2d& M) const;
+  /// The angle by which a has to be turned into b (from the first axis to the second), rad.
+  [[nodiscard]] double turn_rad() const;
+  /// Log of the likelihood of `M` over that of the identity, where the scatter is not known better than that
+  /// it is no less than sigma. Zero or less unless the identity is refuted and M explains most of it.
+  [[nodiscard]] double evidence(const Eigen::Matrix2d& M) const { return evidence_of(left_over(M)); }
+  [[nodiscard]] double evidence(double factor) const {
+    return evidence_of(left_over(factor * Eigen::Matrix2d::Identity()));
+  }
+  /// The same with what another hypothesis leaves over of the same pairs.
+  [[nodiscard]] double evidence_of(double left_over) const;
+  /// Enough was added, and it is as expected: only then can the figures speak against a third one.
+  [[nodiscard]] bool agrees() const;
+  [[nodiscard]] bool is_empty() const { return count_ <= 0.0; }
+
+  /// For archives: see fields/plausibility.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
+ private:
+  void add(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double components, double noise, double share);
+
+  double count_ = 0.0;                            ///< of components
+  double expected_ = 0.0;                         ///< sum of sigma^2
+  Eigen::Matrix2d aa_ = Eigen::Matrix2d::Zero();  ///< sum of a a'
+  Eigen::Matrix2d ba_ = Eigen::Matrix2d::Zero();  ///< sum of b a'
+  double bb_ = 0.0;                               ///< sum of |b|^2
+};
+
+}  // namespace fathom::estimation

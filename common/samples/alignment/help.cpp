@@ -1,0 +1,56 @@
+#include "samples/alignment/help.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace fathom {
+namespace {
+
+using Help = std::pair<std::string_view, std::string_view>;
+
+// By the names that the engine gives: estimation/engine/output_alignment.cpp.
+constexpr std::array kHelp{
+    Help{"rate_spread_rad_s",
+         "hold the vehicle still: it turns and vibrates too much to be levelled at rest"},
+    Help{"force_spread_m_s2", "hold the vehicle still: it is shaken too much to be levelled at rest"},
+    Help{"gps_speed_m_s", "stop for a start at rest; a start in motion needs no stop"},
+    Help{"heading_known", "a compass, two antennas or a given heading serve; or a start in motion"},
+    Help{"course_sigma_rad",
+         "run straight and faster with GPS velocity, or with a DVL on the bottom beside it"},
+    Help{"position_known", "a GPS fix, an acoustic fix or an order of the position serves"},
+    Help{"imu_unjudged_s", "wait: gravity and the rate of the inertial unit are looked at first"},
+    Help{"roll_sigma_rad", "change speed and course: accelerations separate tilt from bias"},
+    Help{"pitch_sigma_rad", "change speed and course: accelerations separate tilt from bias"},
+    Help{"yaw_sigma_rad", "turn by 90 degrees or more and change speed with GPS"},
+    Help{"roll_rad", "level the vehicle in roll"},
+    Help{"pitch_rad", "level the vehicle in pitch"},
+    Help{"depth_error_m", "hold the set depth"},
+    Help{"rate_y_rad_s", "hold the pitch steady"},
+    Help{"rate_z_rad_s", "run straight"},
+    Help{"force_x_m_s2", "hold the speed"},
+    Help{"gravity_defect_m_s2", "hold the depth rate steady"},
+    Help{"speed_slope_m_s2", "hold the speed steady"},
+};
+
+}  // namespace
+
+bool is_implausible(const AlignmentCondition& condition) {
+  return condition.name.view().starts_with(kImplausiblePrefix);
+}
+
+const AlignmentCondition* implausible(const AlignmentStatus& status) {
+  const auto end = status.conditions.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
+                                                   status.condition_count, AlignmentStatus::kMaxConditions));
+  const auto found = std::find_if(status.conditions.begin(), end, is_implausible);
+  return found == end ? nullptr : &*found;
+}
+
+std::string_view help_of(const AlignmentCondition& condition) {
+  if (is_implausible(condition)) return "put the instrument right as the advice says";
+  const auto* const found = std::find_if(kHelp.begin(), kHelp.end(),
+                                         [&](const Help& one) { return one.first == condition.name.view(); });
+  return found == kHelp.end() ? std::string_view() : found->second;
+}
+
+}  // namespace fathom

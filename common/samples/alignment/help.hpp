@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string_view>
+
+#include "samples/alignment_status.hpp"
+
+namespace fathom {
+
+/// Conditions of this kind name an instrument that cannot be right; `value` is the factor, angle (rad) or
+/// rate (Hz) that would make it right, and the status's advice says how.
+inline constexpr std::string_view kImplausiblePrefix = "implausible_";
+[[nodiscard]] bool is_implausible(const AlignmentCondition& condition);
+/// The first of them in a status; nullptr when all is plausible.
+[[nodiscard]] const AlignmentCondition* implausible(const AlignmentStatus& status);
+
+/// What brings a condition about, as a part of a sentence: "hold still, away from waves". Empty for a name
+/// that is not known.
+[[nodiscard]] std::string_view help_of(const AlignmentCondition& condition);
+
+}  // namespace fathom
