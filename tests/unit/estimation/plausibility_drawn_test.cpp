@@ -53,7 +53,9 @@ std::vector<Drawn> mistakes(sim::Random& random) {
   imu({"gyro_too_slow"}, [sign](ImuSample& s) {
     for (double& one : s.angular_rate_B_rad_s) one *= sign * kDeg;
   });
-  const double rate = random.uniform(0.0, 1.0) < 0.5 ? random.uniform(0.6, 0.9) : random.uniform(1.1, 1.6);
+  // Farther off it is another setting, and no clock.
+  const double rate =
+      random.uniform(0.0, 1.0) < 0.5 ? random.uniform(0.87, 0.93) : random.uniform(1.07, 1.13);
   imu({"imu_rate"}, [rate](ImuSample& s) {
     s.header.stamp_ns =
         PlausibilityRun::kEpoch_ns +

@@ -24,8 +24,9 @@ constexpr double kFewestIntervals = 50.0;
 /// Of the rate of the IMU: oscillators are off by far less, and a stamp by 0.1 s at either end of the time
 /// that is needed.
 constexpr double kRateShare = 0.05;
-/// Where lost samples are no excuse any more.
-constexpr double kRateLost = 0.3;
+/// No clock is off by more, and no usual rate lies nearer to another: 100 and 120 Hz are two settings, and
+/// time is right with either.
+constexpr double kOtherRate = 0.15;
 /// Less may be a compass's deviation, or a current that nobody knows.
 constexpr double kLeastTurn_rad = 25.0 * kDegree;
 
@@ -115,8 +116,8 @@ void Plausibility::judge(const Setup& setup) {
   }
   const double rate_hz = interval_s_ > 0.0 ? intervals_ / interval_s_ : 0.0;
   const double by_intervals = off(setup, intervals_);
-  if (interval_s_ > kHeard_s && intervals_ > kFewestIntervals &&
-      (by_intervals > kRateLost || (by_intervals > kRateShare && off(setup, slots_) > kRateShare))) {
+  if (interval_s_ > kHeard_s && intervals_ > kFewestIntervals && by_intervals < kOtherRate &&
+      by_intervals > kRateShare && off(setup, slots_) > kRateShare) {
     finding_ = {Implausible::imu_rate, rate_hz};
     return;
   }
