@@ -210,7 +210,9 @@ void fill_waiting(const Navigator& navigator, const AlignmentConfig& config, con
   rest_condition("gps_speed_m_s", navigator.starter().gps_speed_m_s(), config.max_speed_m_s, c.slow);
   add_condition(out, "heading_known", c.heading ? 1.0 : 0.0, 1.0, c.heading);
   const double course = navigator.course_sigma_rad();
-  add_condition(out, "course_sigma_rad", course, kCoarsestHeading_rad, course <= kCoarsestHeading_rad);
+  // Either serves.
+  add_condition(out, "course_sigma_rad", course, kCoarsestHeading_rad,
+                c.heading || course <= kCoarsestHeading_rad);
   add_condition(out, "position_known", c.position ? 1.0 : 0.0, 1.0, c.position);
   if (c.quiet && c.slow && c.heading && c.position)
     out.time_to_aligned_s =
