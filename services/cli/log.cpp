@@ -12,6 +12,7 @@ namespace fathom::cli {
 namespace {
 
 constexpr const char* kTruth = "fathom/v1/truth";
+constexpr const char* kNavState = "fathom/v1/nav_state";
 
 template <class T>
 void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig& config) {
@@ -22,38 +23,12 @@ void rename(std::vector<T>& stream, SourceKind kind, const config::FusionConfig&
   }
 }
 
-dataset::Dataset read_recording(const std::string& file, const config::FusionConfig& config) {
-  record::Reader reader = open_recording(file);
+/// What fusion is given: of inertial units the configured one.
+dataset::Dataset read_recording_for(const std::string& file, const config::FusionConfig& config) {
   const Name vehicle(config.common.vehicle);
   const Name unit(config.imu_sensor);
-  dataset::Dataset data;
-  std::uint64_t foreign = 0;
-  const auto take = [&]<class T>(const record::Message& message, std::vector<T>& into) {
-    const auto sample = bus::from_cdr<T>(message.data);
-    if (!sample) {
-      ++foreign;
-    } else if (sample->header.vehicle == vehicle) {
-      into.push_back(*sample);
-    }
-  };
-  record::Selection selection;
-  selection.topics.emplace_back(kTruth);
-  for_each_kind([&](auto kind) { selection.topics.emplace_back(kind.kTopic); });
-  const record::Outcome outcome =
-      reader.read(selection, [&](const record::Channel& channel, const record::Message& message) {
-        if (channel.topic == kTruth) take(message, data.reference);
-        for_each_kind([&](auto kind) {
-          if (channel.topic == kind.kTopic) take(message, data.of<typename decltype(kind)::Sample>());
-        });
-        return true;
-      });
+  dataset::Dataset data = read_recording(file, vehicle).data;
   std::erase_if(data.of<ImuSample>(), [&](const ImuSample& one) { return one.header.sensor != unit; });
-  for (const std::string& problem : outcome.problems)
-    std::fprintf(stderr, "fathom: %s: %s\n", file.c_str(), problem.c_str());
-  if (foreign > 0) {
-    std::fprintf(stderr, "fathom: %s: %llu samples are none of their topics' types\n", file.c_str(),
-                 static_cast<unsigned long long>(foreign));
-  }
   if (data.of<ImuSample>().empty()) {
     throw Failure(ExitCode::bad_input, file + ": no inertial samples of unit " + unit.str() + " of vehicle " +
                                            vehicle.str() + ", expected at least one");
@@ -62,6 +37,41 @@ dataset::Dataset read_recording(const std::string& file, const config::FusionCon
 }
 
 }  // namespace
+
+RecordedSamples read_recording(const std::string& file, Name vehicle, bool with_states) {
+  record::Reader reader = open_recording(file);
+  RecordedSamples out;
+  std::uint64_t foreign = 0;
+  const auto take = [&]<class T>(const record::Message& message, std::vector<T>& into) {
+    const auto sample = bus::from_cdr<T>(message.data);
+    if (!sample) {
+      ++foreign;
+      return;
+    }
+    if (vehicle.view().empty()) vehicle = sample->header.vehicle;
+    if (sample->header.vehicle == vehicle) into.push_back(*sample);
+  };
+  record::Selection selection;
+  selection.topics.emplace_back(kTruth);
+  if (with_states) selection.topics.emplace_back(kNavState);
+  for_each_kind([&](auto kind) { selection.topics.emplace_back(kind.kTopic); });
+  const record::Outcome outcome =
+      reader.read(selection, [&](const record::Channel& channel, const record::Message& message) {
+        if (channel.topic == kTruth) take(message, out.data.reference);
+        if (channel.topic == kNavState) take(message, out.states);
+        for_each_kind([&](auto kind) {
+          if (channel.topic == kind.kTopic) take(message, out.data.of<typename decltype(kind)::Sample>());
+        });
+        return true;
+      });
+  for (const std::string& problem : outcome.problems)
+    std::fprintf(stderr, "fathom: %s: %s\n", file.c_str(), problem.c_str());
+  if (foreign > 0) {
+    std::fprintf(stderr, "fathom: %s: %llu samples are none of their topics' types\n", file.c_str(),
+                 static_cast<unsigned long long>(foreign));
+  }
+  return out;
+}
 
 bool is_recording(const std::string& path) {
   return path.ends_with(".mcap");
@@ -98,7 +108,7 @@ dataset::Dataset read_dataset(const std::string& directory, Name vehicle) {
 }
 
 dataset::Dataset read_log(const std::string& log, const config::FusionConfig& config) {
-  if (is_recording(log)) return read_recording(log, config);
+  if (is_recording(log)) return read_recording_for(log, config);
   dataset::Dataset data = read_dataset(log, Name(config.common.vehicle));
   if (data.of<ImuSample>().empty())
     throw Failure(ExitCode::bad_input, log + "/imu.csv: no inertial samples, expected at least one row");

@@ -5,6 +5,7 @@
 
 #include "config/fusion/fusion_config.hpp"
 #include "dataset/dataset.hpp"
+#include "samples/nav_state.hpp"
 
 /// What a vehicle recorded: the folder of a data set, or a recording.
 namespace fathom::cli {
@@ -35,6 +36,15 @@ struct ConfigFiles {
 /// of inertial units the configured one is read, and the truth is the reference; damaged parts are named on
 /// standard error. Throws Failure.
 [[nodiscard]] dataset::Dataset read_log(const std::string& log, const config::FusionConfig& config);
+
+/// What instruments and the simulator's truth said in a recording, in its order.
+struct RecordedSamples {
+  dataset::Dataset data;
+  std::vector<NavState> states;
+};
+/// Of one vehicle; of an empty name: of the one that is heard first. States only where they are asked for.
+/// Damaged parts are named on standard error. Throws Failure.
+[[nodiscard]] RecordedSamples read_recording(const std::string& file, Name vehicle, bool with_states = false);
 
 /// From when t_s counts: in a recording from the second of its first inertial sample.
 [[nodiscard]] TimeNs time_zero_of(const std::string& log, const dataset::Dataset& data);

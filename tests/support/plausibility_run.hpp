@@ -3,61 +3,36 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
-#include <variant>
-#include <vector>
 
 #include "estimation/engine/fusion_engine.hpp"
 #include "samples/alignment/help.hpp"
 #include "sim/random.hpp"
 #include "sim/simulation.hpp"
+#include "support/simulated_drive.hpp"
 
 namespace fathom::test {
 
 /// An AUV that turns, dives and comes up as its seed says, with what its instruments say changed on the way.
 struct PlausibilityRun {
-  using Change = std::function<void(sim::Measurement&)>;
-  static constexpr TimeNs kEpoch_ns = 1'700'000'000 * kNsPerSecond;
-
   std::string named;  ///< the last of what was found, without its prefix
   std::string advice;
   AlignmentPhase phase = AlignmentPhase::none;  ///< at the end
 
-  /// A change of samples of one kind.
-  template <class Sample>
-  static Change of(std::function<void(Sample&)> change) {
-    return [change = std::move(change)](sim::Measurement& measurement) {
-      auto* sample = std::get_if<Sample>(&measurement);
-      if (sample == nullptr) return;
-      change(*sample);
-      if constexpr (std::is_same_v<Sample, ImuSample>) sample->delta_time_s = kUnknown;  // of rates only
-    };
-  }
-
-  PlausibilityRun(std::uint64_t seed, const Change& change) {
-    const sim::Scenario scenario = drawn(seed);
-    sim::Simulation simulation(scenario, options(seed));
+  PlausibilityRun(std::uint64_t seed, const SampleChange& change) {
     estimation::FusionEngine engine(config());
     AlignmentStatus status;
-    std::vector<sim::Measurement> measurements;
-    for (int i = 0; i < static_cast<int>(scenario.duration_s * kRate_hz); ++i) {
-      measurements.clear();
-      simulation.advance(measurements);
-      for (auto& measurement : measurements) {
-        change(measurement);
-        std::visit([&](auto& sample) { hand(engine, sample); }, measurement);
-      }
-      if (i % 20 != 0) continue;
+    drive(engine, drawn(seed), seed, change, [&](int i, const auto& /*truth*/) {
+      if (i % 20 != 0) return;
       engine.fill(status);
       phase = status.phase;
       const AlignmentCondition* found = implausible(status);
-      if (found == nullptr) continue;
+      if (found == nullptr) return;
       named = std::string(found->name.view().substr(kImplausiblePrefix.size()));
       advice = status.advice.data();
-    }
+    });
   }
 
   static estimation::EngineConfig config() {
@@ -74,31 +49,12 @@ struct PlausibilityRun {
   static constexpr double kRate_hz = 100.0;
   static constexpr double kDegree = std::numbers::pi / 180.0;
 
-  static sim::Simulation::Options options(std::uint64_t seed) {
-    sim::Simulation::Options out;
-    out.epoch_ns = kEpoch_ns;
-    out.seed = seed;
-    return out;
-  }
-
-  template <class Sample>
-  static void hand(estimation::FusionEngine& engine, Sample& sample) {
-    if constexpr (std::is_same_v<Sample, GpsSample>) sample.header.sensor = "gps";
-    if constexpr (std::is_same_v<Sample, DvlSample>) sample.header.sensor = "dvl";
-    if constexpr (std::is_same_v<Sample, DepthSample>) sample.header.sensor = "depth";
-    if constexpr (std::is_same_v<Sample, HeadingSample>) sample.header.sensor = "heading";
-    if constexpr (requires { engine.add(sample); }) engine.add(sample);
-  }
-
   static sim::Scenario drawn(std::uint64_t seed) {
     sim::Random random(seed, "mission");
-    sim::Scenario out;
-    out.vehicle.kind = sim::VehicleConfig::Kind::auv;
-    out.start.latitude_rad = random.uniform(-1.2, 1.2);
-    out.start.longitude_rad = random.uniform(-3.1, 3.1);
-    out.start.depth_m = 0.1;
+    const double latitude_rad = random.uniform(-1.2, 1.2);
+    const double longitude_rad = random.uniform(-3.1, 3.1);
+    sim::Scenario out = auv_at(latitude_rad, longitude_rad);
     out.environment.water_depth_m = 60.0;
-    out.duration_s = 60.0;
     double heading = random.uniform(0.0, 2.0 * std::numbers::pi);
     int legs = 0;
     for (double t = 0.0; t < out.duration_s;) {
@@ -117,27 +73,15 @@ struct PlausibilityRun {
   }
 
   static void instruments(sim::Scenario& out) {
-    auto& imu = out.sensors.of<ImuSample>();
-    imu.enabled = true;
-    imu.rate_hz = kRate_hz;
+    auto& imu = enable<ImuSample>(out, kRate_hz);
     imu.gyro.bias_sigma = 5.0 * kDegree / 3600.0;
     imu.gyro.random_walk = 0.05 * kDegree / 60.0;
     imu.accelerometer.bias_sigma = 0.02;
     imu.accelerometer.random_walk = 0.1 / 60.0;
-    auto& gps = out.sensors.of<GpsSample>();
-    gps.enabled = true;
-    gps.rate_hz = 4.0;
-    gps.antenna_clearance_m = -1.0;  // it sits where the inertial unit is
-    auto& dvl = out.sensors.of<DvlSample>();
-    dvl.enabled = true;
-    dvl.rate_hz = 5.0;
-    auto& depth = out.sensors.of<DepthSample>();
-    depth.enabled = true;
-    depth.rate_hz = 5.0;
-    auto& heading = out.sensors.of<HeadingSample>();
-    heading.enabled = true;
-    heading.rate_hz = 5.0;
-    heading.sigma_rad = 0.5 * kDegree;
+    enable<GpsSample>(out, 4.0).antenna_clearance_m = -1.0;  // it sits where the inertial unit is
+    enable<DvlSample>(out, 5.0);
+    enable<DepthSample>(out, 5.0);
+    enable<HeadingSample>(out, 5.0).sigma_rad = 0.5 * kDegree;
   }
 };
 

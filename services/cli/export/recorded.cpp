@@ -1,112 +1,65 @@
 #include "cli/export/recorded.hpp"
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdio>
 #include <filesystem>
-#include <limits>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
-#include "bus/cdr.hpp"
 #include "cli/command.hpp"
-#include "cli/recording.hpp"
+#include "cli/log.hpp"
 #include "dataset/nav_csv.hpp"
 
 namespace fathom::cli {
 namespace {
 
-constexpr const char* kNavState = "fathom/v1/nav_state";
-constexpr const char* kTruth = "fathom/v1/truth";
+constexpr auto by_stamp = [](const auto& a, const auto& b) { return a.header.stamp_ns < b.header.stamp_ns; };
 
-/// Keeps the samples of one vehicle, and of each kind those of one sensor.
-class Gatherer {
- public:
-  Gatherer(Recorded& out, Name vehicle) : out_(out), vehicle_(vehicle) {}
-
-  void take(const std::string& topic, std::span<const std::uint8_t> bytes) {
-    if (topic == kTruth) keep(bytes, out_.data.reference);
-    if (topic == kNavState) keep(bytes, out_.states);
-    for_each_kind([&](auto kind) {
-      if (topic != kind.kTopic) return;
-      auto& stream = out_.data.of<typename decltype(kind)::Sample>();
-      keep(bytes, stream);
-      if (stream.empty() || stream.back().header.sensor == stream.front().header.sensor) return;
-      others_.insert(stream.back().header.sensor.str());
-      stream.pop_back();
-    });
-  }
-  /// False when there is nothing.
-  [[nodiscard]] bool finish() {
-    out_.left_out.assign(others_.begin(), others_.end());
-    // A standby that took over may say again what the one before it said.
-    std::stable_sort(out_.states.begin(), out_.states.end(), by_stamp);
-    const auto end = std::unique(out_.states.begin(), out_.states.end(), [](const auto& a, const auto& b) {
-      return a.header.stamp_ns == b.header.stamp_ns;
-    });
-    out_.states.erase(end, out_.states.end());
-    constexpr TimeNs kNone = std::numeric_limits<TimeNs>::max();
-    TimeNs first_ns = kNone;
-    for_each_kind([&](auto kind) {
-      auto& stream = out_.data.of<typename decltype(kind)::Sample>();
-      std::stable_sort(stream.begin(), stream.end(), by_stamp);
-      if (!stream.empty()) first_ns = std::min(first_ns, stream.front().header.stamp_ns);
-    });
-    if (!out_.states.empty()) first_ns = std::min(first_ns, out_.states.front().header.stamp_ns);
-    out_.epoch_ns = first_ns / kNsPerSecond * kNsPerSecond;
-    return first_ns != kNone;
-  }
-  [[nodiscard]] std::uint64_t foreign() const { return foreign_; }
-
- private:
-  static constexpr auto by_stamp = [](const auto& a, const auto& b) {
-    return a.header.stamp_ns < b.header.stamp_ns;
-  };
-
-  template <class T>
-  void keep(std::span<const std::uint8_t> bytes, std::vector<T>& into) {
-    const auto sample = bus::from_cdr<T>(bytes);
-    if (!sample) {
-      ++foreign_;
-      return;
-    }
-    if (vehicle_.view().empty()) vehicle_ = sample->header.vehicle;
-    if (sample->header.vehicle == vehicle_) into.push_back(*sample);
-  }
-
-  Recorded& out_;
-  Name vehicle_;
-  std::set<std::string> others_;
-  std::uint64_t foreign_ = 0;
-};
+/// Keeps the sensor that is heard first, in the order of its stamps; names the others.
+template <class Sample>
+void keep_one_sensor(std::vector<Sample>& stream, std::set<std::string>& others) {
+  if (stream.empty()) return;
+  const Name first = stream.front().header.sensor;
+  std::erase_if(stream, [&](const Sample& one) {
+    const bool other = one.header.sensor != first;
+    if (other) others.insert(one.header.sensor.str());
+    return other;
+  });
+  std::stable_sort(stream.begin(), stream.end(), by_stamp);
+}
 
 }  // namespace
 
 Recorded read_recorded(const std::string& file, const std::string& vehicle) {
-  record::Reader reader = open_recording(file);
+  RecordedSamples samples = read_recording(file, Name(vehicle), true);
   Recorded out;
-  Gatherer gatherer(out, Name(vehicle));
-  record::Selection selection;
-  selection.topics = {kTruth, kNavState};
-  for_each_kind([&](auto kind) { selection.topics.emplace_back(kind.kTopic); });
-  const record::Outcome outcome =
-      reader.read(selection, [&](const record::Channel& channel, const record::Message& message) {
-        gatherer.take(channel.topic, message.data);
-        return true;
-      });
-  const bool found = gatherer.finish();
-  for (const std::string& problem : outcome.problems)
-    std::fprintf(stderr, "fathom: %s: %s\n", file.c_str(), problem.c_str());
-  if (gatherer.foreign() > 0) {
-    std::fprintf(stderr, "fathom: %s: %llu samples are none of their topics' types\n", file.c_str(),
-                 static_cast<unsigned long long>(gatherer.foreign()));
-  }
-  if (!found) {
+  out.data = std::move(samples.data);
+  out.states = std::move(samples.states);
+  std::set<std::string> others;
+  std::optional<TimeNs> first_ns;
+  const auto begins = [&](const auto& stream) {
+    if (!stream.empty())
+      first_ns = std::min(first_ns.value_or(stream.front().header.stamp_ns), stream.front().header.stamp_ns);
+  };
+  for_each_kind([&](auto kind) {
+    auto& stream = out.data.of<typename decltype(kind)::Sample>();
+    keep_one_sensor(stream, others);
+    begins(stream);
+  });
+  out.left_out.assign(others.begin(), others.end());
+  // A standby that took over may say again what the one before it said.
+  std::stable_sort(out.states.begin(), out.states.end(), by_stamp);
+  const auto same = [](const auto& a, const auto& b) { return a.header.stamp_ns == b.header.stamp_ns; };
+  out.states.erase(std::unique(out.states.begin(), out.states.end(), same), out.states.end());
+  begins(out.states);
+  if (!first_ns) {
     throw Failure(ExitCode::bad_input, file + ": no samples and no navigation states" +
                                            (vehicle.empty() ? "" : " of vehicle " + vehicle) +
                                            ", expected topics fathom/v1/imu, fathom/v1/nav_state or others");
   }
+  out.epoch_ns = *first_ns / kNsPerSecond * kNsPerSecond;
   return out;
 }
 

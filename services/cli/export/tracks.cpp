@@ -75,37 +75,26 @@ double heading_deg(double yaw_rad) {
   return degrees < 0.0 ? degrees + 360.0 : degrees;
 }
 
+/// A state as nav.csv has it.
+void add_state(Adder& adder, const dataset::NavRow& row, TimeNs utc_ns) {
+  Point point;
+  point.utc_ns = utc_ns;
+  point.altitude_m = row.altitude_m;
+  point.velocity_N_m_s = row.velocity_N_m_s;
+  point.heading_deg = heading_deg(row.rpy_rad[2]);
+  point.sigma_N_m = row.position_sigma_N_m;
+  point.quality = row.mode == "gps_aided"                        ? Quality::fix_3d
+                  : row.mode == "none" || row.mode == "aligning" ? Quality::none
+                                                                 : Quality::estimated;
+  adder.add(point, row.latitude_rad, row.longitude_rad);
+}
+
 Track nav_track(const std::string& source, TimeNs epoch_ns, double rate_hz) {
   Track track{"nav", {}};
   Adder adder(track, rate_hz);
-  dataset::read_nav_rows(source, [&](const dataset::NavRow& row) {
-    Point point;
-    point.utc_ns = epoch_ns + row.t_ns;
-    point.altitude_m = row.altitude_m;
-    point.velocity_N_m_s = row.velocity_N_m_s;
-    point.heading_deg = heading_deg(row.rpy_rad[2]);
-    point.sigma_N_m = row.position_sigma_N_m;
-    point.quality = row.mode == "gps_aided"                        ? Quality::fix_3d
-                    : row.mode == "none" || row.mode == "aligning" ? Quality::none
-                                                                   : Quality::estimated;
-    adder.add(point, row.latitude_rad, row.longitude_rad);
-  });
+  dataset::read_nav_rows(source,
+                         [&](const dataset::NavRow& row) { add_state(adder, row, epoch_ns + row.t_ns); });
   return track;
-}
-
-Quality quality_of(NavMode mode) {
-  switch (mode) {
-    case NavMode::gps_aided:
-      return Quality::fix_3d;
-    case NavMode::none:
-    case NavMode::aligning:
-      return Quality::none;
-    case NavMode::acoustic_aided:
-    case NavMode::dead_reckoning:
-    case NavMode::inertial:
-      return Quality::estimated;
-  }
-  return Quality::none;
 }
 
 std::vector<Track> tracks_of(const dataset::Dataset& data, double rate_hz) {
@@ -175,14 +164,16 @@ std::vector<Track> tracks_of(const Recorded& recorded, double rate_hz) {
   Track nav{"nav", {}};
   Adder states(nav, rate_hz);
   for (const NavState& state : recorded.states) {
-    Point point;
-    point.utc_ns = state.header.stamp_ns;
-    point.altitude_m = state.altitude_m;
-    point.velocity_N_m_s = state.velocity_N_m_s;
-    point.heading_deg = heading_deg(state.rpy_rad[2]);
-    for (std::size_t i = 0; i < 3; ++i) point.sigma_N_m[i] = std::sqrt(state.position_covariance_N_m2[4 * i]);
-    point.quality = quality_of(state.mode);
-    states.add(point, state.latitude_rad, state.longitude_rad);
+    dataset::NavRow row;
+    row.latitude_rad = state.latitude_rad;
+    row.longitude_rad = state.longitude_rad;
+    row.altitude_m = state.altitude_m;
+    row.velocity_N_m_s = state.velocity_N_m_s;
+    row.rpy_rad = state.rpy_rad;
+    for (std::size_t i = 0; i < 3; ++i)
+      row.position_sigma_N_m[i] = std::sqrt(state.position_covariance_N_m2[4 * i]);
+    row.mode = to_string(state.mode);
+    add_state(states, row, state.header.stamp_ns);
   }
   std::vector<Track> tracks;
   if (!nav.points.empty()) tracks.push_back(std::move(nav));

@@ -5,8 +5,6 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <variant>
-#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +13,7 @@
 #include "estimation/engine/fusion_engine.hpp"
 #include "sim/random.hpp"
 #include "sim/simulation.hpp"
+#include "support/simulated_drive.hpp"
 
 namespace fathom::config {
 namespace {
@@ -28,11 +27,7 @@ constexpr double kMostSum = 87.0;
 
 /// Straights and turns at the surface. The instruments are as bad as their sheets allow, drawn by the seed.
 sim::Scenario scenario(sim::Random& random) {
-  sim::Scenario out;
-  out.vehicle.kind = sim::VehicleConfig::Kind::auv;
-  out.start.latitude_rad = 36.4 * kDeg;
-  out.start.longitude_rad = 127.4 * kDeg;
-  out.start.depth_m = 0.1;
+  sim::Scenario out = test::auv_at(36.4 * kDeg, 127.4 * kDeg);
   out.environment.surface_altitude_m = 18.5;
   out.environment.water_depth_m = 45.0;
   double heading = random.uniform(0.0, 360.0);
@@ -44,29 +39,20 @@ sim::Scenario scenario(sim::Random& random) {
     out.mission.push_back(one);
     heading += random.uniform(-70.0, 70.0);
   }
-  out.duration_s = 60.0;
-  auto& imu = out.sensors.of<ImuSample>();
-  imu.enabled = true;
-  imu.rate_hz = 100.0;
+  auto& imu = test::enable<ImuSample>(out, 100.0);
   imu.gyro.bias_sigma = 1.0 * kDeg / 3600.0;
   imu.gyro.random_walk = 0.012 * kDeg / 60.0;
   imu.accelerometer.bias_sigma = 0.01;
   imu.accelerometer.random_walk = 0.07 / 60.0;
-  auto& gps = out.sensors.of<GpsSample>();
-  gps.enabled = true;
-  gps.rate_hz = 2.0;
+  auto& gps = test::enable<GpsSample>(out, 2.0);
   gps.velocity_sigma_m_s = 0.1;
   gps.velocity_down_sigma_m_s = 0.2;
   gps.antenna_clearance_m = -1.0;  // it sits where the inertial unit is
-  auto& dvl = out.sensors.of<DvlSample>();
-  dvl.enabled = true;
-  dvl.rate_hz = 5.0;
+  auto& dvl = test::enable<DvlSample>(out, 5.0);
   dvl.beam_sigma_m_s = 0.01;
   dvl.scale_sigma = 0.003;
   dvl.misalignment_sigma_rad = 0.5 * kDeg;
-  auto& depth = out.sensors.of<DepthSample>();
-  depth.enabled = true;
-  depth.rate_hz = 10.0;
+  test::enable<DepthSample>(out, 10.0);
   return out;
 }
 
@@ -79,38 +65,20 @@ struct Found {
 
 Found run(const estimation::EngineConfig& config, std::uint64_t seed) {
   sim::Random random(seed, "as the sheet says");
-  const sim::Scenario drawn = scenario(random);
-  sim::Simulation::Options options;
-  options.epoch_ns = 1'700'000'000 * kNsPerSecond;
-  options.seed = seed;
-  sim::Simulation simulation(drawn, options);
   estimation::FusionEngine engine(config);
   Found out;
-  std::vector<sim::Measurement> measurements;
-  for (int i = 0; i < static_cast<int>(drawn.duration_s * 100.0); ++i) {
-    measurements.clear();
-    simulation.advance(measurements);
-    for (auto& measurement : measurements) {
-      std::visit(
-          [&](auto& sample) {
-            using Sample = std::decay_t<decltype(sample)>;
-            if constexpr (std::is_same_v<Sample, GpsSample>) sample.header.sensor = "gps";
-            if constexpr (std::is_same_v<Sample, DepthSample>) sample.header.sensor = "depth";
-            if constexpr (std::is_same_v<Sample, DvlSample>) sample.header.sensor = "dvl";
-            if constexpr (requires { engine.add(sample); }) engine.add(sample);
-          },
-          measurement);
-    }
-    const NavState& nav = engine.nav_state();
-    if (nav.alignment != AlignmentPhase::aligned) continue;
-    const double error =
-        std::remainder(nav.rpy_rad[2] - simulation.truth().rpy_rad[2], 2.0 * std::numbers::pi);
-    out.last = std::pow(error / nav.rpy_sigma_rad[2], 2);
-    out.last_sigma_deg = nav.rpy_sigma_rad[2] / kDeg;
-    if (out.first) continue;
-    out.first = out.last;
-    out.aligned_at_s = 0.01 * i;
-  }
+  test::drive(
+      engine, scenario(random), seed, [](auto&) {},
+      [&](int i, const auto& truth) {
+        const NavState& nav = engine.nav_state();
+        if (nav.alignment != AlignmentPhase::aligned) return;
+        const double error = std::remainder(nav.rpy_rad[2] - truth.rpy_rad[2], 2.0 * std::numbers::pi);
+        out.last = std::pow(error / nav.rpy_sigma_rad[2], 2);
+        out.last_sigma_deg = nav.rpy_sigma_rad[2] / kDeg;
+        if (out.first) return;
+        out.first = out.last;
+        out.aligned_at_s = 0.01 * i;
+      });
   return out;
 }
 

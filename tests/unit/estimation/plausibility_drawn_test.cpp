@@ -16,7 +16,10 @@
 namespace fathom::estimation {
 namespace {
 
+using test::change_of;
+using test::kDriveEpoch_ns;
 using test::PlausibilityRun;
+using test::SampleChange;
 
 constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr std::uint64_t kFirstSeed = 1001;
@@ -28,19 +31,14 @@ int whole(sim::Random& random, int count) {
 
 struct Drawn {
   std::set<std::string> names;  ///< any of which says it
-  PlausibilityRun::Change change;
+  SampleChange change;
 };
-
-template <class Sample>
-PlausibilityRun::Change of(std::function<void(Sample&)> change) {
-  return PlausibilityRun::of<Sample>(std::move(change));
-}
 
 /// One of each kind of mistake, at a size that is drawn.
 std::vector<Drawn> mistakes(sim::Random& random) {
   std::vector<Drawn> out;
   const auto imu = [&](std::set<std::string> names, std::function<void(ImuSample&)> change) {
-    out.push_back({std::move(names), of<ImuSample>(std::move(change))});
+    out.push_back({std::move(names), change_of<ImuSample>(std::move(change))});
   };
   // Turns of the accelerometer that take gravity off the down axis.
   const int axis = whole(random, 2);
@@ -58,11 +56,10 @@ std::vector<Drawn> mistakes(sim::Random& random) {
       random.uniform(0.0, 1.0) < 0.5 ? random.uniform(0.87, 0.93) : random.uniform(1.07, 1.13);
   imu({"imu_rate"}, [rate](ImuSample& s) {
     s.header.stamp_ns =
-        PlausibilityRun::kEpoch_ns +
-        static_cast<TimeNs>(static_cast<double>(s.header.stamp_ns - PlausibilityRun::kEpoch_ns) / rate);
+        kDriveEpoch_ns + static_cast<TimeNs>(static_cast<double>(s.header.stamp_ns - kDriveEpoch_ns) / rate);
   });
   const double angle = (random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * random.uniform(40.0, 180.0) * kDeg;
-  out.push_back({{"dvl_turned"}, of<DvlSample>([angle](DvlSample& s) {
+  out.push_back({{"dvl_turned"}, change_of<DvlSample>([angle](DvlSample& s) {
                    const double x = s.velocity_D_m_s[0];
                    const double y = s.velocity_D_m_s[1];
                    s.velocity_D_m_s[0] = std::cos(angle) * x - std::sin(angle) * y;
@@ -70,18 +67,18 @@ std::vector<Drawn> mistakes(sim::Random& random) {
                  })});
   constexpr std::array kSpeeds{100.0, 1000.0, 3600.0 / 1852.0, 1.0 / 0.3048};
   const double unit = kSpeeds[static_cast<std::size_t>(whole(random, 4))];
-  out.push_back({{"dvl_unit"}, of<DvlSample>([unit](DvlSample& s) {
+  out.push_back({{"dvl_unit"}, change_of<DvlSample>([unit](DvlSample& s) {
                    for (double& one : s.velocity_D_m_s) one *= unit;
                  })});
   constexpr std::array kGpsSpeeds{100.0, 1000.0, 3.6, 3600.0 / 1852.0};
   const double gps = kGpsSpeeds[static_cast<std::size_t>(whole(random, 4))];
-  out.push_back({{"gps_unit"}, of<GpsSample>([gps](GpsSample& s) {
+  out.push_back({{"gps_unit"}, change_of<GpsSample>([gps](GpsSample& s) {
                    for (double& one : s.velocity_N_m_s) one *= gps;
                  })});
   constexpr std::array kDepths{0.1, 100.0, 1.0 / 0.3048, -1.0};
   const double depth = kDepths[static_cast<std::size_t>(whole(random, 4))];
   out.push_back({{depth < 0.0 ? "depth_upwards" : "depth_unit"},
-                 of<DepthSample>([depth](DepthSample& s) { s.depth_m *= depth; })});
+                 change_of<DepthSample>([depth](DepthSample& s) { s.depth_m *= depth; })});
   return out;
 }
 
@@ -111,17 +108,17 @@ TEST(PlausibilityDrawn, InstrumentsAsBadAsTheirSheetsAllowAreLeftAlone) {
     const double scale = 1.0 + random.normal(0.02);
     const double slow = random.uniform(0.98, 1.02);
     const PlausibilityRun run(seed, [&](sim::Measurement& measurement) {
-      of<HeadingSample>([&](HeadingSample& s) { s.heading_rad += deviation * std::sin(s.heading_rad); })(
-          measurement);
-      of<DvlSample>([&](DvlSample& s) {
+      change_of<HeadingSample>(
+          [&](HeadingSample& s) { s.heading_rad += deviation * std::sin(s.heading_rad); })(measurement);
+      change_of<DvlSample>([&](DvlSample& s) {
         const double x = s.velocity_D_m_s[0];
         s.velocity_D_m_s[0] = scale * (x - turned * s.velocity_D_m_s[1]);
         s.velocity_D_m_s[1] = scale * (s.velocity_D_m_s[1] + turned * x);
       })(measurement);
-      of<ImuSample>([&](ImuSample& s) {
+      change_of<ImuSample>([&](ImuSample& s) {
         s.header.stamp_ns =
-            PlausibilityRun::kEpoch_ns +
-            static_cast<TimeNs>(slow * static_cast<double>(s.header.stamp_ns - PlausibilityRun::kEpoch_ns));
+            kDriveEpoch_ns +
+            static_cast<TimeNs>(slow * static_cast<double>(s.header.stamp_ns - kDriveEpoch_ns));
       })(measurement);
     });
     EXPECT_EQ(run.named, "") << "seed " << seed << ": " << run.advice;

@@ -1,7 +1,6 @@
 // What cannot be right is named and does not stay aligned; what is right is left alone.
 #include <functional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include "samples/alignment/help.hpp"
 #include "sim/random.hpp"
 #include "sim/simulation.hpp"
+#include "support/simulated_drive.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -24,11 +24,7 @@ constexpr double kDeg = M_PI / 180.0;
 
 /// An AUV at 2 m/s that turns at the surface and dives.
 sim::Scenario scenario(bool dives) {
-  sim::Scenario out;
-  out.vehicle.kind = sim::VehicleConfig::Kind::auv;
-  out.start.latitude_rad = 36.4 * kDeg;
-  out.start.longitude_rad = 127.4 * kDeg;
-  out.start.depth_m = 0.1;
+  sim::Scenario out = test::auv_at(36.4 * kDeg, 127.4 * kDeg);
   out.environment.surface_altitude_m = 18.5;
   out.environment.water_depth_m = 45.0;
   double t = 0.0;
@@ -43,28 +39,15 @@ sim::Scenario scenario(bool dives) {
     t += 10.0;
     ++i;
   }
-  out.duration_s = 60.0;
-  auto& imu = out.sensors.of<ImuSample>();
-  imu.enabled = true;
-  imu.rate_hz = 100.0;
+  auto& imu = test::enable<ImuSample>(out, 100.0);
   imu.gyro.bias_sigma = 1.0 * kDeg / 3600.0;
   imu.gyro.random_walk = 0.012 * kDeg / 60.0;
   imu.accelerometer.bias_sigma = 0.01;
   imu.accelerometer.random_walk = 0.07 / 60.0;
-  auto& gps = out.sensors.of<GpsSample>();
-  gps.enabled = true;
-  gps.rate_hz = 2.0;
-  gps.lever_B_m = {0.0, 0.0, -0.4};
-  auto& dvl = out.sensors.of<DvlSample>();
-  dvl.enabled = true;
-  dvl.rate_hz = 5.0;
-  auto& depth = out.sensors.of<DepthSample>();
-  depth.enabled = true;
-  depth.rate_hz = 10.0;
-  auto& heading = out.sensors.of<HeadingSample>();
-  heading.enabled = true;
-  heading.rate_hz = 10.0;
-  heading.sigma_rad = 0.3 * kDeg;
+  test::enable<GpsSample>(out, 2.0).lever_B_m = {0.0, 0.0, -0.4};
+  test::enable<DvlSample>(out, 5.0);
+  test::enable<DepthSample>(out, 10.0);
+  test::enable<HeadingSample>(out, 10.0).sigma_rad = 0.3 * kDeg;
   return out;
 }
 
@@ -91,34 +74,14 @@ struct Outcome {
   std::vector<double> heading_nees;  ///< of aligned states
 };
 
-using Change = std::function<void(sim::Measurement&)>;
+using test::change_of;
 
-Outcome run(const sim::Scenario& scenario, std::uint64_t seed, const Change& change) {
-  sim::Simulation::Options options;
-  options.epoch_ns = 1'700'000'000 * kNsPerSecond;
-  options.seed = seed;
-  sim::Simulation simulation(scenario, options);
+Outcome run(const sim::Scenario& scenario, std::uint64_t seed, const test::SampleChange& change) {
   FusionEngine engine(config());
   Outcome out;
   AlignmentStatus status;
-  std::vector<sim::Measurement> measurements;
-  for (int i = 0; i < static_cast<int>(scenario.duration_s * 100.0); ++i) {
-    measurements.clear();
-    simulation.advance(measurements);
-    for (auto& measurement : measurements) {
-      change(measurement);
-      std::visit(
-          [&](auto& sample) {
-            using Sample = std::decay_t<decltype(sample)>;
-            if constexpr (std::is_same_v<Sample, GpsSample>) sample.header.sensor = "gps";
-            if constexpr (std::is_same_v<Sample, DvlSample>) sample.header.sensor = "dvl";
-            if constexpr (std::is_same_v<Sample, DepthSample>) sample.header.sensor = "depth";
-            if constexpr (std::is_same_v<Sample, HeadingSample>) sample.header.sensor = "heading";
-            if constexpr (requires { engine.add(sample); }) engine.add(sample);
-          },
-          measurement);
-    }
-    if (i % 20 != 0) continue;
+  test::drive(engine, scenario, seed, change, [&](int i, const auto& truth) {
+    if (i % 20 != 0) return;
     const double t = 0.01 * i;
     engine.fill(status);
     out.phase = status.phase;
@@ -129,22 +92,12 @@ Outcome run(const sim::Scenario& scenario, std::uint64_t seed, const Change& cha
       EXPECT_NE(status.phase, AlignmentPhase::aligned) << out.named;
     }
     const NavState& nav = engine.nav_state();
-    if (status.phase != AlignmentPhase::aligned) continue;
+    if (status.phase != AlignmentPhase::aligned) return;
     if (!known(out.aligned_at_s)) out.aligned_at_s = t;
-    const double error = std::remainder(nav.rpy_rad[2] - simulation.truth().rpy_rad[2], 2.0 * M_PI);
+    const double error = std::remainder(nav.rpy_rad[2] - truth.rpy_rad[2], 2.0 * M_PI);
     out.heading_nees.push_back(std::pow(error / nav.rpy_sigma_rad[2], 2));
-  }
+  });
   return out;
-}
-
-template <class Sample>
-Change of(std::function<void(Sample&)> change) {
-  return [change](sim::Measurement& measurement) {
-    auto* sample = std::get_if<Sample>(&measurement);
-    if (sample == nullptr) return;
-    change(*sample);
-    if constexpr (std::is_same_v<Sample, ImuSample>) sample->delta_time_s = kUnknown;  // of rates only
-  };
 }
 
 template <class Array>
@@ -156,36 +109,38 @@ struct Mistake {
   const char* name;
   const char* words;  ///< of the sentence
   bool dives;
-  Change change;
+  test::SampleChange change;
 };
 
 std::vector<Mistake> mistakes() {
   return {
       {"implausible_force_downwards", "negate accelerometer", false,
-       of<ImuSample>([](auto& s) { scale(s.specific_force_B_m_s2, -1.0); })},
+       change_of<ImuSample>([](auto& s) { scale(s.specific_force_B_m_s2, -1.0); })},
       {"implausible_force_in_g", "9.80665", false,
-       of<ImuSample>([](auto& s) { scale(s.specific_force_B_m_s2, 1.0 / 9.80665); })},
-      {"implausible_force_along_x", "x and z", false,
-       of<ImuSample>([](auto& s) { std::swap(s.specific_force_B_m_s2[0], s.specific_force_B_m_s2[2]); })},
+       change_of<ImuSample>([](auto& s) { scale(s.specific_force_B_m_s2, 1.0 / 9.80665); })},
+      {"implausible_force_along_x", "x and z", false, change_of<ImuSample>([](auto& s) {
+         std::swap(s.specific_force_B_m_s2[0], s.specific_force_B_m_s2[2]);
+       })},
       {"implausible_gyro_negated", "negate", false,
-       of<ImuSample>([](auto& s) { scale(s.angular_rate_B_rad_s, -1.0); })},
-      {"implausible_gyro_axes", "gyro x and y", true,
-       of<ImuSample>([](auto& s) { std::swap(s.angular_rate_B_rad_s[0], s.angular_rate_B_rad_s[1]); })},
+       change_of<ImuSample>([](auto& s) { scale(s.angular_rate_B_rad_s, -1.0); })},
+      {"implausible_gyro_axes", "gyro x and y", true, change_of<ImuSample>([](auto& s) {
+         std::swap(s.angular_rate_B_rad_s[0], s.angular_rate_B_rad_s[1]);
+       })},
       {"implausible_gyro_in_degrees", "0.017453", false,
-       of<ImuSample>([](auto& s) { scale(s.angular_rate_B_rad_s, 1.0 / kDeg); })},
-      {"implausible_dvl_turned", "+45 deg", false, of<DvlSample>([](auto& s) {
+       change_of<ImuSample>([](auto& s) { scale(s.angular_rate_B_rad_s, 1.0 / kDeg); })},
+      {"implausible_dvl_turned", "+45 deg", false, change_of<DvlSample>([](auto& s) {
          auto& v = s.velocity_D_m_s;
          v = {std::sqrt(0.5) * (v[0] + v[1]), std::sqrt(0.5) * (v[1] - v[0]), v[2]};
        })},
       {"implausible_dvl_unit", "0.001", false,
-       of<DvlSample>([](auto& s) { scale(s.velocity_D_m_s, 1000.0); })},
-      {"implausible_depth_unit", "10.0", true, of<DepthSample>([](auto& s) { s.depth_m *= 0.0993; })},
-      {"implausible_gps_axes", "east, north, up", false, of<GpsSample>([](auto& s) {
+       change_of<DvlSample>([](auto& s) { scale(s.velocity_D_m_s, 1000.0); })},
+      {"implausible_depth_unit", "10.0", true, change_of<DepthSample>([](auto& s) { s.depth_m *= 0.0993; })},
+      {"implausible_gps_axes", "east, north, up", false, change_of<GpsSample>([](auto& s) {
          std::swap(s.velocity_N_m_s[0], s.velocity_N_m_s[1]);
          s.velocity_N_m_s[2] *= -1.0;
        })},
-      {"implausible_imu_rate", "110.0 Hz", false, of<ImuSample>([](auto& s) {
-         const TimeNs first = 1'700'000'000 * kNsPerSecond;
+      {"implausible_imu_rate", "110.0 Hz", false, change_of<ImuSample>([](auto& s) {
+         const TimeNs first = test::kDriveEpoch_ns;
          s.header.stamp_ns = first + (s.header.stamp_ns - first) * 10 / 11;
        })},
   };

@@ -16,12 +16,8 @@ constexpr double kG_m_s2 = 9.80665;
 /// Of the mean force of a block: an acceleration of 0.2 m/s^2 that no speed tells of, as swell or a heave.
 constexpr double kShaken_rad = 0.02;
 constexpr double kShare = 0.3;  // of a turn: blocks are not instants
-constexpr double kStandsOut = 4.0;
 constexpr double kMost_rad = 1.5;
 constexpr double kLongest_s = 8.0;
-constexpr double kKept = 0.99;
-constexpr double kFewest = 4.0;
-constexpr double kExplained = 0.25;
 
 struct Hypothesis {
   Matrix3d M;  // the gyro's axes as they should be, by those as they are
@@ -85,7 +81,7 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
     const double noise =
         std::hypot(kShaken_rad, (speed_m_s * turn.norm() + gained_m_s) / (lasted_s_ * kG_m_s2));
     const double moved = (down - down_before_).norm();
-    if (std::max(moved, (as_configured - down_before_).norm()) < kStandsOut * noise &&
+    if (std::max(moved, (as_configured - down_before_).norm()) < kPairStandsOut * noise &&
         lasted_s_ < kLongest_s && turn.norm() < kMost_rad) {
       turn_rad_ += turn_rad;
       return;
@@ -93,11 +89,11 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
     for (std::size_t i = 1; i < kHypotheses && turn.norm() < kMost_rad; ++i) {
       const Vector3d expected = turned(hypotheses()[i].M * turn, down_before_);
       const double apart = (expected - as_configured).norm();
-      if (apart < kStandsOut * noise) continue;  // these two say the same
+      if (apart < kPairStandsOut * noise) continue;  // these two say the same
       const double variance = noise * noise + std::pow(kShare * std::min(moved, apart), 2);
-      count_[i] = kKept * count_[i] + 1.0;
-      configured_[i] = kKept * configured_[i] + (down - as_configured).squaredNorm() / variance;
-      left_[i] = kKept * left_[i] + (down - expected).squaredNorm() / variance;
+      count_[i] = kPairsKept * count_[i] + 1.0;
+      configured_[i] = kPairsKept * configured_[i] + (down - as_configured).squaredNorm() / variance;
+      left_[i] = kPairsKept * left_[i] + (down - expected).squaredNorm() / variance;
     }
   }
   has_before_ = true;
@@ -110,11 +106,10 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
 AxesFit::Other AxesFit::other() const {
   Other out;
   for (std::size_t i = 1; i < kHypotheses; ++i) {
-    const double expected = 2.0 * count_[i];
-    if (count_[i] < kFewest || configured_[i] < chi_square_mean(expected, kRefutedSigmas) * expected ||
-        left_[i] > kExplained * configured_[i])
-      continue;
-    const double evidence = count_[i] * std::log((configured_[i] + expected) / (left_[i] + expected));
+    if (count_[i] < kFewestPairs) continue;
+    // Squares are in units of their variances, and two of the three components are free.
+    const double components = 2.0 * count_[i];
+    const double evidence = evidence_for_other(components, components, configured_[i], left_[i]);
     if (evidence > out.evidence) out = {i, evidence};
   }
   return out;

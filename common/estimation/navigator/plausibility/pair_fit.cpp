@@ -6,11 +6,7 @@
 namespace fathom::estimation {
 namespace {
 
-/// What was longer ago than some hundred pairs is forgotten: an instrument may have been put right.
-constexpr double kKept = 0.99;
-constexpr double kFewest = 4.0;
 constexpr double kMost = 1e7;
-constexpr double kStandsOut = 4.0;
 /// The share of the misfit that the other hypothesis may leave.
 constexpr double kExplained = 0.25;
 
@@ -19,6 +15,12 @@ constexpr double kExplained = 0.25;
 double chi_square_mean(double count, double sigmas) {
   const double variance = 2.0 / (9.0 * count);
   return std::pow(1.0 - variance + sigmas * std::sqrt(variance), 3);
+}
+
+double evidence_for_other(double components, double expected, double configured, double other) {
+  if (configured < chi_square_mean(components, kRefutedSigmas) * expected || other > kExplained * configured)
+    return 0.0;
+  return 0.5 * components * std::log((configured + expected) / (other + expected));
 }
 
 void PairFit::add(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double noise, double share) {
@@ -33,13 +35,13 @@ void PairFit::add(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double com
                   double share) {
   const double least = std::min(a.norm(), b.norm());
   const double most = std::max(a.norm(), b.norm());
-  if (!(most < kMost) || !(noise < kMost) || most < kStandsOut * noise) return;
+  if (!(most < kMost) || !(noise < kMost) || most < kPairStandsOut * noise) return;
   const double sigma = std::hypot(noise, share * least);
-  count_ = kKept * count_ + components;
-  expected_ = kKept * expected_ + components * sigma * sigma;
-  aa_ = kKept * aa_ + a * a.transpose();
-  ba_ = kKept * ba_ + b * a.transpose();
-  bb_ = kKept * bb_ + b.squaredNorm();
+  count_ = kPairsKept * count_ + components;
+  expected_ = kPairsKept * expected_ + components * sigma * sigma;
+  aa_ = kPairsKept * aa_ + a * a.transpose();
+  ba_ = kPairsKept * ba_ + b * a.transpose();
+  bb_ = kPairsKept * bb_ + b.squaredNorm();
 }
 
 double PairFit::left_over(const Eigen::Matrix2d& M) const {
@@ -51,16 +53,13 @@ double PairFit::turn_rad() const {
 }
 
 bool PairFit::agrees() const {
-  return count_ >= kFewest &&
+  return count_ >= kFewestPairs &&
          left_over(Eigen::Matrix2d::Identity()) <= chi_square_mean(count_, kAgreesSigmas) * expected_;
 }
 
 double PairFit::evidence_of(double left_over) const {
-  const double as_configured = this->left_over(Eigen::Matrix2d::Identity());
-  if (count_ < kFewest || as_configured < chi_square_mean(count_, kRefutedSigmas) * expected_ ||
-      left_over > kExplained * as_configured)
-    return 0.0;
-  return 0.5 * count_ * std::log((as_configured + expected_) / (left_over + expected_));
+  if (count_ < kFewestPairs) return 0.0;
+  return evidence_for_other(count_, expected_, this->left_over(Eigen::Matrix2d::Identity()), left_over);
 }
 
 }  // namespace fathom::estimation

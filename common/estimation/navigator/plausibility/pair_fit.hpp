@@ -9,6 +9,17 @@ namespace fathom::estimation {
 [[nodiscard]] double chi_square_mean(double count, double sigmas);
 inline constexpr double kRefutedSigmas = 4.75;  ///< once in a million
 inline constexpr double kAgreesSigmas = 2.75;   ///< once in three hundred
+/// What was longer ago than some hundred pairs is forgotten: an instrument may have been put right.
+inline constexpr double kPairsKept = 0.99;
+inline constexpr double kFewestPairs = 4.0;
+/// Of the noise: what does not stand out of it says nothing.
+inline constexpr double kPairStandsOut = 4.0;
+
+/// Log of the likelihood of another hypothesis over that of the configured one, where the scatter is not
+/// known better than that it is no less than expected (PLAUS-1). Zero unless the configured one is refuted
+/// and the other one explains most of it. The squares that are expected, and left by either hypothesis, are
+/// sums over so many components.
+[[nodiscard]] double evidence_for_other(double components, double expected, double configured, double other);
 
 /// Sums over pairs of figures in the plane that should be the same, fading: what each hypothesis `b = M a`
 /// leaves over. A value of fixed size; figures of one dimension stand in the first.
@@ -25,8 +36,7 @@ class PairFit {
   [[nodiscard]] double left_over(const Eigen::Matrix2d& M) const;
   /// The angle by which a has to be turned into b (from the first axis to the second), rad.
   [[nodiscard]] double turn_rad() const;
-  /// Log of the likelihood of `M` over that of the identity, where the scatter is not known better than that
-  /// it is no less than sigma. Zero or less unless the identity is refuted and M explains most of it.
+  /// Of `M` over the identity: see evidence_for_other().
   [[nodiscard]] double evidence(const Eigen::Matrix2d& M) const { return evidence_of(left_over(M)); }
   [[nodiscard]] double evidence(double factor) const {
     return evidence_of(left_over(factor * Eigen::Matrix2d::Identity()));

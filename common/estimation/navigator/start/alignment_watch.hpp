@@ -6,10 +6,10 @@
 
 namespace fathom::estimation {
 
-/// The phase of the alignment, and how long it has lasted.
 /// What is known of the instruments.
 enum class Plausible : std::uint8_t { not_heard_enough, yes, no };
 
+/// The phase of the alignment, and how long it has lasted.
 struct AlignmentWatch {
   AlignmentPhase phase = AlignmentPhase::none;
   TimeNs phase_since_ns = 0;
