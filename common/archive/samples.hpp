@@ -5,6 +5,7 @@
 #include "archive/samples/command.hpp"
 #include "archive/samples/depth.hpp"
 #include "archive/samples/dvl.hpp"
+#include "archive/samples/fix.hpp"
 #include "archive/samples/gps.hpp"
 #include "archive/samples/header.hpp"
 #include "archive/samples/heading.hpp"

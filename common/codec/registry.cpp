@@ -12,6 +12,7 @@
 #include "codec/imu/vectornav.hpp"
 #include "codec/range/micromodem.hpp"
 #include "codec/satellite/ubx.hpp"
+#include "codec/text/fix_text.hpp"
 #include "codec/text/nmea.hpp"
 
 namespace fathom::codec {
@@ -48,9 +49,10 @@ constexpr std::array<std::string_view, 2> kAsciiAirDataAliases{"air_data", "air_
 constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "openvario",
                                                               "nmea0183_air_data"};
 
+constexpr std::array<std::string_view, 2> kFixTextAliases{"fix", "pfthx"};
 constexpr std::array<std::string_view, 3> kMicromodemAliases{"whoi", "whoi_micromodem", "micro_modem"};
 
-const std::array<Protocol, 11> kProtocols{{
+const std::array<Protocol, 12> kProtocols{{
     {"nmea0183", kNmeaAliases, kNmeaDescription, make_nmea0183},
     {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx},
     {"pd0", kPd0Aliases, "Teledyne RDI PD0 ensembles with bottom track", make_pd0},
@@ -65,6 +67,7 @@ const std::array<Protocol, 11> kProtocols{{
     {"nmea_air_data", kNmeaAirDataAliases, "air data as NMEA 0183 XDR, MWV, VWR or OpenVario $POV",
      make_nmea_air_data},
     {"micromodem", kMicromodemAliases, "WHOI Micro-Modem ranges to modems and transponders", make_micromodem},
+    {"fix_text", kFixTextAliases, "positions told, one a line: $PFTHX", make_fix_text},
 }};
 
 char folded(char c) {

@@ -4,6 +4,7 @@
 
 #include "config/bridge/altimeter_config.hpp"
 #include "config/bridge/bridge_config.hpp"
+#include "config/bridge/fix_config.hpp"
 #include "config/bridge/range_config.hpp"
 #include "config/console_config.hpp"
 #include "config/discovery_config.hpp"
@@ -41,6 +42,7 @@ std::span<const ConfigKind> config_kinds() {
                                  bridge<AirDataBridgeConfig>(air_data_bridge_kind()),
                                  bridge<AltimeterBridgeConfig>(altimeter_bridge_kind()),
                                  bridge<RangeBridgeConfig>(range_bridge_kind()),
+                                 bridge<FixBridgeConfig>(fix_bridge_kind()),
                                  fusion_kind(),
                                  hydro_kind(),
                                  monitor_kind(),

@@ -160,6 +160,12 @@ double EngineConfig::aligned_tilt_sigma_rad() const {
                   2.0 * std::hypot(imu.accel_scale_sigma, imu.accel_misalignment_sigma_rad));
 }
 
+bool EngineConfig::remembers() const {
+  return late_fix_memory_s > 0.0 && std::any_of(sensors.begin(), sensors.end(), [](const SensorConfig& one) {
+           return one.kind == SourceKind::fix;
+         });
+}
+
 StateGroups EngineConfig::considered() const {
   StateGroups out;
   if (left_out == LeftOut::noise) return out;

@@ -311,6 +311,7 @@ struct EngineConfig {
   double horizon_s = 5.0;
   double snapshot_interval_s = 0.2;
   std::uint32_t replay_steps_per_sample = 256;
+  double late_fix_memory_s = 900.0;
   double future_tolerance_s = 0.5;
   std::uint32_t measurement_capacity = 2048;
   bool magnetic_variation_known = false;
@@ -329,6 +330,8 @@ struct EngineConfig {
   /// How well roll and pitch have to be known to be aligned: as configured, or as well as these
   /// accelerometers can show at all, twice what their scale and misalignment make of gravity.
   [[nodiscard]] double aligned_tilt_sigma_rad() const;
+  /// What is beyond the horizon is remembered: for fixes, where there may be some.
+  [[nodiscard]] bool remembers() const;
   /// The groups that are considered.
   [[nodiscard]] StateGroups considered() const;
   /// The first value that is not as described, or that does not go with another. Its key is that of a file.

@@ -17,6 +17,7 @@
 #include "samples/gps.hpp"
 #include "samples/heading.hpp"
 #include "samples/imu.hpp"
+#include "samples/position/fix.hpp"
 #include "samples/range.hpp"
 #include "samples/usbl.hpp"
 
@@ -39,6 +40,7 @@ enum class SourceKind : std::uint8_t {
   fins = 8,
   altimeter = 9,
   range = 10,
+  fix = 11,
 };
 
 /// What navigation does with a kind: the inertial unit is integrated, others aid, and some only inform:
@@ -102,7 +104,8 @@ using Kinds = KindList<  //
     Kind<PropulsionSample, SourceKind::propulsion, "propulsion", "actuator_bridge">,
     Kind<FinsSample, SourceKind::fins, "fins", "actuator_bridge">,
     Kind<AltimeterSample, SourceKind::altimeter, "altimeter", "altimeter_bridge", Use::informing>,
-    Kind<RangeSample, SourceKind::range, "range", "range_bridge">>;
+    Kind<RangeSample, SourceKind::range, "range", "range_bridge">,
+    Kind<FixSample, SourceKind::fix, "fix", "fix_bridge">>;
 
 inline constexpr std::size_t kSourceKinds = Kinds::kSize;
 /// The highest number of a kind, for checks of what comes from outside.

@@ -59,10 +59,10 @@ std::vector<Entry> make_entries() {
                                       "fathom/v1/forecast", kLifeSign, "fathom/v1/command"})});
   entries.push_back(
       {"console",
-       {"fathom/v1/command", kLifeSign},
+       {"fathom/v1/command", KindOf<FixSample>::kTopic, kLifeSign},
        {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
         "fathom/v1/monitor_status", "fathom/v1/forecast", kLifeSign, "fathom/v1/alarm",
-        KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic, "fathom/v1/route"}});
+        KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic, KindOf<FixSample>::kTopic, "fathom/v1/route"}});
   entries.push_back({"guidance", guidance_writes, guidance_reads});
   entries.push_back({"guidance_example", guidance_writes, guidance_reads});
   entries.push_back({"discovery", {kLifeSign}, {}});
@@ -78,7 +78,7 @@ std::vector<Entry> make_entries() {
   // status, doctor, and the referee of a demonstration. What status shows and what a run is judged by; who
   // exists at all doctor learns from discovery.
   entries.push_back({"cli",
-                     {"fathom/v1/command"},
+                     {"fathom/v1/command", KindOf<FixSample>::kTopic},
                      {"fathom/v1/nav_state", "fathom/v1/verdict", "fathom/v1/alignment", "fathom/v1/forecast",
                       "fathom/v1/alarm", "fathom/v1/monitor_status", kLifeSign, KindOf<GpsSample>::kTopic,
                       "fathom/v1/truth"}});

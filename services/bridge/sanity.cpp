@@ -6,7 +6,15 @@
 
 namespace fathom::bridge {
 std::string_view to_string(Refusal refusal) {
-  return refusal == Refusal::not_finite ? "not_finite" : "impossible";
+  switch (refusal) {
+    case Refusal::not_finite:
+      return "not_finite";
+    case Refusal::impossible:
+      return "impossible";
+    case Refusal::no_instant:
+      break;
+  }
+  return "no_instant";
 }
 
 std::optional<Refusal> refuse(const AnySample& sample, const config::SampleLimits& limits) {

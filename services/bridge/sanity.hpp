@@ -13,8 +13,9 @@ namespace fathom::bridge {
 enum class Refusal : std::uint8_t {
   not_finite = 0,  ///< infinite, or unknown where the sample is worth nothing without
   impossible = 1,  ///< beyond the configured limits of what such an instrument can mean
+  no_instant = 2,  ///< the instant that it names is none of the time that the configuration allows
 };
-inline constexpr std::size_t kRefusals = 2;
+inline constexpr std::size_t kRefusals = 3;
 [[nodiscard]] std::string_view to_string(Refusal refusal);
 
 /// Unknown (NaN) is a legal answer of an instrument that has lost its bottom or its satellites and is

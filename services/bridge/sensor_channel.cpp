@@ -217,7 +217,9 @@ void SensorChannel::Impl::stamp_and_publish(const codec::Decoded& decoded, const
 
   AnySample sample = decoded.sample;
   if (auto* imu = std::get_if<ImuSample>(&sample)) rotate_into_body(*imu, plan.R_BS);
-  if (const auto refusal = refuse(sample, plan.limits)) {
+  std::optional<Refusal> refusal = refuse(sample, plan.limits);
+  if (plan.dated && stamp.implausible) refusal = Refusal::no_instant;
+  if (refusal) {
     const auto index = static_cast<std::size_t>(*refusal);
     if (said_refused[index].first(arrival.monotonic_ns)) {
       log.warning(plan.sensor.name.str() + ": sample refused: " + std::string(to_string(*refusal)));

@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
 
   fathom::cli::add_decode(app, exit_code);
   fathom::cli::add_status(app, exit_code);
+  fathom::cli::add_fix(app, exit_code);
   fathom::cli::add_solve(app, exit_code);
   fathom::cli::add_commission(app, exit_code);
   fathom::cli::add_simulate(app, exit_code);

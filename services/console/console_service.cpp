@@ -76,6 +76,7 @@ struct ConsoleService::Impl {
         view({config.common.vehicle, config.common.bus.domain, config.fresh_s}),
         events(stream_limits(config)),
         commands(host.participant()),
+        fixes(host.participant()),
         site(site_options(config),
              {[this] { return snapshot(); },
               [this](const std::string& body, const Identity& who, const std::string& peer) {
@@ -97,6 +98,7 @@ struct ConsoleService::Impl {
     listen_to<Alarm>();
     listen_to<GpsSample>();
     listen_to<UsblSample>();
+    listen_to<FixSample>();
     readers.push_back(std::make_shared<bus::Reader<Route>>(
         host.participant(), [this](const Route& route, const auto& info) {
           take(route, host.participant().writer_name(info.writer_guid));
@@ -191,19 +193,33 @@ struct ConsoleService::Impl {
             departure->apart_m, departure->allowed_m);
       }
     }
+    if (judgement.fix && !tell(*judgement.fix, judgement.age_s))
+      judgement = {503, "The vehicle network did not take the position.", {}};
     // Every order of somebody known leaves a line with who and when, also one that was refused; strangers are
     // counted and said now and then, so that they cannot fill the disk. Tokens are never written.
     const std::string line =
         " an order of " + name + " (" + std::string(to_string(who.role)) + ") from " + peer + ": ";
-    if (judgement.command) {
+    if (judgement.command || judgement.fix) {
       ++orders_given;
-      host.log().info("passed on" + line + describe(*judgement.command));
+      host.log().info("passed on" + line +
+                      (judgement.fix ? describe(*judgement.fix, judgement.age_s) : describe(*judgement.command)));
     } else {
       ++orders_refused;
       if (who.role != Role::nobody) host.log().warning("refused" + line + judgement.text);
       server.refuse({judgement.status, who.role == Role::nobody ? "order_of_a_stranger" : "order"}, peer);
     }
     return judgement;
+  }
+
+  /// A position of somebody who may give orders goes onto the network as any other measurement does.
+  bool tell(const FixSample& fix, double age_s) {
+    FixSample told = fix;
+    told.header = host.header();
+    told.header.sensor = fix.header.sensor;
+    told.header.received_ns = host.clock().utc_ns();
+    told.header.stamp_ns = told.header.received_ns - from_seconds(age_s);
+    told.header.sequence = static_cast<std::uint64_t>(told.header.received_ns);
+    return fixes.write(told);
   }
 
   void say_refused(const Refusal& refusal, const std::string& peer) {
@@ -277,6 +293,7 @@ struct ConsoleService::Impl {
   std::atomic<std::uint64_t> sequence{0};
   FanOut events;
   bus::Writer<Command> commands;
+  bus::Writer<FixSample> fixes;
   Site site;
   HttpServer server;
   std::vector<std::shared_ptr<void>> readers;  ///< last: their handlers use all of the above

@@ -36,11 +36,11 @@ struct Types {
     (void)((i++ == which && (check<T>(bytes), true)) || ...);
   }
 };
-using All = Types<ImuSample, DvlSample, GpsSample, DepthSample, AltimeterSample, RangeSample, HeadingSample,
-                  UsblSample, AirspeedSample, PropulsionSample, FinsSample, NavState, NavDetail, Verdict,
+using All = Types<ImuSample, DvlSample, GpsSample, DepthSample, AltimeterSample, RangeSample, FixSample,
+                  HeadingSample, UsblSample, AirspeedSample, PropulsionSample, FinsSample, NavState, NavDetail, Verdict,
                   AlignmentStatus, Forecast, Alarm, MonitorStatus, ServiceStatus, Command, ReplicaStatus,
                   EngineStatePart, Route, Truth>;
-constexpr std::uint8_t kMonitorStatus = 17;  // text, enumerators, lists of structs: everything at once
+constexpr std::uint8_t kMonitorStatus = 18;  // text, enumerators, lists of structs: everything at once
 
 }  // namespace
 

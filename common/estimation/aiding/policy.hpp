@@ -20,6 +20,8 @@ struct AidingPolicy {
   bool position = false;
   /// Navigation that used it has a position; a part of one (a range, a depth) is none.
   Fix fix = Fix::none;
+  /// A person or a modem told the position, perhaps minutes after it was taken: it comes alone.
+  bool told = false;
   /// The position is one that is refused or believed by how it agrees with the motion (GATE-4).
   bool follows_motion = false;
   /// Navigation that used it has a velocity.
@@ -42,6 +44,7 @@ struct AidingPolicy {
 inline void AidingPolicy::merge(const AidingPolicy& other) {
   position = position || other.position;
   if (other.fix != Fix::none) fix = other.fix;
+  told = told || other.told;
   follows_motion = follows_motion || other.follows_motion;
   if (other.velocity != VelocityOver::none) velocity = other.velocity;
   doppler = doppler || other.doppler;

@@ -9,6 +9,7 @@
 #include "estimation/aiding/depth.hpp"
 #include "estimation/aiding/dvl_beams.hpp"
 #include "estimation/aiding/dvl_velocity.hpp"
+#include "estimation/aiding/fix_position.hpp"
 #include "estimation/aiding/flow_angles.hpp"
 #include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/gps_velocity.hpp"
@@ -41,6 +42,7 @@ constexpr std::array kRegistry{
     entry<UsblPosition>(),  entry<UsblVector>(),  entry<UsblRangeBearing>(),
     entry<Airspeed>(),      entry<FlowAngles>(),  entry<BaroAltitude>(),
     entry<ModelVelocity>(), entry<SpeedLog>(),    entry<BeaconRange>(),
+    entry<FixPosition>(),
 };
 
 }  // namespace

@@ -64,6 +64,11 @@ void describe(Walk<EngineConfig>& s) {
           "steps that one inertial sample repeats for late measurements; what needs more is spread over the "
           "next")
       .range(2, 1e6);
+  s.field("late_fix_memory_s", &C::late_fix_memory_s,
+          "how old a fix of a sensor of kind fix may be when it is given; beyond the horizon it acts through "
+          "what the filter has done since; 0: nothing is remembered beyond the horizon")
+      .unit("s")
+      .range(0, 7200);
   s.field("future_tolerance_s", &C::future_tolerance_s,
           "stamps further ahead of the newest inertial sample are refused")
       .unit("s")

@@ -102,8 +102,7 @@ class FusionEngine::Impl final : public VerdictSink {
       return;
     }
     Measurement& one = incoming_;
-    one.stamp_ns =
-        header.stamp_ns - from_seconds(setup_.config.sensors[static_cast<std::size_t>(sensor)].latency_s);
+    one.stamp_ns = acting_of(setup_, header, sensor);
     one.command = false;
     one.judged = one.settled = false;
     one.revision = 0;

@@ -30,14 +30,18 @@ std::size_t snapshot_capacity(const EngineConfig& config) {
 
 History::History(const Setup& setup)
     : setup_(&setup),
+      past_(setup),
       navigator_(setup),
+      leg_(setup.index.size()),
       steps_(step_capacity(setup.config)),
       snapshots_(snapshot_capacity(setup.config), Navigator(setup)),
+      legs_(past_.on() ? snapshots_.size() : 0, Leg(setup.index.size())),
       marks_(snapshots_.size()),
       pool_(setup.config.measurement_capacity),
       order_(setup.config.measurement_capacity),
       judgements_(setup.config.measurement_capacity),
-      catching_(setup) {
+      catching_(setup),
+      catching_leg_(setup.index.size()) {
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint16_t>(i);
   for (std::size_t i = 0; i < marks_.size(); ++i) marks_[i].place = static_cast<std::uint16_t>(i);
 }
@@ -126,18 +130,20 @@ void History::go_back() {
     if (!catching_up_) catching_for_ = 0;
     catching_up_ = true;
     catching_ = snapshot(at);
+    if (past_.on()) catching_leg_ = legs_[marks_[at].place];
     caught_up_step_ = marks_[at].after_step;
     return;
   }
   repeated_steps_ += repeated;
   snapshot_count_ = at + 1;
   navigator_ = snapshot(at);
+  if (past_.on()) leg_ = legs_[marks_[at].place];
   steps_done_ = marks_[at].after_step;
 }
 
 void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
   for (std::uint64_t i = 0; i < steps && caught_up_step_ < steps_done_; ++i) {
-    run(catching_, steps_[caught_up_step_ % steps_.size()], sink);
+    run(catching_, catching_leg_, steps_[caught_up_step_ % steps_.size()], sink);
     ++caught_up_step_;
     ++repeated_steps_;
     const auto begin = marks_.begin();
@@ -145,10 +151,14 @@ void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
     const auto passed =
         std::lower_bound(begin, end, caught_up_step_,
                          [](const Mark& one, std::uint64_t step) { return one.after_step < step; });
-    if (passed != end && passed->after_step == caught_up_step_) snapshots_[passed->place] = catching_;
+    if (passed != end && passed->after_step == caught_up_step_) {
+      snapshots_[passed->place] = catching_;
+      if (past_.on()) legs_[passed->place] = catching_leg_;
+    }
   }
   if (caught_up_step_ < steps_done_) return;
   navigator_ = catching_;
+  if (past_.on()) leg_ = catching_leg_;
   catching_up_ = false;
 }
 
@@ -179,7 +189,7 @@ void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
       target == steps_done_ ? navigator_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
   bool saved = false;
   while (steps_done_ < target) {
-    run(navigator_, steps_[steps_done_ % steps_.size()], sink);
+    run(navigator_, leg_, steps_[steps_done_ % steps_.size()], sink);
     ++steps_done_;
     if (save_due(newest_ns)) {
       save(sink);
@@ -200,18 +210,28 @@ DurationNs History::future_tolerance_ns(const Measurement& measurement) const {
   return from_seconds(measurement.command ? config.horizon_s : config.future_tolerance_s);
 }
 
-void History::run(Navigator& navigator, const ImuStep& step, VerdictSink& sink) {
+Judgement History::act(Navigator& navigator, Leg& leg, const Measurement& event) {
+  const bool late = past_.on() && !event.command &&
+                    event.stamp_ns != instant_of(*setup_, event.header(), event.sensor);
+  return late ? past_.judge(navigator, leg, event) : navigator.apply(event);
+}
+
+void History::run(Navigator& navigator, Leg& leg, const ImuStep& step, VerdictSink& sink) {
+  if (past_.on()) navigator.record_to(&leg.passage);
   for (std::size_t rank = first_after(step.from_ns); rank < event_count_; ++rank) {
     Measurement& one = event(rank);
     if (one.stamp_ns > step.to_ns) break;
     navigator.advance(step, one.stamp_ns);
-    const Judgement judgement = navigator.apply(one);
+    const Judgement judgement = act(navigator, leg, one);
     if (one.settled) continue;
     judgements_[order_[rank]] = judgement;
     if (!one.judged || judgement.kind != one.said) say(one, judgement, false, sink);
   }
   navigator.advance(step, step.to_ns);
   navigator.finish(step);
+  if (!past_.on()) return;
+  past_.follow(navigator, leg);
+  navigator.record_to(nullptr);  // whoever copies it tells nothing
 }
 
 bool History::save_due(TimeNs newest_ns) const {
@@ -230,6 +250,7 @@ void History::save(VerdictSink& sink) {
   mark.after_step = steps_done_;
   mark.now_ns = navigator_.now_ns();
   snapshots_[mark.place] = navigator_;
+  if (past_.on()) legs_[mark.place] = leg_;
   ++snapshot_count_;
   drop_before(oldest_ns(), sink);
 }
@@ -315,6 +336,7 @@ void History::begin(TimeNs now_ns, VerdictSink& sink) {
 
 void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink) {
   forget_past(sink, VerdictKind::not_aligned);
+  Past::forget(leg_);
   navigator_.start(initial, now_ns);
   started_ = true;
   save(sink);
@@ -323,12 +345,14 @@ void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSin
 void History::rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink) {
   if (catching_up_) catch_up(steps_done_, sink);
   forget_past(sink, VerdictKind::late);
+  Past::forget(leg_);  // which had other stamps
   navigator_.rebase(now_ns, unobserved_s);
   save(sink);
 }
 
 void History::clear(VerdictSink& sink) {
   forget_past(sink, VerdictKind::not_aligned);
+  Past::forget(leg_);
   navigator_ = Navigator(*setup_);
   started_ = false;
 }

@@ -7,6 +7,7 @@
 #include "archive/layout.hpp"
 #include "archive/reader.hpp"
 #include "archive/writer.hpp"
+#include "estimation/engine/past/past.hpp"
 #include "estimation/navigator/navigator.hpp"
 
 namespace fathom::estimation {
@@ -112,7 +113,9 @@ class History {
   void go_back();
   /// On to the given number of steps.
   void repeat_until(std::uint64_t target, VerdictSink& sink);
-  void run(Navigator& navigator, const ImuStep& step, VerdictSink& sink);
+  void run(Navigator& navigator, Leg& leg, const ImuStep& step, VerdictSink& sink);
+  /// One event at its instant.
+  Judgement act(Navigator& navigator, Leg& leg, const Measurement& event);
   /// At most so many steps of the second navigator.
   void catch_up(std::uint64_t steps, VerdictSink& sink);
   /// The newest snapshot before an instant.
@@ -133,12 +136,15 @@ class History {
   [[nodiscard]] std::size_t first_after(TimeNs stamp_ns) const;
 
   const Setup* setup_;
+  Past past_;
   Navigator navigator_;
+  Leg leg_;  ///< of the navigator
   bool started_ = false;
   std::uint64_t steps_done_ = 0;
   TimeNs dirty_ns_ = 0;         ///< earliest event that has not acted although its instant is past; 0: none
   std::vector<ImuStep> steps_;  ///< ring, by step number
   std::vector<Navigator> snapshots_;
+  std::vector<Leg> legs_;    ///< of the snapshots; none where nothing is remembered
   std::vector<Mark> marks_;  ///< by age, oldest first; the first snapshot_count_ are in use
   std::size_t snapshot_count_ = 0;
   std::vector<Measurement> pool_;
@@ -151,6 +157,7 @@ class History {
   // The second navigator. Snapshots up to caught_up_step_ are its own, those behind it the first one's.
   bool catching_up_ = false;
   Navigator catching_;
+  Leg catching_leg_;
   std::uint64_t caught_up_step_ = 0;
   int catching_for_ = 0;  ///< inertial samples
 };

@@ -31,20 +31,21 @@ void check_measurement(archive::Reader& archive, const Setup& setup, const Measu
   const SampleHeader& header = event.header();
   archive.expect(header.sensor == Name(sensor.sensor), "sample.sensor", sensor.sensor);
   archive.expect(sound_stamp(header.stamp_ns) && header.sequence == event.sequence &&
-                     event.stamp_ns == header.stamp_ns - from_seconds(sensor.latency_s),
-                 "stamp_ns", "that of its sample less the latency");
+                     event.stamp_ns == acting_of(setup, header, event.sensor),
+                 "stamp_ns", "that of its sample less the latency, or when a late one was given");
 }
 
 }  // namespace
 
 /// All that is read before anything is taken over.
 struct History::Candidate {
-  explicit Candidate(const Setup& setup) : navigator(setup) {}
+  explicit Candidate(const Setup& setup) : navigator(setup), past(setup.index.size()) {}
 
   std::uint64_t base_step = 0;  ///< steps that the navigator has taken
   Navigator navigator;
   std::vector<ImuStep> steps;       ///< those that follow
   std::vector<Measurement> events;  ///< later than the navigator, in their order
+  Past::Candidate past;             ///< of the navigator
 };
 
 void History::layout(archive::Layout& archive) const {
@@ -57,6 +58,7 @@ void History::layout(archive::Layout& archive) const {
   archive.element("steps", 0, step);
   archive("events", count);
   archive.element("events", 0, event);
+  if (past_.on() && archive.since(7)) past_.layout(archive);
 }
 
 void History::write(archive::Writer& archive) const {
@@ -80,6 +82,7 @@ void History::write(archive::Writer& archive) const {
     const Measurement& one = pool_[order_[rank]];
     archive.element("events", rank - first, one);
   }
+  if (past_.on()) past_.write(second ? catching_leg_ : legs_[marks_[0].place], archive);
 }
 
 void History::read_steps(archive::Reader& archive, Candidate& out) const {
@@ -139,6 +142,8 @@ std::string History::read(archive::Reader& archive, TimeNs newest_ns, VerdictSin
   archive("core", found.navigator);
   if (archive.good()) read_steps(archive, found);
   if (archive.good()) read_events(archive, found);
+  if (archive.good() && past_.on() && archive.since(7))
+    past_.read(archive, found.navigator.now_ns(), found.past);
   archive.expect_end();
   archive.expect(newest_ns == (found.steps.empty() ? found.navigator.now_ns() : found.steps.back().to_ns),
                  "newest_ns", "the end of the last step");
@@ -150,6 +155,7 @@ std::string History::read(archive::Reader& archive, TimeNs newest_ns, VerdictSin
 void History::take_over(const Candidate& found, VerdictSink& sink) {
   forget();  // what becomes of those events follows from the state that is taken over
   navigator_ = found.navigator;
+  if (past_.on()) past_.take_over(found.past, leg_);
   const std::uint64_t target = found.base_step + found.steps.size();
   for (std::uint64_t step = found.base_step; step < target; ++step)
     steps_[step % steps_.size()] = found.steps[step - found.base_step];

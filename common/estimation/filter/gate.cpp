@@ -66,8 +66,13 @@ GateLimits gate_limits(const SensorConfig& sensor) {
 
 GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const GateLimits& limits,
                 Observation& observation, InnovationStatistics& statistics) {
-  GateResult result;
   filter.statistics(observation, 1.0, statistics);
+  return gate(sensor, limits, observation, statistics);
+}
+
+GateResult gate(const SensorConfig& sensor, const GateLimits& limits, Observation& observation,
+                InnovationStatistics& statistics) {
+  GateResult result;
   for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
     result.innovation_sigma[i] = std::sqrt(statistics.s[i * kStride + i]);
   if (observation.each_alone || sensor.gate_mode == GateMode::per_component) {

@@ -29,5 +29,8 @@ struct GateResult {
 /// is decided afterwards changes only R and which rows there are.
 [[nodiscard]] GateResult gate(const ErrorFilter& filter, const SensorConfig& sensor, const GateLimits& limits,
                               Observation& observation, InnovationStatistics& statistics);
+/// The same with `statistics` that are there already, of all rows and their own noise.
+[[nodiscard]] GateResult gate(const SensorConfig& sensor, const GateLimits& limits, Observation& observation,
+                              InnovationStatistics& statistics);
 
 }  // namespace fathom::estimation

@@ -18,6 +18,7 @@ template <class Sample>
 bool sound(const Sample& sample) {
   bool good = true;
   if constexpr (requires { sample.sigma_m; }) good = good && sound_or_unknown(sample.sigma_m);
+  if constexpr (requires { sample.depth_sigma_m; }) good = good && sound_or_unknown(sample.depth_sigma_m);
   if constexpr (requires { sample.sigma_m_s; }) good = good && sound_or_unknown(sample.sigma_m_s);
   if constexpr (requires { sample.sigma_rad; }) good = good && sound_or_unknown(sample.sigma_rad);
   if constexpr (requires { sample.position_sigma_N_m; })

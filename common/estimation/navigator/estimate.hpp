@@ -50,8 +50,10 @@ struct Estimate {
   /// Begins to navigate: the filter knows nothing but `sigma`.
   void begin(const FilterState& start, const std::array<double, kMaxStates>& sigma);
 
-  [[nodiscard]] AidingState aiding_state(const Setup& setup) const {
-    return {setup.index, state, rate_B_rad_s, setup.magnetic_variation_rad(), force_B_m_s2};
+  [[nodiscard]] AidingState aiding_state(const Setup& setup) const { return aiding_state(setup, state); }
+  /// Of another state: that of the instant of a measurement that comes late.
+  [[nodiscard]] AidingState aiding_state(const Setup& setup, const FilterState& then) const {
+    return {setup.index, then, rate_B_rad_s, setup.magnetic_variation_rad(), force_B_m_s2};
   }
   /// Relative to ground or medium.
   [[nodiscard]] Eigen::Vector3d velocity_N_m_s(const Setup& setup, VelocityOver reference) const;

@@ -13,6 +13,9 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMostRoom = 1e6;
+/// A position that somebody tells moves the estimate between two of its own corrections: further than this,
+/// whoever steers by it is told of a step.
+constexpr double kNoticed_m = 1.0;
 
 VerdictKind verdict_of(Usable usable) {
   switch (usable) {
@@ -39,6 +42,7 @@ struct Navigator::Trial {
   const SensorConfig* rules;  ///< of the gate: the sensor's, or the vehicle model's
   const GateLimits* limits;
   Instrument& instrument;
+  Remembered* then = nullptr;  ///< of one that comes late
   Judgement judgement{};
   ModelAiding::Drive drive = ModelAiding::Drive::nothing;
   ModelAiding::Trial model{};
@@ -70,13 +74,14 @@ struct Navigator::Trial {
   }
 };
 
-Judgement Navigator::judge(const Measurement& measurement) {
+Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
   const auto slot = static_cast<std::size_t>(measurement.sensor);
   Trial trial{.measurement = measurement,
               .config = setup_->config.sensors[slot],
               .rules = &setup_->config.sensors[slot],
               .limits = &setup_->limits[slot],
-              .instrument = instruments_.behind(*setup_, measurement)};
+              .instrument = instruments_.behind(*setup_, measurement),
+              .then = then};
   if (!admit(trial) || !observe(trial)) return trial.judgement;
   gate(trial);
   reacquire(trial);
@@ -88,9 +93,9 @@ bool Navigator::admit(Trial& trial) {
   const Measurement& measurement = trial.measurement;
   Instrument& instrument = trial.instrument;
   if (!instruments_.enabled(measurement)) return trial.end(VerdictKind::source_disabled);
-  if (instrument.stamp_ns == measurement.stamp_ns && instrument.stamp_ns != 0)
-    return trial.end(VerdictKind::duplicate);
-  instrument.stamp_ns = measurement.stamp_ns;
+  const TimeNs stamp_ns = trial.then == nullptr ? measurement.stamp_ns : trial.then->instant_ns();
+  if (instrument.stamp_ns == stamp_ns && instrument.stamp_ns != 0) return trial.end(VerdictKind::duplicate);
+  instrument.stamp_ns = stamp_ns;
   if (trial.config.use_sample_sigma && !sound_sigmas(measurement.sample))
     return trial.end(VerdictKind::out_of_range);
   starter_.collect(*setup_, estimate_, measurement);
@@ -115,7 +120,8 @@ bool Navigator::observe(Trial& trial) {
     trial.judgement.model = ModelVelocity::kName;
     return trial.end(model_.is_doubted(config.vehicle_model) ? VerdictKind::rejected : VerdictKind::used);
   }
-  const AidingState state = estimate_.aiding_state(*setup_);
+  const AidingState state =
+      estimate_.aiding_state(*setup_, trial.then == nullptr ? estimate_.state : trial.then->state());
   if (trial.drive == ModelAiding::Drive::shaft) {
     const bool vouched = estimate_.since(usage_.dvl_used_ns) <= config.velocity_timeout_s;
     trial.model = model_.consider(*setup_, estimate_, state, std::get<PropulsionSample>(sample), vouched);
@@ -157,12 +163,17 @@ bool Navigator::observe(Trial& trial) {
   trial.with_position = trial.policy.position && measures(trial.whole, 0, 0);
   trial.fix = trial.policy.follows_motion && trial.with_position;
   trial.whole.list_columns(setup_->index.size());
+  if (trial.then != nullptr && !trial.then->look_back(trial.whole, trial.statistics))
+    return trial.end(VerdictKind::late);
   return true;
 }
 
 void Navigator::gate(Trial& trial) const {
   trial.kept = trial.whole;
-  trial.gated = estimation::gate(estimate_.filter, *trial.rules, *trial.limits, trial.kept, trial.statistics);
+  trial.gated =
+      trial.then == nullptr
+          ? estimation::gate(estimate_.filter, *trial.rules, *trial.limits, trial.kept, trial.statistics)
+          : estimation::gate(*trial.rules, *trial.limits, trial.kept, trial.statistics);
 }
 
 void Navigator::reacquire(Trial& trial) {
@@ -175,8 +186,11 @@ void Navigator::reacquire(Trial& trial) {
   }
   const bool probation = is_on_probation(trial);
   const unsigned refused = probation ? (1U << trial.whole.rows) - 1U : gated.refused;
-  const unsigned believed = reacquisition_.believed_rows(trial.instrument, *trial.rules, estimate_,
-                                                         trial.whole, refused, trial.fix);
+  // Room could only be made for what the estimate is now: one that comes late has none.
+  const unsigned believed =
+      trial.then != nullptr ? 0U
+                            : reacquisition_.believed_rows(trial.instrument, *trial.rules, estimate_,
+                                                           trial.whole, refused, trial.fix);
   if (probation && believed == 0) {
     gated.pass = false;
     gated.limit = trial.config.reacquire_step_m;
@@ -202,12 +216,19 @@ void Navigator::reacquire(Trial& trial) {
 
 bool Navigator::update(Trial& trial) {
   if (trial.judgement.kind != VerdictKind::used) return false;
+  if (trial.then != nullptr) {
+    trial.then->acts(trial.kept);
+    // Of the present error it sees nothing: all that it says of that is in the statistics.
+    trial.kept.h = {};
+    trial.kept.column_count = 0;
+  }
   if (!estimate_.update(*setup_, trial.kept, trial.statistics, velocity_along(trial.policy), trial.x))
     return trial.end(VerdictKind::rejected);
   return true;
 }
 
-void Navigator::account(const Trial& trial) {
+void Navigator::account(Trial& trial) {
+  if (trial.policy.told && std::hypot(trial.x[0], trial.x[1]) > kNoticed_m) trial.stepped = true;
   if (trial.stepped)
     reacquisition_.note_step(-Vector3d(trial.x[0], trial.x[1], trial.x[2]), &trial.whole, estimate_);
   trial.instrument.used_ns = estimate_.now_ns;

@@ -6,6 +6,7 @@
 #include "estimation/navigator/model_aiding.hpp"
 #include "estimation/navigator/plausibility/plausibility.hpp"
 #include "estimation/navigator/reacquisition.hpp"
+#include "estimation/navigator/remembered.hpp"
 #include "estimation/navigator/start/alignment_watch.hpp"
 #include "estimation/navigator/start/descent.hpp"
 #include "estimation/navigator/start/ordered_position.hpp"
@@ -29,6 +30,8 @@ class Navigator {
   void finish(const ImuStep& step);
   /// Applies one event at the present instant.
   Judgement apply(const Measurement& measurement);
+  /// One that speaks of an instant long before the present one, at which it acts.
+  Judgement apply_late(const Measurement& measurement, Remembered& then) { return judge(measurement, &then); }
   /// Starts at `now_ns` from a given state.
   void start(const InitialState& initial, TimeNs now_ns);
   /// Another estimate for the present instant, as the smoother has it.
@@ -95,7 +98,7 @@ class Navigator {
   // judge.cpp
   /// One measurement on its way through the judge.
   struct Trial;
-  Judgement judge(const Measurement& measurement);
+  Judgement judge(const Measurement& measurement, Remembered* then = nullptr);
   /// Whether it may be looked at at all. Parts that have a use for it beside the filter have it then.
   bool admit(Trial& trial);
   /// What the aiding models make of it; false when there is nothing for the filter in it.
@@ -105,7 +108,7 @@ class Navigator {
   void reacquire(Trial& trial);
   bool update(Trial& trial);
   /// Notes what a used measurement means for mode, outages and steps.
-  void account(const Trial& trial);
+  void account(Trial& trial);
   [[nodiscard]] bool is_frozen(Trial& trial) const;
   [[nodiscard]] bool is_on_probation(const Trial& trial) const;
   /// What is measured along the vehicle's own axes: over ground while a DVL does, else through the water.

@@ -12,7 +12,8 @@ constexpr std::size_t kMaxSensors = 64;  // names come from the network: bounded
 }  // namespace
 
 void WriterWatch::heard(SourceKind kind, const Name& name, const WriterGuid& writer, const Instant& now) {
-  if (writer == WriterGuid{}) return;
+  // Anybody may tell a position in the name of an operator.
+  if (writer == WriterGuid{} || kind == SourceKind::fix) return;
   auto found = sensors_.find({kind, name});
   if (found == sensors_.end()) {
     if (sensors_.size() >= kMaxSensors) return;

@@ -6,6 +6,7 @@
 #include "sim/sensors/depth.hpp"
 #include "sim/sensors/dvl.hpp"
 #include "sim/sensors/fins.hpp"
+#include "sim/sensors/fix.hpp"
 #include "sim/sensors/gps.hpp"
 #include "sim/sensors/heading.hpp"
 #include "sim/sensors/imu.hpp"

@@ -97,8 +97,14 @@ void SolveResult::note(const AlignmentStatus& status, double at_s) {
   known->last_s = at_s;
 }
 
+estimation::EngineConfig engine_of(const SolveRun& solve_run) {
+  estimation::EngineConfig out = config::engine_config(*solve_run.config);
+  if (solve_run.data->of<FixSample>().empty()) out.late_fix_memory_s = 0.0;
+  return out;
+}
+
 SolveResult run(const SolveRun& solve_run) {
-  estimation::FusionEngine engine(config::engine_config(*solve_run.config));
+  estimation::FusionEngine engine(engine_of(solve_run));
   if (const auto start = start_of(solve_run)) engine.start_from(*start);
   SolveResult result;
   Progress progress(solve_run.label, solve_run.arrivals->size());

@@ -73,6 +73,9 @@ struct SolveRun {
   }
 };
 
+/// Its engine's configuration. What only late fixes need is left out where the data have none.
+[[nodiscard]] estimation::EngineConfig engine_of(const SolveRun& solve_run);
+
 /// Calls `consumer` with each sample in the order of arrival, without those that are left out.
 template <class Consumer>
 void for_each_sample(const SolveRun& solve_run, Consumer&& consumer) {

@@ -46,6 +46,18 @@ std::optional<FixRow> place_of(const GpsSample& sample) {
   return row;
 }
 
+std::optional<FixRow> place_of(const FixSample& sample) {
+  if (!std::isfinite(sample.latitude_rad) || !std::isfinite(sample.longitude_rad)) return std::nullopt;
+  FixRow row;
+  row.utc_ns = sample.header.stamp_ns;
+  row.latitude_deg = sample.latitude_rad * kDegrees;
+  row.longitude_deg = sample.longitude_rad * kDegrees;
+  row.sigma_m = sample.sigma_m;
+  row.source = SourceKind::fix;
+  row.sensor = sample.header.sensor;
+  return row;
+}
+
 std::optional<FixRow> place_of(const UsblSample& sample) {
   FixRow row;
   row.utc_ns = sample.header.stamp_ns;

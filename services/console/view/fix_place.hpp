@@ -4,6 +4,7 @@
 
 #include "console/view/history.hpp"
 #include "samples/gps.hpp"
+#include "samples/position/fix.hpp"
 #include "samples/usbl.hpp"
 
 namespace fathom::console {
@@ -13,5 +14,6 @@ namespace fathom::console {
 // station.
 [[nodiscard]] std::optional<FixRow> place_of(const GpsSample& sample);
 [[nodiscard]] std::optional<FixRow> place_of(const UsblSample& sample);
+[[nodiscard]] std::optional<FixRow> place_of(const FixSample& sample);
 
 }  // namespace fathom::console

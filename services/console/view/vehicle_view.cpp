@@ -88,6 +88,11 @@ void VehicleView::add(const UsblSample& sample, const health::Instant& at) {
   if (auto fix = place_of(sample)) add_fix(*fix, at);
 }
 
+void VehicleView::add(const FixSample& sample, const health::Instant& at) {
+  if (sample.header.vehicle.view() != options_.vehicle) return;
+  if (auto fix = place_of(sample)) add_fix(*fix, at);
+}
+
 std::optional<std::string> VehicleView::add(const Route& route, const health::Instant& at) {
   if (route.header.vehicle.view() != options_.vehicle) return std::nullopt;
   return routes_.add(route, at);
@@ -106,7 +111,9 @@ void VehicleView::add_fix(FixRow fix, const health::Instant& at) {
 }
 
 void VehicleView::judge_fix(const Verdict& verdict) {
-  if (verdict.source != SourceKind::gps && verdict.source != SourceKind::usbl) return;
+  const bool of_a_fix = verdict.source == SourceKind::gps || verdict.source == SourceKind::usbl ||
+                        verdict.source == SourceKind::fix;
+  if (!of_a_fix) return;
   const auto at = std::find_if(waiting_.begin(), waiting_.end(), [&](const WaitingFix& fix) {
     return fix.row.utc_ns == verdict.header.stamp_ns && fix.row.sensor == verdict.header.sensor;
   });

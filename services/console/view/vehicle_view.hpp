@@ -12,6 +12,7 @@
 #include "health/instant.hpp"
 #include "health/navigation/order_watch.hpp"
 #include "samples/gps.hpp"
+#include "samples/position/fix.hpp"
 #include "samples/usbl.hpp"
 #include "status/book.hpp"
 #include "status/trust.hpp"
@@ -81,6 +82,7 @@ class VehicleView {
   void add(const Alarm& alarm, const health::Instant& at);
   void add(const GpsSample& sample, const health::Instant& at);
   void add(const UsblSample& sample, const health::Instant& at);
+  void add(const FixSample& sample, const health::Instant& at);
   /// A sentence when it was refused.
   std::optional<std::string> add(const Route& route, const health::Instant& at);
 

@@ -14,6 +14,8 @@ Intake::Answer Intake::take(const Arrival& arrival) {
     ++imu_samples_;
   }
   log_.add(arrival);
+  // Several may tell positions in one name, each with numbers of its own.
+  if (arrival.source() == SourceKind::fix) return {Fate::taken, 0};
   return {Fate::taken, gaps_.add(arrival.source(), header)};
 }
 

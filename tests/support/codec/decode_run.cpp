@@ -66,6 +66,11 @@ void describe(Line& line, const RangeSample& s) {
   line.real(s.beacon_latitude_rad).real(s.beacon_longitude_rad).real(s.beacon_depth_m);
 }
 
+void describe(Line& line, const FixSample& s) {
+  line.word("fix").real(s.latitude_rad).real(s.longitude_rad).real(s.sigma_m);
+  line.real(s.depth_m).real(s.depth_sigma_m);
+}
+
 void describe(Line& line, const AltimeterSample& s) {
   line.word("altimeter").real(s.altitude_m).real(s.sigma_m).real(s.transducer_offset_m);
   line.integer(s.vertical ? 1 : 0);

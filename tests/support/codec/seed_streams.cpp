@@ -155,6 +155,10 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::nmea_sentence("CAMPR,1" + std::to_string(frame % 3) + ",1,0.2500"));
     append(stream, sim::encode::nmea_sentence("SNTTA,0.1,,0.3," + std::to_string(frame) + ".5,120000.00"));
     append(stream, sim::encode::nmea_sentence("CAREV,120000,AUV,0.93.0.30"));
+  } else if (protocol == "fix_text") {
+    const std::string second = std::to_string(10 + frame % 50);
+    append(stream, sim::encode::nmea_sentence("PFTHX,2026-01-31T12:00:" + second + "Z,36.4009,127.4,20"));
+    append(stream, sim::encode::nmea_sentence("PFTHX,,-36.4,-127.25,3.5,12." + std::to_string(frame % 10) + ",1"));
   } else {
     throw std::invalid_argument("no seed stream for protocol " + std::string(protocol));
   }

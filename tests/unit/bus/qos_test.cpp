@@ -60,6 +60,7 @@ class QosTable : public testing::Test {
     make<DepthSample>(participant, "fathom/v1/depth", *pairs_);
     make<AltimeterSample>(participant, "fathom/v1/altimeter", *pairs_);
     make<RangeSample>(participant, "fathom/v1/range", *pairs_);
+    make<FixSample>(participant, "fathom/v1/fix", *pairs_);
     make<HeadingSample>(participant, "fathom/v1/heading", *pairs_);
     make<UsblSample>(participant, "fathom/v1/usbl", *pairs_);
     make<AirspeedSample>(participant, "fathom/v1/airspeed", *pairs_);
@@ -122,7 +123,7 @@ TEST_F(QosTable, Samples) {
   const std::map<std::string, int> rates{
       {"imu", 400},   {"dvl", 50},       {"gps", 50},         {"depth", 50}, {"heading", 100},
       {"usbl", 10},   {"airspeed", 100}, {"propulsion", 100}, {"fins", 100}, {"altimeter", 100},
-      {"range", 100}, {"verdict", 400},  {"truth", 100}};
+      {"range", 100}, {"fix", 100},      {"verdict", 400},    {"truth", 100}};
   for (const auto& [name, rate_hz] : rates) {
     SCOPED_TRACE(name);
     const Pair& pair = pairs_->at("fathom/v1/" + name);

@@ -19,14 +19,14 @@ template <class T>
 class RoundTrip : public testing::Test {};
 
 using AllTypes =
-    testing::Types<ImuSample, DvlSample, GpsSample, DepthSample, AltimeterSample, RangeSample, HeadingSample,
-                   UsblSample, AirspeedSample, PropulsionSample, FinsSample, NavState, NavDetail, Verdict,
+    testing::Types<ImuSample, DvlSample, GpsSample, DepthSample, AltimeterSample, RangeSample, FixSample,
+                   HeadingSample, UsblSample, AirspeedSample, PropulsionSample, FinsSample, NavState, NavDetail, Verdict,
                    AlignmentStatus, Forecast, Alarm, MonitorStatus, ServiceStatus, Command, ReplicaStatus,
                    EngineStatePart, Route, Truth, IntakeRecord>;
 TYPED_TEST_SUITE(RoundTrip, AllTypes);
 
 TEST(RoundTrips, CoverEveryTopic) {
-  EXPECT_EQ(bus::all_topics().size(), 25U);
+  EXPECT_EQ(bus::all_topics().size(), 26U);
 }
 
 TYPED_TEST(RoundTrip, KeepsEveryField) {

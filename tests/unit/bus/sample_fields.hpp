@@ -56,6 +56,10 @@ void fields(Is<DepthSample> auto& s, auto visit) {
   auto& [header, a, b, c, d] = s;
   visit(header, a, b, c, d);
 }
+void fields(Is<FixSample> auto& s, auto visit) {
+  auto& [header, a, b, c, d, e] = s;
+  visit(header, a, b, c, d, e);
+}
 void fields(Is<RangeSample> auto& s, auto visit) {
   auto& [header, a, b, c, d, e, f, g] = s;
   visit(header, a, b, c, d, e, f, g);

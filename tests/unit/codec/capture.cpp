@@ -42,6 +42,9 @@ class Writer {
   void operator()(const RangeSample& s) {
     put("range", s.beacon.str(), s.range_m, s.sigma_m, s.travel_time_s);
   }
+  void operator()(const FixSample& s) {
+    put("fix", s.latitude_rad, s.longitude_rad, s.sigma_m, s.depth_m, s.depth_sigma_m);
+  }
   void operator()(const AltimeterSample& s) {
     put("altimeter", s.altitude_m, s.sigma_m, s.transducer_offset_m, s.vertical ? 1 : 0);
   }

@@ -72,7 +72,7 @@ TEST(Scenarios, EachLoadsSpeaksItsProtocolsAndNamesItsBridges) {
     EXPECT_EQ(scenario.name, name);
     EXPECT_FALSE(scenario.mission.empty()) << name;
     for (const char* kind : {"imu", "gps", "dvl", "depth", "heading", "usbl", "propulsion", "fins",
-                             "airspeed", "altimeter", "range"}) {
+                             "airspeed", "altimeter", "range", "fix"}) {
       const auto* sensor = sim::find_sensor(scenario.sensors, kind);
       if (!sensor->enabled) continue;
       EXPECT_TRUE(sim::can_encode(kind, sensor->protocol)) << name << " " << kind;

@@ -121,6 +121,15 @@ EventSample sample_of(const AidingEntry& entry, const FilterState& state, Normal
       s.beacon_depth_m = 18.0 - beacon.altitude_m;
       return s;
     }
+    case SourceKind::fix: {
+      FixSample s;
+      const geo::Geodetic told = geo::moved_by(state.nav.position, normal.vector(50.0));
+      s.latitude_rad = told.latitude_rad;
+      s.longitude_rad = told.longitude_rad;
+      s.sigma_m = 5.0;
+      if (normal(1.0) > 0.0) s.depth_m = 18.0 - told.altitude_m;
+      return s;
+    }
     case SourceKind::airspeed: {
       AirspeedSample s;
       s.airspeed_m_s = 25.0;

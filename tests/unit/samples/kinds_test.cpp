@@ -24,6 +24,7 @@ TEST(Kinds, WhatOnlyInformsDoesNotAid) {
   EXPECT_TRUE(Informing<AltimeterSample>);
   EXPECT_FALSE(Aiding<AltimeterSample>);
   EXPECT_TRUE(Aiding<RangeSample>);
+  EXPECT_TRUE(Aiding<FixSample>);
   for_each_aiding_kind([](auto kind) { EXPECT_EQ(kind.kUse, Use::aiding) << kind.kWord; });
 }
 

@@ -142,10 +142,10 @@ export const Chart = L.Layer.extend({
     for (const fix of store.fixes) {
       const p = this.point(fix.lat, fix.lon);
       const refused = fix.verdict !== null && fix.verdict !== 0;
-      const r = fix.source === "usbl" ? 6 : 3.5;
+      const r = {usbl: 6, fix: 7}[fix.source] ?? 3.5;
       c.beginPath();
       c.lineWidth = 2;
-      c.strokeStyle = refused ? colour("bad") : colour(fix.source === "usbl" ? "s2" : "s3");
+      c.strokeStyle = refused ? colour("bad") : colour({usbl: "s2", fix: "s1"}[fix.source] ?? "s3");
       if (refused) {
         c.moveTo(p.x - r, p.y - r);
         c.lineTo(p.x + r, p.y + r);
@@ -156,6 +156,11 @@ export const Chart = L.Layer.extend({
         c.lineTo(p.x + r, p.y);
         c.lineTo(p.x, p.y + r);
         c.lineTo(p.x - r, p.y);
+        c.closePath();
+      } else if (fix.source === "fix") {
+        c.moveTo(p.x, p.y - r);
+        c.lineTo(p.x + r, p.y + r);
+        c.lineTo(p.x - r, p.y + r);
         c.closePath();
       } else {
         c.arc(p.x, p.y, r, 0, 2 * Math.PI);

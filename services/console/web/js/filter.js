@@ -9,6 +9,7 @@ const kComponents = {
   dvl: ["forward", "right", "down", "4th"],
   gps: ["north", "east", "down", "4th"],
   usbl: ["north", "east", "down", "4th"],
+  fix: ["north", "east", "down", "4th"],
 };
 
 function refill(select, options, chosen) {

@@ -4,7 +4,8 @@ import {Chart, degreesOf, metresOf} from "./chart.js";
 import {onPrefs} from "./prefs.js";
 import {isOld, routeText} from "./routes.js";
 import {store} from "./store.js";
-import {onSession} from "./orders.js";
+import {tellFix} from "./fix.js";
+import {mayOrder, onSession} from "./orders.js";
 import {tileLayer} from "./tiles.js";
 import * as units from "./units.js";
 
@@ -15,6 +16,7 @@ export function makeMap() {
   let follow = true;
   let measuring = false;
   let measured = [];
+  let telling = false;
   let tiles = null;
   const box = el("div", {class: "map", id: "map", role: "application", "aria-label": "Map"});
   const followButton = el(
@@ -37,6 +39,16 @@ export function makeMap() {
     },
     "Measure",
   );
+  const fixButton = el(
+    "button",
+    {
+      type: "button",
+      "aria-pressed": "false",
+      title: "Tell where the vehicle was: click there; the other mouse button does it at once",
+      onclick: () => setTelling(!telling),
+    },
+    "Fix …",
+  );
   const pointer = el("span", {class: "pointer", "data-field": "pointer"}, "–");
   const distance = el("span", {class: "num", "data-field": "distance", role: "status"});
   const routes = el("div", {
@@ -56,6 +68,7 @@ export function makeMap() {
       followButton,
       el("button", {type: "button", title: "Show the whole track", onclick: fit}, "Fit track"),
       measureButton,
+      fixButton,
       distance,
       pointer,
     ),
@@ -69,6 +82,7 @@ export function makeMap() {
       el("span", {}, "◌ 95 % ellipse"),
       el("span", {}, "○ GPS fix"),
       el("span", {}, "◇ USBL fix"),
+      el("span", {}, "△ told fix"),
       el("span", {}, "✕ refused fix"),
       el("span", {}, "▣ waypoint steered to"),
       el("span", {}, "□ waypoint, mark"),
@@ -87,6 +101,15 @@ export function makeMap() {
     put(distance, value ? "click two points" : "");
     measureButton.setAttribute("aria-pressed", String(value));
     chart?.draw();
+  }
+  function setTelling(value) {
+    telling = value;
+    put(distance, value ? "click where the vehicle was" : "");
+    fixButton.setAttribute("aria-pressed", String(value));
+  }
+  function tell(event) {
+    setTelling(false);
+    if (mayOrder()) tellFix(event.latlng.lat, event.latlng.lng);
   }
   function vehicle() {
     const nav = store.tick?.status.navigation;
@@ -121,6 +144,7 @@ export function makeMap() {
     map.fitBounds(L.latLngBounds([south, west], [north, east]).pad(0.15), {animate: false, maxZoom: 20});
   }
   function choose(event) {
+    if (telling) tell(event);
     if (!measuring) return;
     if (measured.length >= 2) measured = [];
     measured.push(event.latlng);
@@ -163,12 +187,17 @@ export function makeMap() {
     L.control.scale({imperial: units.lengthUnit() === "ft", metric: units.lengthUnit() === "m"}).addTo(map);
     chart = new Chart({origin: () => origin, grid: () => !tiles, measured: () => measured}).addTo(map);
     map.on("click", choose);
+    map.on("contextmenu", tell);
     map.on("mousemove", point);
     map.on("dragstart", () => setFollow(false));
     useTiles();
   }
   onPrefs(() => chart?.draw());
   onSession(useTiles);
+  onSession(() => {
+    fixButton.hidden = !mayOrder();
+  });
+  fixButton.hidden = !mayOrder();
 
   return {
     root,

@@ -2,6 +2,7 @@
 import {makeAttitude} from "./attitude.js";
 import {card, el, field, put, reconcile, scroller, tableOf, verdictLook} from "./dom.js";
 import {ForecastCurve} from "./forecast.js";
+import {tellFix} from "./fix.js";
 import {ask, mayOrder, onSession, order} from "./orders.js";
 import {store} from "./store.js";
 import * as units from "./units.js";
@@ -38,13 +39,14 @@ export function makeOverview() {
   ])
     f[name] = field(angles, label, name);
   const setPosition = el("button", {type: "button", onclick: orderPosition}, "Set position …");
+  const fix = el("button", {type: "button", onclick: orderFix}, "Fix …");
   const realign = el("button", {type: "button", onclick: orderRealign}, "Realign …");
   const place = card(
     "place",
     "Position",
     [],
     scroller("Position", numbers),
-    el("div", {class: "actions"}, setPosition, realign),
+    el("div", {class: "actions"}, fix, setPosition, realign),
   );
   const motion = card("motioncard", "Attitude", [], el("div", {class: "motion"}, attitude.root, angles));
 
@@ -82,7 +84,7 @@ export function makeOverview() {
   const root = el("div", {class: "view overview"}, place, gps, alarms, motion, alignment, sources);
 
   function allowed() {
-    for (const button of [setPosition, realign, all]) {
+    for (const button of [fix, setPosition, realign, all]) {
       button.disabled = !mayOrder();
       button.title = mayOrder() ? "" : "Needs the role operator";
     }
@@ -279,6 +281,11 @@ async function orderPosition() {
     ],
   );
   if (values) order({kind: "set_position", ...values});
+}
+
+function orderFix() {
+  const nav = store.tick?.status.navigation ?? {};
+  tellFix(nav.lat_deg ?? 0, nav.lon_deg ?? 0);
 }
 
 async function orderRealign() {

@@ -19,6 +19,22 @@ struct Mapping<PropulsionSample> {
   static std::string key_text(const PropulsionSample& sample) { return vehicle_and_sensor(sample); }
 };
 
+template <>
+struct Mapping<FinsSample> {
+  using Wire = v1::FinsSample;
+  static constexpr const char* kTopic = KindOf<FinsSample>::kTopic.data();
+  static constexpr const char* kType = "fathom::v1::FinsSample";
+
+  static void fields(auto& copy, auto& plain, auto& wire) {
+    copy_header(copy, plain.header, wire);
+    copy(plain.rudder_rad, wire.rudder_rad());
+    copy(plain.stern_rad, wire.stern_rad());
+  }
+
+  static std::string key_text(const FinsSample& sample) { return vehicle_and_sensor(sample); }
+};
+
 }  // namespace fathom::bus::detail
 
 FATHOM_BUS_TOPIC(PropulsionSample)
+FATHOM_BUS_TOPIC(FinsSample)
