@@ -26,8 +26,14 @@ std::string in_unit(const Finding& f, double value) {
   return brief(value) + " m";
 }
 
+/// Positions, of whatever instrument.
+const std::string kFixes = "fixes";
+std::string fixes(double count) {
+  return counted(count, kFixes.substr(0, 3), kFixes);
+}
+
 std::string measurements(const Finding& f, double count) {
-  if (f.word == "gps" || f.word == "usbl") return counted(count, "fix", "fixes");
+  if (f.word == "gps" || f.word == "usbl") return fixes(count);
   return counted(count, "measurement", "measurements");
 }
 
@@ -61,7 +67,7 @@ std::string wrong_course(const Finding& f) {
 std::string disagreement(const Finding& f) {
   std::string text;
   if (f.kind == Kind::jump) {
-    text = f.subject + " jumped: from one " + (f.word == "gps" || f.word == "usbl" ? "fix" : "measurement") +
+    text = f.subject + " jumped: from one " + (f.word == "gps" || f.word == "usbl" ? kFixes.substr(0, 3) : "measurement") +
            " to the next it stood " + in_unit(f, f.figure("first")) + " aside of navigation (sigma of that " +
            in_unit(f, f.figure("first_sigma")) + ")";
   } else {
@@ -141,7 +147,7 @@ std::string wrong_lever(const Finding& f) {
                      "with the vehicle, as if it stood at least " +
                      way(f.figure("forward_m"), "further forward", "further aft") + " and " +
                      way(f.figure("right_m"), "further right", "further left") + " (+- " +
-                     brief(f.figure("sigma_m")) + " m, by " + counted(f.figure("fixes"), "fix", "fixes") +
+                     brief(f.figure("sigma_m")) + " m, by " + fixes(f.figure("fixes")) +
                      "; navigation takes a part of it for its own error).";
   const double speed_m_s = f.figure("speed_m_s");
   if (speed_m_s > 0.5)
@@ -216,7 +222,7 @@ std::string sentence(const Finding& f) {
              " were refused." + who_is_wrong(f);
     case Kind::interference:
       return "Receiver " + f.subject + " says itself that it is " + f.word + ", with " +
-             counted(f.figure("count"), "fix", "fixes") + ".";
+             fixes(f.figure("count")) + ".";
     case Kind::frozen:
       return f.subject + " froze: " + measurements(f, f.figure("count")) + " repeat one value for " +
              lasting(f.figure("for_s")) + ", while the vehicle went " + brief(f.figure("path_m")) +

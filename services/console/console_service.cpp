@@ -201,8 +201,9 @@ struct ConsoleService::Impl {
         " an order of " + name + " (" + std::string(to_string(who.role)) + ") from " + peer + ": ";
     if (judgement.command || judgement.fix) {
       ++orders_given;
-      host.log().info("passed on" + line +
-                      (judgement.fix ? describe(*judgement.fix, judgement.age_s) : describe(*judgement.command)));
+      host.log().info(
+          "passed on" + line +
+          (judgement.fix ? describe(*judgement.fix, judgement.age_s) : describe(*judgement.command)));
     } else {
       ++orders_refused;
       if (who.role != Role::nobody) host.log().warning("refused" + line + judgement.text);

@@ -37,9 +37,9 @@ struct Types {
   }
 };
 using All = Types<ImuSample, DvlSample, GpsSample, DepthSample, AltimeterSample, RangeSample, FixSample,
-                  HeadingSample, UsblSample, AirspeedSample, PropulsionSample, FinsSample, NavState, NavDetail, Verdict,
-                  AlignmentStatus, Forecast, Alarm, MonitorStatus, ServiceStatus, Command, ReplicaStatus,
-                  EngineStatePart, Route, Truth>;
+                  HeadingSample, UsblSample, AirspeedSample, PropulsionSample, FinsSample, NavState,
+                  NavDetail, Verdict, AlignmentStatus, Forecast, Alarm, MonitorStatus, ServiceStatus, Command,
+                  ReplicaStatus, EngineStatePart, Route, Truth>;
 constexpr std::uint8_t kMonitorStatus = 18;  // text, enumerators, lists of structs: everything at once
 
 }  // namespace

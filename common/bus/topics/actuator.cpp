@@ -1,6 +1,7 @@
+#include "samples/actuator.hpp"
+
 #include "bus/detail/mapping.hpp"
 #include "idl/sensors.h"
-#include "samples/actuator.hpp"
 #include "samples/kinds.hpp"
 
 namespace fathom::bus::detail {

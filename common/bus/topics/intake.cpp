@@ -18,7 +18,7 @@ struct Mapping<IntakeRecord> {
     copy.sequence(plain.entries, wire.entries(), IntakeRecord::kMostEntries,
                   [](auto& each, auto& entry, auto& w) {
                     copy_enum<IntakeKind::end, v1::IntakeKind::INTAKE_END>(each, entry.kind, w.kind());
-                    copy_enum<kLastKind, v1::SourceKind::SOURCE_RANGE>(each, entry.source, w.source());
+                    copy_enum<kLastKind, v1::SourceKind::SOURCE_FIX>(each, entry.source, w.source());
                     each(entry.sensor, w.sensor());
                     each(entry.writer, w.writer());
                     each(entry.stamp_ns, w.stamp_ns());

@@ -13,7 +13,7 @@ struct Mapping<Verdict> {
 
   static void fields(auto& copy, auto& plain, auto& wire) {
     copy_header(copy, plain.header, wire);
-    copy_enum<kLastKind, v1::SourceKind::SOURCE_RANGE>(copy, plain.source, wire.source());
+    copy_enum<kLastKind, v1::SourceKind::SOURCE_FIX>(copy, plain.source, wire.source());
     copy(plain.model, wire.model());
     copy(plain.writer, wire.writer());
     copy_enum<VerdictKind::disputed, v1::VerdictKind::VERDICT_DISPUTED>(copy, plain.kind, wire.kind());

@@ -189,7 +189,7 @@ struct SensorPlan {
   SampleLimits limits;
   std::array<double, 9> R_BS{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::string transponder;
-  bool dated = false;  ///< the instant that a frame names is all: one that cannot be is refused
+  bool dated = false;         ///< the instant that a frame names is all: one that cannot be is refused
   bool intermittent = false;  ///< fewer samples than expected are normal; none for stale_after_s is not
 };
 

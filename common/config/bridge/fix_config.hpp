@@ -8,6 +8,7 @@ namespace fathom::config {
 struct FixSensorConfig {
   SensorConfig sensor;
   bool require_checksum = false;
+  double max_age_s = 3'600.0;
 };
 using FixBridgeConfig = BridgeConfig<FixSensorConfig>;
 

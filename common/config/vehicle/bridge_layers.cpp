@@ -20,7 +20,8 @@ std::string time_mode(SourceKind kind, const std::string& protocol) {
   const codec::Protocol* found = codec::find_protocol(protocol);
   const std::string_view name = found == nullptr ? std::string_view{} : found->name;
   if (name == "vectornav" || name == "pd0" || name == "waterlinked") return "device_clock";
-  if (name == "ubx" || name == "psimssb" || kind == SourceKind::gps) return "device_utc";
+  if (name == "ubx" || name == "psimssb" || name == "fix_text" || kind == SourceKind::gps)
+    return "device_utc";
   return "arrival";
 }
 

@@ -1,5 +1,6 @@
 // What a vehicle means for fusion.
 
+#include <algorithm>
 #include <numbers>
 #include <tuple>
 
@@ -79,6 +80,14 @@ void fusion_layers(const Sources& vehicle, const LoadRequest& request, Layers& o
     if (placed) out.overlay(at + "lever_B_m", lever_of(unit, known), known.at.child("position_m"));
     put(out, at + "mounting_rpy_deg", find(known, "mounting_rpy_deg"));
     add_own_keys(out, at.substr(0, at.size() - 1), known);
+  }
+  // A person may always say where the vehicle was.
+  const auto& known = vehicle.instruments;
+  if (std::none_of(known.begin(), known.end(),
+                   [](const Known& one) { return one.config->name == Name("operator"); })) {
+    const std::string at = append(out, "engine.sensors", count++, kStandard);
+    out.overlay(at + "sensor", "operator", kStandard);
+    out.overlay(at + "kind", std::string(to_string(SourceKind::fix)), kStandard);
   }
   const VehicleLimits& limit = vehicle.config.limits;
   std::size_t limits = 0;

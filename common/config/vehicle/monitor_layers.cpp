@@ -24,7 +24,7 @@ void monitor_layers(const Sources& vehicle, Layers& out) {
   for (const Known& known : vehicle.instruments) {
     const VehicleInstrument& one = *known.config;
     gps = gps || one.kind == SourceKind::gps;
-    if (!one.watched) continue;
+    if (!one.watched || one.kind == SourceKind::fix) continue;  // told when somebody has one
     const std::string at = append(out, "sensors", sensors++, known.at);
     out.overlay(at + "name", one.name.str(), known.at.child("name"));
     out.overlay(at + "kind", std::string(to_string(one.kind)), known.at.child("kind"));

@@ -5,8 +5,8 @@
 
 namespace fathom::estimation {
 
-/// What an instrument of this kind has where its configuration says nothing. Nothing is believed because it is
-/// told again: a person who knows better orders the position.
+/// What an instrument of this kind has where its configuration says nothing. Nothing is believed because it
+/// is told again: a person who knows better orders the position.
 inline void set_defaults(SensorConfig& sensor, const FixSample* /*kind*/) {
   sensor.sigma = {1.0, 1.0, 1.0};
   sensor.reacquire_s = 0.0;

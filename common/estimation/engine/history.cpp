@@ -211,8 +211,8 @@ DurationNs History::future_tolerance_ns(const Measurement& measurement) const {
 }
 
 Judgement History::act(Navigator& navigator, Leg& leg, const Measurement& event) {
-  const bool late = past_.on() && !event.command &&
-                    event.stamp_ns != instant_of(*setup_, event.header(), event.sensor);
+  const bool late =
+      past_.on() && !event.command && event.stamp_ns != instant_of(*setup_, event.header(), event.sensor);
   return late ? past_.judge(navigator, leg, event) : navigator.apply(event);
 }
 

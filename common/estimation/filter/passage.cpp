@@ -151,8 +151,8 @@ void Passage::drifted(const ErrorFilter& widened, const std::array<double, kNavS
 }
 
 void Passage::carried(const Carry& carry) {
-  using Rows = Eigen::Matrix<double, Carry::kStates, Eigen::Dynamic, Eigen::RowMajor, Carry::kStates,
-                             kMaxStates>;
+  using Rows =
+      Eigen::Matrix<double, Carry::kStates, Eigen::Dynamic, Eigen::RowMajor, Carry::kStates, kMaxStates>;
   Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0,
              Eigen::OuterStride<kRowStride>>
       rows(a_.data() + at(Carry::kFirst, 0), Carry::kStates, n_);

@@ -187,10 +187,10 @@ void Navigator::reacquire(Trial& trial) {
   const bool probation = is_on_probation(trial);
   const unsigned refused = probation ? (1U << trial.whole.rows) - 1U : gated.refused;
   // Room could only be made for what the estimate is now: one that comes late has none.
-  const unsigned believed =
-      trial.then != nullptr ? 0U
-                            : reacquisition_.believed_rows(trial.instrument, *trial.rules, estimate_,
-                                                           trial.whole, refused, trial.fix);
+  const unsigned believed = trial.then != nullptr
+                                ? 0U
+                                : reacquisition_.believed_rows(trial.instrument, *trial.rules, estimate_,
+                                                               trial.whole, refused, trial.fix);
   if (probation && believed == 0) {
     gated.pass = false;
     gated.limit = trial.config.reacquire_step_m;

@@ -5,9 +5,9 @@
 
 namespace fathom {
 
-/// A position that somebody tells: a person, a ship by radio, a modem. header.stamp_ns is the instant at which
-/// the vehicle was there, header.received_ns when it was told, which may be minutes later; header.sensor says
-/// who tells it.
+/// A position that somebody tells: a person, a ship by radio, a modem. header.stamp_ns is the instant at
+/// which the vehicle was there, header.received_ns when it was told, which may be minutes later;
+/// header.sensor says who tells it.
 struct FixSample {
   SampleHeader header;
   double latitude_rad = kUnknown;

@@ -15,7 +15,8 @@ struct TruthPoint;
 
 template <>
 struct SimulatedSensor<FixSample> : SensorCommon {
-  static constexpr const char* kDescription = "somebody who tells positions by radio or modem, latency_s later";
+  static constexpr const char* kDescription =
+      "somebody who tells positions by radio or modem, latency_s later";
   double sigma_m = 10.0;             ///< white, of north and of east
   double outlier_m = 1000.0;         ///< by which a wrong one is off
   double minimum_depth_m = -1000.0;  ///< shallower than this nobody looks

@@ -52,7 +52,8 @@ class Vehicle {
   /// The header of what is told now, by the vehicle's own clock.
   [[nodiscard]] std::optional<SampleHeader> now(double wait_s) {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait_for(lock, std::chrono::duration<double>(wait_s), [this] { return state_.has_value(); }))
+    if (!changed_.wait_for(lock, std::chrono::duration<double>(wait_s),
+                           [this] { return state_.has_value(); }))
       return std::nullopt;
     SampleHeader out = state_->header;
     out.sensor = std::string_view(from_);
@@ -64,7 +65,8 @@ class Vehicle {
   [[nodiscard]] std::optional<Verdict> verdict_of(const FixSample& fix, double wait_s) {
     std::unique_lock lock(mutex_);
     wanted_ = fix.header;
-    (void)changed_.wait_for(lock, std::chrono::duration<double>(wait_s), [this] { return verdict_.has_value(); });
+    (void)changed_.wait_for(lock, std::chrono::duration<double>(wait_s),
+                            [this] { return verdict_.has_value(); });
     return verdict_;
   }
   void want(const FixSample& fix) {
@@ -99,7 +101,7 @@ class Vehicle {
   TimeNs heard_ns_ = 0;
   std::optional<SampleHeader> wanted_;
   std::optional<Verdict> verdict_;
-  bus::Reader<NavState> states_;    // last: their handlers use
+  bus::Reader<NavState> states_;   // last: their handlers use
   bus::Reader<Verdict> verdicts_;  // all of the above
 };
 
@@ -149,7 +151,8 @@ ExitCode run(const FixOptions& options) {
   if (!writer.write(fix)) throw Failure(ExitCode::runtime_failure, "the network did not take the position");
   const auto verdict = vehicle.verdict_of(fix, std::max(left_s(), 1.0));
   if (!verdict)
-    throw Failure(ExitCode::runtime_failure, "fix: told, but no verdict came, expected one of a fusion service");
+    throw Failure(ExitCode::runtime_failure,
+                  "fix: told, but no verdict came, expected one of a fusion service");
   std::puts(options.json ? json_line(fix, *verdict).c_str() : in_words(fix, *verdict).c_str());
   return verdict->kind == VerdictKind::used ? ExitCode::done : ExitCode::no;
 }
@@ -159,8 +162,8 @@ ExitCode run(const FixOptions& options) {
 void add_fix(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<FixOptions>();
   options->bus.name = "fathom_fix";
-  CLI::App* command =
-      app.add_subcommand("fix", "Tells the vehicle where it was: a position by hand, minutes old if need be.");
+  CLI::App* command = app.add_subcommand(
+      "fix", "Tells the vehicle where it was: a position by hand, minutes old if need be.");
   command->footer("Exit code: 0 used, 1 not used; the line says why.");
   command->add_option("--lat", options->lat_deg, "Latitude in degrees, north positive")
       ->check(CLI::Range(-90.0, 90.0))
@@ -175,12 +178,14 @@ void add_fix(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(-50.0, 12000.0));
   command->add_option("--depth-sigma", options->depth_sigma_m, "One sigma of the depth, m")
       ->check(CLI::Range(0.01, 1e5));
-  CLI::Option* time = command->add_option("--time", options->time,
-                                          "When the vehicle was there: UTC like 2026-01-31T12:00:00Z; default: now");
+  CLI::Option* time = command->add_option(
+      "--time", options->time, "When the vehicle was there: UTC like 2026-01-31T12:00:00Z; default: now");
   command->add_option("--ago", options->ago_s, "Instead of --time: so many seconds ago")
       ->check(CLI::Range(0.0, 7200.0))
       ->excludes(time);
-  command->add_option("--from", options->from, "Who says so: a sensor of kind fix in the vehicle's configuration")
+  command
+      ->add_option("--from", options->from,
+                   "Who says so: a sensor of kind fix in the vehicle's configuration")
       ->capture_default_str();
   command->add_option("--vehicle", options->vehicle, "Name of the vehicle; default: the first one heard");
   command->add_option("--timeout", options->timeout_s, "Seconds to wait at most")

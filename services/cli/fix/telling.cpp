@@ -47,9 +47,10 @@ std::string in_words(const FixSample& fix, const Verdict& verdict) {
   std::string out(to_string(verdict.kind));
   if (const std::string why = reason(fix, verdict); !why.empty()) out += ": " + why;
   if (verdict.dimensions >= 2) {
-    out += text("; navigation was %.1f m north and %.1f m east of it then, one sigma of that is %.1f m and %.1f m",
-                verdict.innovation[0], verdict.innovation[1], verdict.innovation_sigma[0],
-                verdict.innovation_sigma[1]);
+    out += text(
+        "; navigation was %.1f m north and %.1f m east of it then, one sigma of that is %.1f m and %.1f m",
+        verdict.innovation[0], verdict.innovation[1], verdict.innovation_sigma[0],
+        verdict.innovation_sigma[1]);
     out += text(", test ratio %.3g of 1", verdict.test_ratio);
   }
   return out;

@@ -43,8 +43,8 @@ std::string word_of(const Form& form) {
 const Form* form_of(const json& order) {
   if (!order.is_object() || !order.contains("kind") || !order["kind"].is_string()) return nullptr;
   const auto word = order["kind"].get<std::string>();
-  const auto at = std::find_if(forms().begin(), forms().end(),
-                               [&](const Form& form) { return word_of(form) == word; });
+  const auto at =
+      std::find_if(forms().begin(), forms().end(), [&](const Form& form) { return word_of(form) == word; });
   return at == forms().end() ? nullptr : &*at;
 }
 

@@ -158,7 +158,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
   } else if (protocol == "fix_text") {
     const std::string second = std::to_string(10 + frame % 50);
     append(stream, sim::encode::nmea_sentence("PFTHX,2026-01-31T12:00:" + second + "Z,36.4009,127.4,20"));
-    append(stream, sim::encode::nmea_sentence("PFTHX,,-36.4,-127.25,3.5,12." + std::to_string(frame % 10) + ",1"));
+    append(stream,
+           sim::encode::nmea_sentence("PFTHX,,-36.4,-127.25,3.5,12." + std::to_string(frame % 10) + ",1"));
   } else {
     throw std::invalid_argument("no seed stream for protocol " + std::string(protocol));
   }

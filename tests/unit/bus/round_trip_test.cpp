@@ -20,9 +20,9 @@ class RoundTrip : public testing::Test {};
 
 using AllTypes =
     testing::Types<ImuSample, DvlSample, GpsSample, DepthSample, AltimeterSample, RangeSample, FixSample,
-                   HeadingSample, UsblSample, AirspeedSample, PropulsionSample, FinsSample, NavState, NavDetail, Verdict,
-                   AlignmentStatus, Forecast, Alarm, MonitorStatus, ServiceStatus, Command, ReplicaStatus,
-                   EngineStatePart, Route, Truth, IntakeRecord>;
+                   HeadingSample, UsblSample, AirspeedSample, PropulsionSample, FinsSample, NavState,
+                   NavDetail, Verdict, AlignmentStatus, Forecast, Alarm, MonitorStatus, ServiceStatus,
+                   Command, ReplicaStatus, EngineStatePart, Route, Truth, IntakeRecord>;
 TYPED_TEST_SUITE(RoundTrip, AllTypes);
 
 TEST(RoundTrips, CoverEveryTopic) {

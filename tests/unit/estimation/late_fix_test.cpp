@@ -27,7 +27,8 @@ EngineConfig config_with(double memory_s) {
 }
 
 /// Where the vehicle was at `t_s`, wrong by `error_N_m`.
-FixSample fix_at(const SurveyRun& survey, double t_s, double told_s, double sigma_m, const Vector3d& error_N_m) {
+FixSample fix_at(const SurveyRun& survey, double t_s, double told_s, double sigma_m,
+                 const Vector3d& error_N_m) {
   const Truth& truth = survey.truth[static_cast<std::size_t>(std::lround(100.0 * t_s))];
   FixSample out;
   const auto instant = [](double s) { return SurveyRun::kEpochNs + from_seconds(s); };
@@ -80,7 +81,8 @@ Outcome run(const SurveyRun& survey, const EngineConfig& config, const std::vect
         given[i] = true;
       }
     const double t_s = to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs);
-    const bool lost = std::holds_alternative<DvlSample>(sample) && t_s > 100.0 && t_s < 100.0 + way.dvl_lost_s;
+    const bool lost =
+        std::holds_alternative<DvlSample>(sample) && t_s > 100.0 && t_s < 100.0 + way.dvl_lost_s;
     if (!lost) test::feed(*engine, sample);
     drain();
     if (way.through_archive && !saved && now > SurveyRun::kEpochNs + from_seconds(350.0)) {
@@ -177,7 +179,8 @@ TEST(LateFix, OlderThanWhatIsRememberedIsLate) {
   ASSERT_EQ(early.verdicts.size(), 1U);
   EXPECT_EQ(early.verdicts[0].kind, VerdictKind::late);
   // Without memory a fix acts at its instant or not at all.
-  const Outcome without = run(survey, config_with(0.0), {fix_at(survey, 200.0, 290.0, 5.0, Vector3d::Zero())});
+  const Outcome without =
+      run(survey, config_with(0.0), {fix_at(survey, 200.0, 290.0, 5.0, Vector3d::Zero())});
   ASSERT_EQ(without.verdicts.size(), 1U);
   EXPECT_EQ(without.verdicts[0].kind, VerdictKind::late);
 }

@@ -52,7 +52,11 @@ TimeNs acting_of(const Setup& setup, const SampleHeader& header, int sensor) {
 class Past::View final : public Remembered {
  public:
   View(Past& past, const Leg& leg, const LateFix& where, TimeNs instant_ns)
-      : past_(past), leg_(leg), fix_(where), instant_ns_(instant_ns), state_(past.state_at(where, instant_ns)) {}
+      : past_(past),
+        leg_(leg),
+        fix_(where),
+        instant_ns_(instant_ns),
+        state_(past.state_at(where, instant_ns)) {}
 
   [[nodiscard]] TimeNs instant_ns() const override { return instant_ns_; }
   [[nodiscard]] const FilterState& state() const override { return state_; }
@@ -93,8 +97,7 @@ class Past::View final : public Remembered {
     fix_.rows = rows.rows;
     for (std::size_t i = 0; i < static_cast<std::size_t>(rows.rows); ++i)
       for (std::size_t q = 0; q < kFixStates; ++q)
-        fix_.h[i][q] =
-            past_.states_[q] < 0 ? 0.0 : rows.h[i][static_cast<std::size_t>(past_.states_[q])];
+        fix_.h[i][q] = past_.states_[q] < 0 ? 0.0 : rows.h[i][static_cast<std::size_t>(past_.states_[q])];
   }
 
   Past& past_;
@@ -211,8 +214,7 @@ FilterState Past::state_at(const LateFix& where, TimeNs instant_ns) const {
   out.nav.position = geo::moved_by(a.position, moved);
   out.nav.v_N_m_s = nearer_before ? before->v_N_m_s : behind->v_N_m_s;
   out.nav.q_NB = nearer_before ? before->q_NB : behind->q_NB;
-  for (std::size_t i = 0; i < kMaxStates; ++i)
-    out.x[i] = (1.0 - where.share) * a.x[i] + where.share * b.x[i];
+  for (std::size_t i = 0; i < kMaxStates; ++i) out.x[i] = (1.0 - where.share) * a.x[i] + where.share * b.x[i];
   return out;
 }
 
@@ -277,8 +279,7 @@ bool Past::look_back(const Leg& leg, const LateFix& fix) {
     for (std::size_t k = 1; k < count; ++k)
       if (acting[k] == j) act(*fixes[k], static_cast<int>(k) * kFixRows);
     for (std::size_t k = 0; k < count; ++k)
-      if (fixes[k]->after == j)
-        join(*fixes[k], 1.0 - fixes[k]->share, one, static_cast<int>(k) * kFixRows);
+      if (fixes[k]->after == j) join(*fixes[k], 1.0 - fixes[k]->share, one, static_cast<int>(k) * kFixRows);
     one.onward.carry_along(columns_, sums_, mean_);
   }
 }

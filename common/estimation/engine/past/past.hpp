@@ -13,9 +13,9 @@ namespace fathom::estimation {
 
 /// The instant that a measurement speaks of: its stamp, less the latency of its sensor.
 [[nodiscard]] TimeNs instant_of(const Setup& setup, const SampleHeader& header, int sensor);
-/// The instant at which a measurement acts. It is a function of the sample alone, so that every engine has the
-/// same: a fix that was older than half of the horizon when it was given (received_ns) acts then, through what
-/// is remembered; all else acts at its own instant.
+/// The instant at which a measurement acts. It is a function of the sample alone, so that every engine has
+/// the same: a fix that was older than half of the horizon when it was given (received_ns) acts then, through
+/// what is remembered; all else acts at its own instant.
 [[nodiscard]] TimeNs acting_of(const Setup& setup, const SampleHeader& header, int sensor);
 
 /// What an engine remembers beyond its horizon, for fixes that come minutes late: keyframes of the filter and

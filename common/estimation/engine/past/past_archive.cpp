@@ -50,8 +50,8 @@ void Past::read(archive::Reader& archive, TimeNs now_ns, Candidate& out) const {
     archive.expect(!one.acted || one.fix.after < leg.oldest + i, "fix.after", "an earlier keyframe");
     archive.close();
   }
-  archive.expect(frames == 0 || !archive.good() || out.frames.back().here.now_ns == leg.begun_ns,
-                 "begun_ns", "the instant of the newest keyframe");
+  archive.expect(frames == 0 || !archive.good() || out.frames.back().here.now_ns == leg.begun_ns, "begun_ns",
+                 "the instant of the newest keyframe");
 }
 
 void Past::take_over(const Candidate& found, Leg& leg) {

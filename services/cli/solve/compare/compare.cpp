@@ -51,8 +51,7 @@ dataset::TruthTrack smoothed_track(const SolveRun& first) {
 class Side {
  public:
   explicit Side(const SolveRun& solve_run)
-      : run_(solve_run),
-        engine_(std::make_unique<estimation::FusionEngine>(engine_of(solve_run))) {
+      : run_(solve_run), engine_(std::make_unique<estimation::FusionEngine>(engine_of(solve_run))) {
     if (const auto start = start_of(solve_run)) engine_->start_from(*start);
   }
 

@@ -14,8 +14,7 @@ std::optional<FixSample> FixModel::sample(const TruthPoint& point) {
   if (random_.chance(config_.outlier_probability)) error_N_m.x() += config_.outlier_m;
   const TruthPoint at = at_lever(point, geo::vec(config_.lever_B_m));
   if (at.depth_m < config_.minimum_depth_m) return std::nullopt;
-  const geo::Geodetic told =
-      geo::moved_by({at.latitude_rad, at.longitude_rad, at.altitude_m}, error_N_m);
+  const geo::Geodetic told = geo::moved_by({at.latitude_rad, at.longitude_rad, at.altitude_m}, error_N_m);
   FixSample out;
   out.latitude_rad = told.latitude_rad;
   out.longitude_rad = told.longitude_rad;
