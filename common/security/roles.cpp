@@ -74,6 +74,8 @@ std::vector<Entry> make_entries() {
                         "fathom/v1/alignment", "fathom/v1/forecast", "fathom/v1/alarm",
                         "fathom/v1/monitor_status", kLifeSign, "fathom/v1/replica_status",
                         "fathom/v1/command", "fathom/v1/intake", "fathom/v1/route", "fathom/v1/truth"})});
+  entries.push_back({"mavlink_gateway", {kLifeSign}, {"fathom/v1/nav_state"}});
+  entries.push_back({"nmea_out", {kLifeSign}, {"fathom/v1/nav_state"}});
   entries.push_back({"simulator", {"fathom/v1/truth", kLifeSign}, {}});
   // status, doctor, and the referee of a demonstration. What status shows and what a run is judged by; who
   // exists at all doctor learns from discovery.
