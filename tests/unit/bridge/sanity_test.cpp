@@ -84,6 +84,17 @@ TEST(Refuse, ImpossibleValuesOfEachKind) {
   range.beacon_latitude_rad = 0.6;
   range.range_m = 20'001.0;
   EXPECT_EQ(refuse(range, kLimits), Refusal::impossible);
+  FixSample fix;
+  EXPECT_EQ(refuse(fix, kLimits), Refusal::not_finite);
+  fix.latitude_rad = 0.6;
+  fix.longitude_rad = 2.2;
+  fix.sigma_m = 20.0;
+  EXPECT_FALSE(refuse(fix, kLimits));
+  fix.depth_m = 12'000.5;
+  EXPECT_EQ(refuse(fix, kLimits), Refusal::impossible);
+  fix.depth_m = 10.0;
+  fix.latitude_rad = 1.6;
+  EXPECT_EQ(refuse(fix, kLimits), Refusal::impossible);
   AltimeterSample altimeter;
   EXPECT_FALSE(refuse(altimeter, kLimits));  // it hears no bottom
   altimeter.altitude_m = 11'000.5;

@@ -85,6 +85,32 @@ TEST(Orders, EachKindBecomesItsCommand) {
   EXPECT_TRUE(meant.command->confirmed);
 }
 
+TEST(Orders, AToldPositionIsNoCommand) {
+  const auto told = judge_order(
+      R"({"kind": "fix", "lat_deg": 36.4, "lon_deg": -127.4, "sigma_m": 20, "age_s": 600})", kOperator, true);
+  EXPECT_EQ(told.status, 200);
+  EXPECT_FALSE(told.command);
+  ASSERT_TRUE(told.fix);
+  EXPECT_NEAR(told.fix->latitude_rad, 36.4 * M_PI / 180, 1e-12);
+  EXPECT_NEAR(told.fix->longitude_rad, -127.4 * M_PI / 180, 1e-12);
+  EXPECT_EQ(told.fix->sigma_m, 20.0);
+  EXPECT_EQ(told.fix->header.sensor, Name("operator"));
+  EXPECT_FALSE(known(told.fix->depth_m));
+  EXPECT_EQ(told.age_s, 600.0);
+  EXPECT_EQ(describe(*told.fix, told.age_s),
+            "fix of operator 36.400000 deg N -127.400000 deg E sigma 20.0 m, 600 s ago");
+  const auto deep = judge_order(
+      R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5, "depth_m": 12, "from": "ship"})", kOperator,
+      true);
+  ASSERT_TRUE(deep.fix);
+  EXPECT_EQ(deep.fix->depth_m, 12.0);
+  EXPECT_EQ(deep.fix->header.sensor, Name("ship"));
+  EXPECT_EQ(deep.age_s, 0.0);
+  const char* order = R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5})";
+  EXPECT_FALSE(judge_order(order, {"guest", Role::viewer}, true).fix);
+  EXPECT_EQ(judge_order(order, kOperator, false).status, 403);
+}
+
 TEST(Orders, OnlyOperatorsAndOnlyWhereOrdersAreOn) {
   const char* order = R"({"kind": "realign"})";
   EXPECT_EQ(judge_order(order, kOperator, false).status, 403);
@@ -103,12 +129,16 @@ TEST(Orders, WhatIsNotExactlyAnOrderIsRefused) {
         R"({"kind": "set_position", "lat_deg": 91, "lon_deg": 0, "depth_m": 0, "sigma_m": 1})",
         R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0})",
         R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0, "sigma_m": 1, "confirmed": 1})",
-        R"({"kind": "realign", "confirmed": true})",
+        R"({"kind": "realign", "confirmed": true})", R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2})",
+        R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 0})",
+        R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5, "age_s": -1})",
+        R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5, "age_s": 7201})",
+        R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5, "from": "two words"})",
         R"({"kind": "set_position", "lat_deg": "1", "lon_deg": 0, "depth_m": 0, "sigma_m": 1})",
         R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0, "sigma_m": 0})"}) {
     const auto judgement = judge_order(bad, kOperator, true);
     EXPECT_EQ(judgement.status, 400) << bad;
-    EXPECT_FALSE(judgement.command) << bad;
+    EXPECT_FALSE(judgement.command || judgement.fix) << bad;
     EXPECT_NE(judgement.text, "") << bad;
   }
 }

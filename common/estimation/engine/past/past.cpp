@@ -25,6 +25,15 @@ Vector3d way_at(const Knot& a, const Knot& b, TimeNs instant_ns) {
          whole_s * (s * t * t * a.v_N_m_s - s * s * t * b.v_N_m_s);
 }
 
+/// So that all of them, saved, take no more than this.
+std::uint64_t most_kept(int states) {
+  constexpr std::uint64_t kMostBytes = 1'500'000;
+  const auto n = static_cast<std::uint64_t>(states);
+  // Transition and half of the curvature; rows of P and the gradient; the way and what else there is.
+  const std::uint64_t bytes = sizeof(double) * (n * n + n * (n + 1) / 2 + (kFixStates + 1) * n + 300);
+  return std::clamp(kMostBytes / bytes, 2 * Past::kForFixes, Past::kMostKept + Past::kForFixes) - Past::kForFixes;
+}
+
 /// Of one that asks for more than is remembered.
 Judgement unremembered(const Navigator& navigator, const Measurement& measurement) {
   Judgement out;
@@ -109,15 +118,17 @@ class Past::View final : public Remembered {
 
 Past::Past(const Setup& setup)
     : setup_(&setup),
-      interval_ns_(from_seconds(setup.config.late_fix_memory_s / static_cast<double>(kKept))),
+      kept_(most_kept(setup.index.size())),
+      interval_ns_(from_seconds(setup.config.late_fix_memory_s / static_cast<double>(kept_))),
       states_{0, 1, 2, 6, 7, 8, setup.index.of(Group::surface_altitude)} {
-  if (setup.config.remembers()) frames_.assign(kKept + 2 * kMargin, Keyframe(setup.index.size()));
+  if (setup.config.remembers())
+    frames_.assign(kMostKept + kForFixes + 2 * kMargin, Keyframe(setup.index.size()));
 }
 
 std::uint64_t Past::oldest(const Leg& leg) const {
   const auto before = [](std::uint64_t count, std::uint64_t room) { return count > room ? count - room : 0; };
   // What is kept is one function of the events; what has been overwritten by a navigator ahead is gone.
-  return std::max({leg.oldest, before(leg.count, kKept + kMargin), before(made_, frames_.size())});
+  return std::max({leg.oldest, before(leg.count, kept_ + kForFixes), before(made_, frames_.size())});
 }
 
 void Past::forget(Leg& leg) {

@@ -25,15 +25,20 @@ namespace fathom::estimation {
 /// nothing is to be remembered.
 class Past {
  public:
-  /// Regular ones within the time that is remembered.
-  static constexpr std::uint64_t kKept = 48;
-  /// Room beyond these: for those of late fixes, and for a navigator that is behind the newest.
-  static constexpr std::uint64_t kMargin = 32;
+  /// Keyframes within the time that is remembered, at most; with more states there are fewer, so that a state
+  /// that is saved stays below two megabytes.
+  static constexpr std::uint64_t kMostKept = 30;
+  /// Beyond these: those at which late fixes act,
+  static constexpr std::uint64_t kForFixes = 8;
+  /// and room for a navigator that is behind the newest.
+  static constexpr std::uint64_t kMargin = 24;
   static constexpr int kMostFixes = Passage::kColumns / kFixRows;
 
   explicit Past(const Setup& setup);
 
   [[nodiscard]] bool on() const { return !frames_.empty(); }
+  /// How far apart keyframes are.
+  [[nodiscard]] DurationNs interval_ns() const { return interval_ns_; }
   /// At the end of each step: keeps the way, and makes a keyframe where one is due.
   void follow(const Navigator& navigator, Leg& leg);
   /// Nothing leads from before to what comes.
@@ -75,6 +80,7 @@ class Past {
   void act(const LateFix& fix, int first);
 
   const Setup* setup_;
+  std::uint64_t kept_ = 0;
   DurationNs interval_ns_ = 0;
   std::array<int, kFixStates> states_{};  ///< that a fix sees; -1: not a state
   std::vector<Keyframe> frames_;          ///< ring, by number

@@ -31,7 +31,7 @@ void Past::read(archive::Reader& archive, TimeNs now_ns, Candidate& out) const {
   Leg& leg = out.leg;
   archive("leg", leg);
   archive.open("leg", 0);
-  archive.expect(leg.oldest <= leg.count && leg.count - leg.oldest <= kKept + kMargin &&
+  archive.expect(leg.oldest <= leg.count && leg.count - leg.oldest <= kept_ + kForFixes &&
                      leg.count < std::uint64_t{1} << 62,
                  "count", "no more keyframes than are kept");
   const std::uint64_t frames = archive.good() ? leg.count - leg.oldest : 0;
