@@ -15,7 +15,7 @@ struct OrderJudgement {
   int status = 400;                ///< of the HTTP answer: 200 only when there is a command
   std::string text;                ///< one sentence for the operator and the log
   std::optional<Command> command;  ///< without header; absent when refused
-  std::optional<FixSample> fix;    ///< instead of a command; of its header only the sensor is there
+  std::optional<FixSample> fix{};  ///< instead of a command; of its header only the sensor is there
   double age_s = 0.0;              ///< of the fix: how long ago the vehicle was there
   bool confirm = false;            ///< it was passed on, and waits until it is given once more, confirmed
 };

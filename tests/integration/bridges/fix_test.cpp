@@ -31,13 +31,12 @@ TEST(FixBridge, ALineOfMinutesAgoKeepsItsInstantAndOneOfNoInstantIsRefused) {
   const TemporaryFolder folder;
   bus::Participant participant(test_participant(kDomain));
   const Collector<FixSample> fixes(participant);
-  const Process bridge(
-      "fathom-fix-bridge",
-      bridge_arguments("fix", kDomain,
-                       {R"(sensors.0.source={"type":"udp","address":"127.0.0.1","port":)" +
-                            std::to_string(kPort) + "}",
-                        "sensors.0.max_age_s=1800"}),
-      folder / "log");
+  const Process bridge("fathom-fix-bridge",
+                       bridge_arguments("fix", kDomain,
+                                        {R"(sensors.0.source={"type":"udp","address":"127.0.0.1","port":)" +
+                                             std::to_string(kPort) + "}",
+                                         "sensors.0.max_age_s=1800"}),
+                       folder / "log");
   ASSERT_TRUE(eventually([&] { return fixes.matched(); })) << bridge.output();
   FixSample told;
   told.header.stamp_ns = (SystemClock().utc_ns() / kNsPerSecond - 600) * kNsPerSecond;

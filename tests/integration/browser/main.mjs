@@ -265,6 +265,22 @@ async function farPositionIsHeld(page) {
   said(`a position far away: "${text}"`);
 }
 
+async function fixIsTwoClicks(page) {
+  await view(page, "map");
+  const box = page.locator(".view:not([hidden]) #map");
+  await box.click({button: "right", position: {x: 60, y: 60}});
+  await page.waitForSelector('dialog[open] h2:text("Fix")');
+  await page.fill('dialog[open] input[name="minutes"]', "0.2");
+  await page.click('dialog[open] button:text("Tell")');
+  await until("the verdict on the told position", () =>
+    store(page, '(s) => s.tick.sources.some((one) => one.sensor === "operator" && one.last !== null)'),
+  );
+  const last = await store(page, '(s) => s.tick.sources.find((one) => one.sensor === "operator").last');
+  check(["used", "rejected"].includes(last), `a told position was judged: ${last}`);
+  await view(page, "overview");
+  said(`a position told by two clicks on the map: ${last}`);
+}
+
 async function manyClients(stage, address) {
   stage.connectionMayFail = true;
   const pages = await Promise.all(Array.from({length: 10}, () => stage.open(address)));
@@ -343,6 +359,7 @@ try {
   await outageClears([page, other]);
   await routeIsShown(page);
   await sourceIsSwitched(page);
+  await fixIsTwoClicks(page);
   await farPositionIsHeld(page);
   await worksOverTls(stage);
   await manyClients(stage, demo.plain);

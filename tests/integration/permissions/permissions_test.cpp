@@ -78,6 +78,11 @@ std::string scenario_of_everything(const std::filesystem::path& folder) {
                                   {"link", {{"type", "pty"}, {"path", "modem"}}},
                                   {"rate_hz", 1}};
   scenario["bridges"].push_back("range");
+  scenario["sensors"]["fix"] = {{"enabled", true},
+                                {"protocol", "fix_text"},
+                                {"link", {{"type", "udp"}, {"port", 17209}}},
+                                {"rate_hz", 0.5}};
+  scenario["bridges"].push_back("fix");
   const std::string file = folder / "everything.json";
   std::ofstream(file) << scenario.dump(2);
   return file;

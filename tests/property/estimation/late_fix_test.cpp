@@ -1,5 +1,5 @@
-// Late fixes, told at random instants of random instants and arriving in random order, give the same bits, also
-// through a saved state.
+// Late fixes, told at random instants of random instants and arriving in random order, give the same bits,
+// also through a saved state.
 
 #include <algorithm>
 #include <memory>

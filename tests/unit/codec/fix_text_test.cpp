@@ -37,7 +37,8 @@ TEST(FixText, ALineIsAPositionAtItsInstant) {
 }
 
 TEST(FixText, WhatIsKnownOfTheDepthComesBehind) {
-  const DecodeRun told = run(sentence("PFTHX,,36.4,127.25,20,12.5,0.5") + sentence("PFTHX,,36.4,127.25,20,12.5"));
+  const DecodeRun told =
+      run(sentence("PFTHX,,36.4,127.25,20,12.5,0.5") + sentence("PFTHX,,36.4,127.25,20,12.5"));
   ASSERT_EQ(told.samples.size(), 2U);
   const auto& both = std::get<FixSample>(told.samples[0].sample);
   EXPECT_EQ(both.depth_m, 12.5);

@@ -100,8 +100,8 @@ TEST(Orders, AToldPositionIsNoCommand) {
   EXPECT_EQ(describe(*told.fix, told.age_s),
             "fix of operator 36.400000 deg N -127.400000 deg E sigma 20.0 m, 600 s ago");
   const auto deep = judge_order(
-      R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5, "depth_m": 12, "from": "ship"})", kOperator,
-      true);
+      R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5, "depth_m": 12, "from": "ship"})",
+      kOperator, true);
   ASSERT_TRUE(deep.fix);
   EXPECT_EQ(deep.fix->depth_m, 12.0);
   EXPECT_EQ(deep.fix->header.sensor, Name("ship"));
@@ -121,15 +121,23 @@ TEST(Orders, OnlyOperatorsAndOnlyWhereOrdersAreOn) {
 
 TEST(Orders, WhatIsNotExactlyAnOrderIsRefused) {
   for (const char* bad :
-       {"", "{", "[]", "null", R"({"kind": 5})", R"({"kind": "self_destruct"})",
-        R"({"kind": "mark_at_rest", "value_s": 5})", R"({"kind": "realign", "target": "gps"})",
-        R"({"kind": "enable_source"})", R"({"kind": "enable_source", "target": ""})",
+       {"",
+        "{",
+        "[]",
+        "null",
+        R"({"kind": 5})",
+        R"({"kind": "self_destruct"})",
+        R"({"kind": "mark_at_rest", "value_s": 5})",
+        R"({"kind": "realign", "target": "gps"})",
+        R"({"kind": "enable_source"})",
+        R"({"kind": "enable_source", "target": ""})",
         R"({"kind": "enable_source", "target": "a name that is far too long for a sensor"})",
         R"({"kind": "enable_source", "target": "two words"})",
         R"({"kind": "set_position", "lat_deg": 91, "lon_deg": 0, "depth_m": 0, "sigma_m": 1})",
         R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0})",
         R"({"kind": "set_position", "lat_deg": 1, "lon_deg": 0, "depth_m": 0, "sigma_m": 1, "confirmed": 1})",
-        R"({"kind": "realign", "confirmed": true})", R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2})",
+        R"({"kind": "realign", "confirmed": true})",
+        R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2})",
         R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 0})",
         R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5, "age_s": -1})",
         R"({"kind": "fix", "lat_deg": 1, "lon_deg": 2, "sigma_m": 5, "age_s": 7201})",

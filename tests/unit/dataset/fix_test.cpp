@@ -36,7 +36,8 @@ TEST(FixCsv, WhatWasWrittenIsReadWithWhenItWasTold) {
 
 TEST(FixCsv, TheDepthIsThereWhereSomebodyTellsIt) {
   const test::TemporaryFolder folder;
-  std::ofstream(folder.path() / "imu.csv") << "t_s,gx_rad_s,gy_rad_s,gz_rad_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0,0,0,-9.8\n";
+  std::ofstream(folder.path() / "imu.csv")
+      << "t_s,gx_rad_s,gy_rad_s,gz_rad_s,ax_m_s2,ay_m_s2,az_m_s2\n0,0,0,0,0,0,-9.8\n";
   std::ofstream(folder.path() / "fix.csv")
       << "t_s,lat_deg,lon_deg,sigma_m,depth_m,depth_sigma_m\n0,36,127,20,5,1\n1,36,127,20,,\n";
   const auto back = read(folder.path()).of<FixSample>();
