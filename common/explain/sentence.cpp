@@ -67,7 +67,8 @@ std::string wrong_course(const Finding& f) {
 std::string disagreement(const Finding& f) {
   std::string text;
   if (f.kind == Kind::jump) {
-    text = f.subject + " jumped: from one " + (f.word == "gps" || f.word == "usbl" ? kFixes.substr(0, 3) : "measurement") +
+    text = f.subject + " jumped: from one " +
+           (f.word == "gps" || f.word == "usbl" ? kFixes.substr(0, 3) : "measurement") +
            " to the next it stood " + in_unit(f, f.figure("first")) + " aside of navigation (sigma of that " +
            in_unit(f, f.figure("first_sigma")) + ")";
   } else {

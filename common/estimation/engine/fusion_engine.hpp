@@ -47,9 +47,9 @@ namespace fathom::estimation {
 /// one sensor (of a DVL, of one layer) with the same stamp the one with the lower sequence number counts, and
 /// of two with the same number as well the one that came first.
 ///
-/// Fixes that somebody tells (FixSample) may be older than the horizon: such a one acts at the instant at which
-/// it was told, header.received_ns, as if it had come in time (engine/past). What that needs is remembered for
-/// late_fix_memory_s, where a sensor of that kind is configured; a fix of before is late.
+/// Fixes that somebody tells (FixSample) may be older than the horizon: such a one acts at the instant at
+/// which it was told, header.received_ns, as if it had come in time (engine/past). What that needs is
+/// remembered for late_fix_memory_s, where a sensor of that kind is configured; a fix of before is late.
 ///
 /// Bounded work. An inertial sample costs one step, and when older measurements came in since the last one,
 /// at most twice `replay_steps_per_sample` repeated steps; the last of 32 as above, at most horizon_s +

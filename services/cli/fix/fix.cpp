@@ -62,9 +62,8 @@ class Vehicle {
     out.sequence = static_cast<std::uint64_t>(out.received_ns);
     return out;
   }
-  [[nodiscard]] std::optional<Verdict> verdict_of(const FixSample& fix, double wait_s) {
+  [[nodiscard]] std::optional<Verdict> verdict(double wait_s) {
     std::unique_lock lock(mutex_);
-    wanted_ = fix.header;
     (void)changed_.wait_for(lock, std::chrono::duration<double>(wait_s),
                             [this] { return verdict_.has_value(); });
     return verdict_;
@@ -120,24 +119,10 @@ ExitCode run(const FixOptions& options) {
   bus::Participant participant(options.bus);
   bus::Writer<FixSample> writer(participant);
   Vehicle vehicle(participant, options.vehicle, options.from);
-  const auto header = vehicle.now(options.timeout_s);
-  if (!header)
+  if (!vehicle.now(options.timeout_s))
     throw Failure(ExitCode::runtime_failure,
                   "domain " + std::to_string(options.bus.domain) + ": no navigation heard for " +
                       std::to_string(static_cast<int>(options.timeout_s)) + " s, expected a fusion service");
-  FixSample fix;
-  fix.header = *header;
-  fix.header.stamp_ns = instant_of(options, header->received_ns);
-  if (fix.header.stamp_ns > fix.header.received_ns)
-    throw Failure(ExitCode::bad_configuration, "--time: is " + to_iso8601(fix.header.stamp_ns) +
-                                                   ", expected no later than the vehicle's " +
-                                                   to_iso8601(fix.header.received_ns));
-  fix.latitude_rad = kRadPerDeg * options.lat_deg;
-  fix.longitude_rad = kRadPerDeg * options.lon_deg;
-  fix.sigma_m = options.sigma_m;
-  fix.depth_m = options.depth_m;
-  fix.depth_sigma_m = options.depth_sigma_m;
-  vehicle.want(fix);
   const SystemClock clock;
   const TimeNs begin_ns = clock.monotonic_ns();
   const auto left_s = [&] { return options.timeout_s - to_seconds(clock.monotonic_ns() - begin_ns); };
@@ -148,8 +133,21 @@ ExitCode run(const FixOptions& options) {
     throw Failure(ExitCode::runtime_failure, "domain " + std::to_string(options.bus.domain) +
                                                  ": nobody takes positions, expected a fusion service");
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  FixSample fix;
+  fix.header = *vehicle.now(1.0);  // it is told now
+  fix.header.stamp_ns = instant_of(options, fix.header.received_ns);
+  if (fix.header.stamp_ns > fix.header.received_ns)
+    throw Failure(ExitCode::bad_configuration, "--time: is " + to_iso8601(fix.header.stamp_ns) +
+                                                   ", expected no later than the vehicle's " +
+                                                   to_iso8601(fix.header.received_ns));
+  fix.latitude_rad = kRadPerDeg * options.lat_deg;
+  fix.longitude_rad = kRadPerDeg * options.lon_deg;
+  fix.sigma_m = options.sigma_m;
+  fix.depth_m = options.depth_m;
+  fix.depth_sigma_m = options.depth_sigma_m;
+  vehicle.want(fix);
   if (!writer.write(fix)) throw Failure(ExitCode::runtime_failure, "the network did not take the position");
-  const auto verdict = vehicle.verdict_of(fix, std::max(left_s(), 1.0));
+  const auto verdict = vehicle.verdict(std::max(left_s(), 1.0));
   if (!verdict)
     throw Failure(ExitCode::runtime_failure,
                   "fix: told, but no verdict came, expected one of a fusion service");

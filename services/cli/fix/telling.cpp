@@ -25,7 +25,7 @@ std::string reason(const FixSample& fix, const Verdict& verdict) {
     case VerdictKind::disputed:
       return "it does not go with what else was measured";
     case VerdictKind::late:
-      return text("%.0f s is longer than navigation remembers", age_s);
+      return text("%.0f s is longer than navigation remembers, or it came long after it was told", age_s);
     case VerdictKind::source_disabled:
       return "the vehicle's configuration has no such source of positions, or it is switched off";
     case VerdictKind::not_aligned:

@@ -22,7 +22,7 @@
 namespace fathom::test {
 namespace {
 
-constexpr std::uint32_t kDomain = 183;
+constexpr std::uint32_t kDomain = 216;
 constexpr double kRate = 20.0;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
@@ -116,7 +116,7 @@ class ToldFix : public ConsoleTest {};
 
 TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLine) {
   const TemporaryFolder folder;
-  const TimeNs epoch_ns = SystemClock().utc_ns() + 5 * kNsPerSecond;
+  const TimeNs epoch_ns = SystemClock().utc_ns() + 15 * kNsPerSecond;
   const std::vector<std::string> clock_sets{"clock.rate=" + std::to_string(kRate),
                                             "clock.epoch_ns=" + std::to_string(epoch_ns),
                                             "clock.anchor_file="};
@@ -127,8 +127,8 @@ TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLin
       {"bus.domain=" + std::to_string(kDomain), "checkpoint.path=" + (folder / "checkpoint"),
        "engine.future_tolerance_s=60",  // the survey falls behind the clock on a busy machine
        R"(engine.sensors=[{"sensor":"gps0","kind":"gps","lever_B_m":[-0.3,0,-0.5],"sigma_m":[1,1,1]},)"
-       R"({"sensor":"dvl0","kind":"dvl","lever_B_m":[0.4,0.05,0.3]},)"
-       R"({"sensor":"depth0","kind":"depth","sigma_m":[0.03,0.03,0.03]},)"
+       R"({"sensor":"dvl0","kind":"dvl","lever_B_m":[0.4,0.05,0.3],"mounting_rpy_deg":[0,0,0]},)"
+       R"({"sensor":"depth0","kind":"depth","lever_B_m":[0,0,0],"sigma_m":[0.03,0.03,0.03]},)"
        R"({"sensor":"compass0","kind":"heading","sigma_deg":[0.6,0.6,0.6]},)"
        R"({"sensor":"operator","kind":"fix"}])"});
   for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
@@ -137,8 +137,9 @@ TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLin
   std::vector<std::string> console_sets = clock_sets;
   console_sets.emplace_back("access.orders=true");
   start(kDomain, console_sets);
-  ASSERT_TRUE(wait_until([&] { return survey.heard() && get("/").status == 200; }, kPatienceS))
-      << fusion.err() << console->err();
+  ASSERT_TRUE(wait_until([&] { return !fusion.running() || (survey.heard() && get("/").status == 200); },
+                         kPatienceS));
+  ASSERT_TRUE(fusion.running()) << fusion.err() << console->err();
   std::this_thread::sleep_for(
       std::chrono::nanoseconds(std::max<TimeNs>(0, epoch_ns - SystemClock().utc_ns())));
   survey.begin();
@@ -162,7 +163,7 @@ TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLin
   const auto wrong = tell({0.0, 1000.0, 0.0});
   EXPECT_EQ(wrong->wait(), 1) << wrong->err();
   const auto refused = nlohmann::json::parse(wrong->out());
-  EXPECT_EQ(refused.at("verdict"), "rejected");
+  EXPECT_EQ(refused.at("verdict"), "rejected") << wrong->out();
   EXPECT_NEAR(refused.at("east_m").get<double>(), -1000.0, 100.0);
   EXPECT_FALSE(refused.at("reason").get<std::string>().empty());
   const NavState before = survey.state();

@@ -23,7 +23,7 @@ TEST(FixCsv, WhatWasWrittenIsReadWithWhenItWasTold) {
   std::ifstream in(folder.path() / "fix.csv");
   std::string header;
   std::getline(in, header);
-  EXPECT_EQ(header, "t_s,t_received_s,lat_deg,lon_deg,sigma_m");
+  EXPECT_EQ(header, "t_s,lat_deg,lon_deg,sigma_m,t_received_s");
   const auto back = read(folder.path()).of<FixSample>();
   ASSERT_EQ(back.size(), 1U);
   EXPECT_EQ(back[0].header.stamp_ns, one.header.stamp_ns);

@@ -31,7 +31,8 @@ std::uint64_t most_kept(int states) {
   const auto n = static_cast<std::uint64_t>(states);
   // Transition and half of the curvature; rows of P and the gradient; the way and what else there is.
   const std::uint64_t bytes = sizeof(double) * (n * n + n * (n + 1) / 2 + (kFixStates + 1) * n + 300);
-  return std::clamp(kMostBytes / bytes, 2 * Past::kForFixes, Past::kMostKept + Past::kForFixes) - Past::kForFixes;
+  return std::clamp(kMostBytes / bytes, 2 * Past::kForFixes, Past::kMostKept + Past::kForFixes) -
+         Past::kForFixes;
 }
 
 /// Of one that asks for more than is remembered.
