@@ -43,6 +43,7 @@ struct Navigator::Trial {
   const GateLimits* limits;
   Instrument& instrument;
   Remembered* then = nullptr;  ///< of one that comes late
+  TimeNs instant_ns = 0;       ///< of which it speaks
   Judgement judgement{};
   ModelAiding::Drive drive = ModelAiding::Drive::nothing;
   ModelAiding::Trial model{};
@@ -81,7 +82,8 @@ Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
               .rules = &setup_->config.sensors[slot],
               .limits = &setup_->limits[slot],
               .instrument = instruments_.behind(*setup_, measurement),
-              .then = then};
+              .then = then,
+              .instant_ns = then == nullptr ? measurement.stamp_ns : then->instant_ns()};
   if (!admit(trial) || !observe(trial)) return trial.judgement;
   gate(trial);
   reacquire(trial);
@@ -93,9 +95,10 @@ bool Navigator::admit(Trial& trial) {
   const Measurement& measurement = trial.measurement;
   Instrument& instrument = trial.instrument;
   if (!instruments_.enabled(measurement)) return trial.end(VerdictKind::source_disabled);
-  const TimeNs stamp_ns = trial.then == nullptr ? measurement.stamp_ns : trial.then->instant_ns();
-  if (instrument.stamp_ns == stamp_ns && instrument.stamp_ns != 0) return trial.end(VerdictKind::duplicate);
-  instrument.stamp_ns = stamp_ns;
+  if (instrument.stamp_ns == trial.instant_ns && instrument.stamp_ns != 0)
+    return trial.end(VerdictKind::duplicate);
+  // What somebody told wrongly he may tell again, of the same instant.
+  if (measurement.source != SourceKind::fix) instrument.stamp_ns = trial.instant_ns;
   if (trial.config.use_sample_sigma && !sound_sigmas(measurement.sample))
     return trial.end(VerdictKind::out_of_range);
   starter_.collect(*setup_, estimate_, measurement);
@@ -231,6 +234,7 @@ void Navigator::account(Trial& trial) {
   if (trial.policy.told && std::hypot(trial.x[0], trial.x[1]) > kNoticed_m) trial.stepped = true;
   if (trial.stepped)
     reacquisition_.note_step(-Vector3d(trial.x[0], trial.x[1], trial.x[2]), &trial.whole, estimate_);
+  trial.instrument.stamp_ns = trial.instant_ns;
   trial.instrument.used_ns = estimate_.now_ns;
   trial.instrument.candidate = {};
   usage_.note(trial.policy, trial.with_position, estimate_.now_ns);

@@ -169,6 +169,18 @@ TEST(LateFix, AWrongOneIsRefusedAndSaysByHowMuch) {
   EXPECT_EQ(out.end.reset_counter, none.end.reset_counter);
 }
 
+TEST(LateFix, WhatWasToldWronglyMayBeToldAgainButNotWhatWasUsed) {
+  const SurveyRun survey({.duration_s = 300.0, .dive_s = kDive_s, .seed = 12, .usbl = false});
+  std::vector<FixSample> fixes{fix_at(survey, 200.0, 280.0, 5.0, {0.0, 1000.0, 0.0}),
+                               fix_at(survey, 200.0, 285.0, 5.0, {1.0, 1.0, 0.0}),
+                               fix_at(survey, 200.0, 290.0, 5.0, {1.0, 1.0, 0.0})};
+  const Outcome out = run(survey, config_with(900.0), fixes);
+  ASSERT_EQ(out.verdicts.size(), 3U);
+  EXPECT_EQ(out.verdicts[0].kind, VerdictKind::rejected);
+  EXPECT_EQ(out.verdicts[1].kind, VerdictKind::used);
+  EXPECT_EQ(out.verdicts[2].kind, VerdictKind::duplicate);
+}
+
 TEST(LateFix, OlderThanWhatIsRememberedIsLate) {
   const SurveyRun survey({.duration_s = 300.0, .dive_s = kDive_s, .seed = 6, .usbl = false});
   const Outcome out = run(survey, config_with(100.0), {fix_at(survey, 100.0, 290.0, 5.0, Vector3d::Zero())});
