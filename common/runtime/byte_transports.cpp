@@ -14,6 +14,7 @@
 #include <asio/ip/udp.hpp>
 #include <asio/serial_port.hpp>
 #include <asio/use_awaitable.hpp>
+#include <asio/write.hpp>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/stat.h>
@@ -85,6 +86,8 @@ asio::awaitable<void> ByteSource::Impl::serve_tcp_client() {
   keep_alive(socket);
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": connected");
+  if (!config.greeting.empty())
+    co_await asio::async_write(socket, asio::buffer(config.greeting), asio::use_awaitable);
   co_await read_all(socket);
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <mutex>
 #include <numbers>
 #include <sstream>
 #include <thread>
@@ -25,6 +26,7 @@
 #include "base/iso8601.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
+#include "samples/gps.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
 #include "support/free_port.hpp"
@@ -379,6 +381,52 @@ TEST(NmeaOut, GpsdTellsOurPosition) {
   // Half of 1e-5 minutes are 9 mm in each direction; a millisecond is 2 mm.
   EXPECT_LT(worst_m, 0.016);
   RecordProperty("worst_mm", static_cast<int>(1000.0 * worst_m));
+}
+
+// The whole way round: our sentences, a real gpsd, our bridge.
+TEST(NmeaOut, GpsdFeedsTheBridge) {
+  if (!is_installed("/usr/sbin/gpsd")) GTEST_SKIP() << "gpsd is not installed";
+  const int tcp = free_port(SOCK_STREAM);
+  const int gpsd_port = free_port(SOCK_STREAM);
+  Vehicle vehicle;
+  Process service("fathom-nmea-out", arguments("[" + tcp_output(tcp) + "]"));
+  {
+    Lines first(Lines::connected(tcp));
+    EXPECT_FALSE(first.next_with("$INGGA,").empty()) << service.err();
+  }
+  std::mutex mutex;
+  std::vector<GpsSample> fixes;
+  bus::Participant participant(presence(kDomain, "monitor"));
+  bus::Reader<GpsSample> reader(participant, [&](const GpsSample& fix, const bus::SampleInfo&) {
+    const std::lock_guard lock(mutex);
+    if (fix.fix >= GpsFix::fix_3d) fixes.push_back(fix);
+  });
+  const auto count = [&] {
+    const std::lock_guard lock(mutex);
+    return fixes.size();
+  };
+  Process gpsd("/usr/sbin/gpsd",
+               {"-N", "-n", "-S", std::to_string(gpsd_port), "tcp://127.0.0.1:" + std::to_string(tcp)});
+  Process bridge("fathom-gps-bridge",
+                 {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/gps_bridge.json", "--set",
+                  "bus.domain=" + std::to_string(kDomain), "--set", "clock.anchor_file=", "--set",
+                  R"(sensors=[{"name":"gps","protocol":"gpsd","rate_hz":5,"time":{"mode":"device_utc"},)"
+                  R"("source":{"type":"tcp_client","address":"127.0.0.1","port":)" +
+                      std::to_string(gpsd_port) + "}}]"});
+  ASSERT_TRUE(wait_until([&] { return count() >= 20; }, 30.0)) << bridge.err() << gpsd.err();
+  // gpsd is started again, as after an update: the bridge asks it anew.
+  gpsd.kill(SIGKILL);
+  (void)gpsd.wait();
+  const std::size_t before = count();
+  Process again("/usr/sbin/gpsd",
+                {"-N", "-n", "-S", std::to_string(gpsd_port), "tcp://127.0.0.1:" + std::to_string(tcp)});
+  EXPECT_TRUE(wait_until([&] { return count() >= before + 10; }, 30.0)) << bridge.err() << again.err();
+  const std::lock_guard lock(mutex);
+  for (const GpsSample& fix : fixes) {
+    EXPECT_NEAR((fix.latitude_rad - Vehicle::latitude_rad(fix.header.stamp_ns)) * 6.36e6, 0.0, 0.016);
+    EXPECT_NEAR((fix.longitude_rad - Vehicle::kLongitude_rad) * 6.38e6 * std::cos(0.5), 0.0, 0.016);
+    EXPECT_NEAR(fix.velocity_N_m_s[0], 1.9, 0.01);
+  }
 }
 
 }  // namespace

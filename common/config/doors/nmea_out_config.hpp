@@ -50,9 +50,9 @@ struct NmeaOutputConfig {
 /// deploy/config/nmea_out.json
 struct NmeaOutConfig {
   CommonConfig common;
-  double valid_95_m = 100.0;  ///< a position whose 95 % radius is larger is not valid
+  double valid_95_m = 100.0;            ///< a position whose 95 % radius is larger is not valid
   double valid_heading_rad = 0.174533;  ///< a heading whose sigma is larger is not told
-  double silence_s = 1.0;     ///< without a navigation state for so long there is no position
+  double silence_s = 1.0;               ///< without a navigation state for so long there is no position
   /// The point of the vehicle that is told, from the inertial unit: forward, right, down.
   std::array<double, 3> point_B_m{0.0, 0.0, 0.0};
   std::vector<NmeaOutputConfig> outputs;
