@@ -127,7 +127,7 @@ EventSample sample_of(const AidingEntry& entry, const FilterState& state, Normal
       s.latitude_rad = told.latitude_rad;
       s.longitude_rad = told.longitude_rad;
       s.sigma_m = 5.0;
-      if (normal(1.0) > 0.0) s.depth_m = 18.0 - told.altitude_m;
+      if (normal(1.0) > 0.0) s.depth_m = 12.0;
       return s;
     }
     case SourceKind::airspeed: {
