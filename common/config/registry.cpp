@@ -12,6 +12,7 @@
 #include "config/guidance_config.hpp"
 #include "config/monitor_config.hpp"
 #include "config/recorder_config.hpp"
+#include "config/ros2_gateway_config.hpp"
 #include "config/scenario/scenario_config.hpp"
 #include "config/scenario/simulator_config.hpp"
 #include "config/vehicle/catalogue.hpp"
@@ -45,6 +46,7 @@ std::span<const ConfigKind> config_kinds() {
                                  hydro_kind(),
                                  monitor_kind(),
                                  recorder_kind(),
+                                 ros2_gateway_kind(),
                                  guidance_kind(),
                                  simulator_kind(),
                                  scenario_kind(),

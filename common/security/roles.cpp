@@ -74,6 +74,11 @@ std::vector<Entry> make_entries() {
                         "fathom/v1/alignment", "fathom/v1/forecast", "fathom/v1/alarm",
                         "fathom/v1/monitor_status", kLifeSign, "fathom/v1/replica_status",
                         "fathom/v1/command", "fathom/v1/intake", "fathom/v1/route", "fathom/v1/truth"})});
+  // What it takes from ROS 2 are instruments; from there come no orders.
+  entries.push_back({"ros2_gateway",
+                     {KindOf<ImuSample>::kTopic, KindOf<GpsSample>::kTopic, KindOf<DepthSample>::kTopic,
+                      KindOf<DvlSample>::kTopic, kLifeSign},
+                     {"fathom/v1/nav_state", "fathom/v1/alarm", kLifeSign}});
   entries.push_back({"simulator", {"fathom/v1/truth", kLifeSign}, {}});
   // status, doctor, and the referee of a demonstration. What status shows and what a run is judged by; who
   // exists at all doctor learns from discovery.
