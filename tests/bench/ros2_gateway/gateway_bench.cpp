@@ -42,15 +42,13 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
-NavState state_now(TimeNs now_ns) {
-  NavState out = ros2::test::state_at({0.6, 0.1, -3.0}, {0.01, 0.02, 0.5});
-  out.header.stamp_ns = out.header.received_ns = now_ns;
-  return out;
+NavState a_state() {
+  return ros2::test::state_at({0.6, 0.1, -3.0}, {0.01, 0.02, 0.5});
 }
 
 TEST(Ros2GatewayBench, FromTheNavigationStateToTheOdometry) {
   const bool soak = std::getenv("FATHOM_SOAK") != nullptr;
-  const std::size_t nav_bytes = bus::to_cdr(state_now(0)).size();
+  const std::size_t nav_bytes = bus::to_cdr(a_state()).size();
   RawHops raw("ros2", {nav_bytes}, {kOdometryBytes});  // first: it forks, and there are no threads yet
   std::vector<std::string> arguments{"--config", FATHOM_SOURCE_DIR "/deploy/config/ros2_gateway.json"};
   for (const std::string& set :
@@ -88,10 +86,11 @@ TEST(Ros2GatewayBench, FromTheNavigationStateToTheOdometry) {
   raw.send(kDrift * kRate_hz);
   (void)raw.take_round_us();
   const int count = static_cast<int>(kRate_hz) * (soak ? 60 : 10);
+  NavState state = a_state();
   auto next = std::chrono::steady_clock::now();
   for (int i = 0; i < count; ++i) {
-    NavState state = state_now(clock.utc_ns());
     state.header.sequence = static_cast<std::uint64_t>(i + 1);
+    state.header.stamp_ns = clock.utc_ns();
     writer.write(state);
     std::this_thread::sleep_until(next += std::chrono::microseconds(static_cast<int>(1e6 / kRate_hz)));
   }
