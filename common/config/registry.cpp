@@ -10,7 +10,9 @@
 #include "config/fusion/fusion_config.hpp"
 #include "config/fusion/hydro_config.hpp"
 #include "config/guidance_config.hpp"
+#include "config/mavlink_gateway_config.hpp"
 #include "config/monitor_config.hpp"
+#include "config/nmea_out_config.hpp"
 #include "config/recorder_config.hpp"
 #include "config/ros2_gateway_config.hpp"
 #include "config/scenario/scenario_config.hpp"
@@ -47,6 +49,8 @@ std::span<const ConfigKind> config_kinds() {
                                  monitor_kind(),
                                  recorder_kind(),
                                  ros2_gateway_kind(),
+                                 nmea_out_kind(),
+                                 mavlink_gateway_kind(),
                                  guidance_kind(),
                                  simulator_kind(),
                                  scenario_kind(),

@@ -14,12 +14,14 @@
 #include <asio/ip/udp.hpp>
 #include <asio/serial_port.hpp>
 #include <asio/use_awaitable.hpp>
+#include <asio/write.hpp>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/stat.h>
 #include <termios.h>
 
 #include "runtime/byte_source_impl.hpp"
+#include "runtime/serial_line.hpp"
 
 namespace fathom::runtime {
 namespace {
@@ -56,13 +58,7 @@ asio::awaitable<void> ByteSource::Impl::read_all(Stream& stream) {
 }
 
 asio::awaitable<void> ByteSource::Impl::serve_serial() {
-  asio::serial_port port(io);
-  port.open(config.path);
-  port.set_option(asio::serial_port::baud_rate(static_cast<unsigned>(config.baud)));
-  port.set_option(asio::serial_port::character_size(8));
-  port.set_option(asio::serial_port::parity(asio::serial_port::parity::none));
-  port.set_option(asio::serial_port::stop_bits(asio::serial_port::stop_bits::one));
-  port.set_option(asio::serial_port::flow_control(asio::serial_port::flow_control::none));
+  asio::serial_port port = open_serial_line(io, config.path, config.baud);
   tcflush(port.native_handle(), TCIFLUSH);
   still_there = [this, &port] {
     struct stat at_path {};
@@ -90,6 +86,8 @@ asio::awaitable<void> ByteSource::Impl::serve_tcp_client() {
   keep_alive(socket);
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": connected");
+  if (!config.greeting.empty())
+    co_await asio::async_write(socket, asio::buffer(config.greeting), asio::use_awaitable);
   co_await read_all(socket);
 }
 

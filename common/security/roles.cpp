@@ -79,6 +79,8 @@ std::vector<Entry> make_entries() {
                      {KindOf<ImuSample>::kTopic, KindOf<GpsSample>::kTopic, KindOf<DepthSample>::kTopic,
                       KindOf<DvlSample>::kTopic, kLifeSign},
                      {"fathom/v1/nav_state", "fathom/v1/alarm", kLifeSign}});
+  entries.push_back({"mavlink_gateway", {kLifeSign}, {"fathom/v1/nav_state"}});
+  entries.push_back({"nmea_out", {kLifeSign}, {"fathom/v1/nav_state"}});
   entries.push_back({"simulator", {"fathom/v1/truth", kLifeSign}, {}});
   // status, doctor, and the referee of a demonstration. What status shows and what a run is judged by; who
   // exists at all doctor learns from discovery.

@@ -44,7 +44,8 @@ Uses table() {
   for (const security::Role& role : security::roles()) {
     const std::string name(role.name);
     // Not part of a demonstration; a person's own tools read what they are asked to.
-    if (name == "cli" || name == "guidance" || name == "discovery" || name == "ros2_gateway") continue;
+    if (name == "cli" || name == "guidance" || name == "discovery") continue;
+    if (name == "ros2_gateway" || name == "nmea_out" || name == "mavlink_gateway") continue;
     if (name == "console" && !std::filesystem::exists(FATHOM_BINARY_DIR "/bin/fathom-console")) continue;
     const auto add = [&](bool writes, std::span<const std::string_view> topics) {
       for (const auto topic : topics) {
