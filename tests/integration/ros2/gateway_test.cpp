@@ -209,6 +209,20 @@ TEST_F(Ros2Gateway, SpeaksNorthEastDownWhereAsked) {
   EXPECT_NEAR(number(imu["linear_acceleration"], 2), -9.8, 1e-9);
 }
 
+TEST_F(Ros2Gateway, MayShareTheDomainOfTheVehicle) {
+  start({"ros.domain=" + std::to_string(kVehicle)});
+  Peer peer("read", kVehicle, {"odometry", "rt/fathom/odometry"});
+  EXPECT_THAT(peer.output(), HasSubstr("child_frame_id base_link"));
+}
+
+TEST_F(Ros2Gateway, IsANodeOfHumble) {
+  start({"ros.distro=humble", "ros.namespace=/", "ros.node=navigation"});
+  Peer peer("graph", kGraph, {}, true);
+  const std::string text = peer.output();
+  EXPECT_THAT(text, HasSubstr("node / navigation\n"));
+  EXPECT_THAT(text, HasSubstr(" rt/odometry nav_msgs::msg::dds_::Odometry_\n")) << "no hash, no namespace";
+}
+
 struct Along {
   TimeNs stamp_ns;
   double map_y;   // of odom in map

@@ -147,7 +147,7 @@ TEST_F(Vehicle, AnInstrumentMayBeATopicOfRos2) {
   for (const auto& one : load<MonitorConfig>("monitor").health.services) services.push_back(one.name.str());
   EXPECT_THAT(services, ::testing::UnorderedElementsAre("fusion", "ros2_gateway", "gps_bridge", "dvl_bridge",
                                                         "heading_bridge", "recorder"));
-  EXPECT_EQ(load<FusionConfig>("fusion").engine.sensors.size(), 5U)
+  EXPECT_EQ(load<FusionConfig>("fusion").engine.sensors.size(), 4U)
       << "fusion does not care where it comes from";
   EXPECT_EQ(complaint(), "");
   instrument("imu")["port"] = {{"type", "serial"}, {"path", "/dev/ttyUSB0"}};
