@@ -7,12 +7,13 @@
 #include "config/bridge/range_config.hpp"
 #include "config/console_config.hpp"
 #include "config/discovery_config.hpp"
+#include "config/doors/foxglove_config.hpp"
+#include "config/doors/mavlink_gateway_config.hpp"
+#include "config/doors/nmea_out_config.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/fusion/hydro_config.hpp"
 #include "config/guidance_config.hpp"
-#include "config/mavlink_gateway_config.hpp"
 #include "config/monitor_config.hpp"
-#include "config/nmea_out_config.hpp"
 #include "config/recorder_config.hpp"
 #include "config/ros2_gateway_config.hpp"
 #include "config/scenario/scenario_config.hpp"
@@ -51,6 +52,7 @@ std::span<const ConfigKind> config_kinds() {
                                  ros2_gateway_kind(),
                                  nmea_out_kind(),
                                  mavlink_gateway_kind(),
+                                 foxglove_kind(),
                                  guidance_kind(),
                                  simulator_kind(),
                                  scenario_kind(),

@@ -1,4 +1,4 @@
-#include "config/mavlink_gateway_config.hpp"
+#include "config/doors/mavlink_gateway_config.hpp"
 #include "host/run.hpp"
 #include "mavlink_gateway/mavlink_gateway_service.hpp"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "config/mavlink_gateway_config.hpp"
+#include "config/doors/mavlink_gateway_config.hpp"
 #include "host/service_host.hpp"
 #include "mavlink/signing.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "config/mavlink_gateway_config.hpp"
+#include "config/doors/mavlink_gateway_config.hpp"
 #include "geo/wgs84.hpp"
 #include "mavlink/messages.hpp"
 #include "samples/nav_state.hpp"

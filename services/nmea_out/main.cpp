@@ -1,4 +1,4 @@
-#include "config/nmea_out_config.hpp"
+#include "config/doors/nmea_out_config.hpp"
 #include "host/run.hpp"
 #include "nmea_out/nmea_out_service.hpp"
 

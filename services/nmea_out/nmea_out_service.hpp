@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "config/nmea_out_config.hpp"
+#include "config/doors/nmea_out_config.hpp"
 #include "host/service_host.hpp"
 
 namespace fathom::nmea_out {

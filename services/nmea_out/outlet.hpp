@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "config/nmea_out_config.hpp"
+#include "config/doors/nmea_out_config.hpp"
 
 namespace fathom::nmea_out {
 

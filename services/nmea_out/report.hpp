@@ -3,7 +3,7 @@
 #include <array>
 #include <string>
 
-#include "config/nmea_out_config.hpp"
+#include "config/doors/nmea_out_config.hpp"
 #include "exchange/nmea/sentences.hpp"
 #include "samples/nav_state.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "config/nmea_out_config.hpp"
+#include "config/doors/nmea_out_config.hpp"
 #include "nmea_out/report.hpp"
 
 namespace fathom::nmea_out {
