@@ -15,6 +15,7 @@
 #include "config/guidance_config.hpp"
 #include "config/monitor_config.hpp"
 #include "config/recorder_config.hpp"
+#include "config/ros2_gateway_config.hpp"
 #include "config/scenario/scenario_config.hpp"
 #include "config/scenario/simulator_config.hpp"
 #include "config/vehicle/catalogue.hpp"
@@ -48,6 +49,7 @@ std::span<const ConfigKind> config_kinds() {
                                  hydro_kind(),
                                  monitor_kind(),
                                  recorder_kind(),
+                                 ros2_gateway_kind(),
                                  nmea_out_kind(),
                                  mavlink_gateway_kind(),
                                  foxglove_kind(),
