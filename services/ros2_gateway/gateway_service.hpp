@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "config/ros2_gateway_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 #include "host/service_host.hpp"
 
 namespace fathom::ros2_gateway {

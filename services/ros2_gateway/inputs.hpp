@@ -9,7 +9,7 @@
 #include "base/clock.hpp"
 #include "bus/participant.hpp"
 #include "bus/ros2/node.hpp"
-#include "config/ros2_gateway_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 #include "ros2/input/door.hpp"
 #include "runtime/log.hpp"
 

@@ -1,4 +1,4 @@
-#include "config/ros2_gateway_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 #include "host/run.hpp"
 #include "ros2_gateway/gateway_service.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bus/ros2/node.hpp"
-#include "config/ros2_gateway_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 #include "ros2/output/diagnostics.hpp"
 #include "samples/nav_state.hpp"
 

@@ -1,6 +1,6 @@
 // What the file of the gateway to ROS 2 may say, and what it is told when it may not.
 
-#include "config/ros2_gateway_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 
 #include <fstream>
 #include <string>

@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "config/bridge/bridge_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/monitor_config.hpp"
-#include "config/ros2_gateway_config.hpp"
 #include "config/service_config.hpp"
 #include "config/vehicle/catalogue.hpp"
 #include "config/vehicle/folder.hpp"

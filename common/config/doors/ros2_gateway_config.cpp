@@ -1,4 +1,4 @@
-#include "config/ros2_gateway_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 
 #include <algorithm>
 #include <cctype>
