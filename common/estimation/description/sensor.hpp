@@ -41,7 +41,7 @@ void describe(Walk<SensorConfig>& s) {
   s.field("lever_B_m", &C::lever_B_m, "from the inertial unit to the instrument, forward, right, down")
       .unit("m")
       .range(-1000, 1000)
-      .only_for(kinds(gps, dvl, depth, usbl, propulsion, range))
+      .only_for(kinds(gps, dvl, depth, usbl, propulsion, range, fix))
       .required_for(kinds(gps, dvl, depth, usbl, range));
   s.field(
        "mounting_rpy_deg", &C::mounting_rpy_rad,
@@ -55,7 +55,7 @@ void describe(Walk<SensorConfig>& s) {
   s.field("sigma_m", &C::sigma, "noise north, east, down; of a depth and of a range the first counts")
       .unit("m")
       .range(1e-6, 1e6)
-      .only_for(kinds(gps, depth, usbl, range));
+      .only_for(kinds(gps, depth, usbl, range, fix));
   s.field("sigma_m_s", &C::sigma, "noise along x, y, z; of an airspeed the first counts")
       .unit("m/s")
       .range(1e-6, 1e6)

@@ -65,7 +65,7 @@ TEST(Keys, ReachIntoSectionsAndLists) {
   EXPECT_EQ(row("engine.imu.nominal_rate_hz").info.unit, "Hz");
   EXPECT_EQ(row("engine.sensors").default_text, "") << "a section has no default of its own";
   EXPECT_EQ(row("engine.sensors[].kind").range,
-            "gps, dvl, depth, heading, usbl, airspeed, propulsion, fins, range");
+            "gps, dvl, depth, heading, usbl, airspeed, propulsion, fins, range, fix");
   EXPECT_EQ(row("engine.sensors[].use_beams").range, "true or false");
   EXPECT_THAT(row("engine.sensors[].use_beams").info.sentence, HasSubstr("dvl: "));
   EXPECT_EQ(row("engine.sensors[].use_position").default_text, "true");
