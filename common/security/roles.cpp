@@ -20,6 +20,15 @@ Topics instruments_and(std::initializer_list<std::string_view> others) {
   return topics;
 }
 
+/// The topic of positions that people and modems tell.
+std::string_view told_positions() {
+  std::string_view topic;
+  for_each_kind([&](auto kind) {
+    if (kind.kRole == "fix_bridge") topic = kind.kTopic;
+  });
+  return topic;
+}
+
 struct Entry {
   std::string_view name;
   Topics writes;
@@ -57,12 +66,12 @@ std::vector<Entry> make_entries() {
                      {"fathom/v1/alarm", "fathom/v1/monitor_status", kLifeSign},
                      instruments_and({"fathom/v1/nav_state", "fathom/v1/alignment", "fathom/v1/verdict",
                                       "fathom/v1/forecast", kLifeSign, "fathom/v1/command"})});
-  entries.push_back({"console",
-                     {"fathom/v1/command", KindOf<FixSample>::kTopic, kLifeSign},
-                     {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict",
-                      "fathom/v1/alignment", "fathom/v1/monitor_status", "fathom/v1/forecast", kLifeSign,
-                      "fathom/v1/alarm", KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic,
-                      KindOf<FixSample>::kTopic, "fathom/v1/route"}});
+  entries.push_back(
+      {"console",
+       {"fathom/v1/command", told_positions(), kLifeSign},
+       {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
+        "fathom/v1/monitor_status", "fathom/v1/forecast", kLifeSign, "fathom/v1/alarm",
+        KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic, told_positions(), "fathom/v1/route"}});
   entries.push_back({"guidance", guidance_writes, guidance_reads});
   entries.push_back({"guidance_example", guidance_writes, guidance_reads});
   entries.push_back({"discovery", {kLifeSign}, {}});
@@ -86,7 +95,7 @@ std::vector<Entry> make_entries() {
   // status, doctor, and the referee of a demonstration. What status shows and what a run is judged by; who
   // exists at all doctor learns from discovery.
   entries.push_back({"cli",
-                     {"fathom/v1/command", KindOf<FixSample>::kTopic},
+                     {"fathom/v1/command", told_positions()},
                      {"fathom/v1/nav_state", "fathom/v1/verdict", "fathom/v1/alignment", "fathom/v1/forecast",
                       "fathom/v1/alarm", "fathom/v1/monitor_status", kLifeSign, KindOf<GpsSample>::kTopic,
                       "fathom/v1/truth"}});
