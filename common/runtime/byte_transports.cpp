@@ -44,6 +44,27 @@ void keep_alive(tcp::socket& socket) {
   set(TCP_KEEPCNT, 3);
 }
 
+void set_framing(asio::serial_port& port, Framing framing) {
+  using asio::serial_port;
+  const bool seven = framing == Framing::e7_1 || framing == Framing::o7_1;
+  const bool even = framing == Framing::e7_1 || framing == Framing::e8_1;
+  const auto parity = framing == Framing::n8_1 ? serial_port::parity::none
+                      : even                   ? serial_port::parity::even
+                                               : serial_port::parity::odd;
+  port.set_option(serial_port::character_size(seven ? 7 : 8));
+  port.set_option(serial_port::parity(parity));
+  port.set_option(serial_port::stop_bits(serial_port::stop_bits::one));
+  port.set_option(serial_port::flow_control(serial_port::flow_control::none));
+  if (!seven) return;
+  // A terminal without a line behind it passes the eighth bit on, whatever its character size says.
+  termios mode{};
+  if (tcgetattr(port.native_handle(), &mode) != 0)
+    throw std::system_error(errno, std::generic_category(), "tcgetattr");
+  mode.c_iflag |= ISTRIP;
+  if (tcsetattr(port.native_handle(), TCSANOW, &mode) != 0)
+    throw std::system_error(errno, std::generic_category(), "tcsetattr");
+}
+
 }  // namespace
 
 template <class Stream>
@@ -59,10 +80,7 @@ asio::awaitable<void> ByteSource::Impl::serve_serial() {
   asio::serial_port port(io);
   port.open(config.path);
   port.set_option(asio::serial_port::baud_rate(static_cast<unsigned>(config.baud)));
-  port.set_option(asio::serial_port::character_size(8));
-  port.set_option(asio::serial_port::parity(asio::serial_port::parity::none));
-  port.set_option(asio::serial_port::stop_bits(asio::serial_port::stop_bits::one));
-  port.set_option(asio::serial_port::flow_control(asio::serial_port::flow_control::none));
+  set_framing(port, config.framing);
   tcflush(port.native_handle(), TCIFLUSH);
   still_there = [this, &port] {
     struct stat at_path {};
