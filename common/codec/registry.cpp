@@ -5,12 +5,14 @@
 
 #include "codec/air/ascii_air_data.hpp"
 #include "codec/air/nmea_air_data.hpp"
+#include "codec/autopilot/mavlink.hpp"
 #include "codec/depth/ascii_depth.hpp"
 #include "codec/depth/paroscientific.hpp"
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/waterlinked.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/range/micromodem.hpp"
+#include "codec/satellite/gpsd.hpp"
 #include "codec/satellite/ubx.hpp"
 #include "codec/text/nmea.hpp"
 
@@ -48,9 +50,11 @@ constexpr std::array<std::string_view, 2> kAsciiAirDataAliases{"air_data", "air_
 constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "openvario",
                                                               "nmea0183_air_data"};
 
+constexpr std::array<std::string_view, 2> kMavlinkAliases{"ardusub", "mavlink2"};
+constexpr std::array<std::string_view, 1> kGpsdAliases{"gpsd_json"};
 constexpr std::array<std::string_view, 3> kMicromodemAliases{"whoi", "whoi_micromodem", "micro_modem"};
 
-const std::array<Protocol, 11> kProtocols{{
+const std::array<Protocol, 13> kProtocols{{
     {"nmea0183", kNmeaAliases, kNmeaDescription, make_nmea0183},
     {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx},
     {"pd0", kPd0Aliases, "Teledyne RDI PD0 ensembles with bottom track", make_pd0},
@@ -65,6 +69,8 @@ const std::array<Protocol, 11> kProtocols{{
     {"nmea_air_data", kNmeaAirDataAliases, "air data as NMEA 0183 XDR, MWV, VWR or OpenVario $POV",
      make_nmea_air_data},
     {"micromodem", kMicromodemAliases, "WHOI Micro-Modem ranges to modems and transponders", make_micromodem},
+    {"gpsd", kGpsdAliases, "reports of gpsd, JSON over TCP", make_gpsd, kGpsdGreeting},
+    {"mavlink", kMavlinkAliases, "telemetry of an autopilot, MAVLink 1 and 2", make_mavlink},
 }};
 
 char folded(char c) {

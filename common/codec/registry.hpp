@@ -52,6 +52,8 @@ struct Protocol {
   std::span<const std::string_view> aliases;  ///< e.g. "teledyne_pd0"
   std::string_view description;
   std::unique_ptr<Codec> (*make)(const CodecOptions& options);
+  /// What a client has to say on connecting by TCP, before anything is told; empty for most.
+  std::string_view greeting{};
 };
 
 /// Every protocol, in the order of the documentation. A new protocol is one file and one line in

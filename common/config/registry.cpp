@@ -7,6 +7,9 @@
 #include "config/bridge/range_config.hpp"
 #include "config/console_config.hpp"
 #include "config/discovery_config.hpp"
+#include "config/doors/foxglove_config.hpp"
+#include "config/doors/mavlink_gateway_config.hpp"
+#include "config/doors/nmea_out_config.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/fusion/hydro_config.hpp"
 #include "config/guidance_config.hpp"
@@ -45,6 +48,9 @@ std::span<const ConfigKind> config_kinds() {
                                  hydro_kind(),
                                  monitor_kind(),
                                  recorder_kind(),
+                                 nmea_out_kind(),
+                                 mavlink_gateway_kind(),
+                                 foxglove_kind(),
                                  guidance_kind(),
                                  simulator_kind(),
                                  scenario_kind(),

@@ -14,12 +14,14 @@
 #include <asio/ip/udp.hpp>
 #include <asio/serial_port.hpp>
 #include <asio/use_awaitable.hpp>
+#include <asio/write.hpp>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/stat.h>
 #include <termios.h>
 
 #include "runtime/byte_source_impl.hpp"
+#include "runtime/serial_line.hpp"
 
 namespace fathom::runtime {
 namespace {
@@ -44,17 +46,14 @@ void keep_alive(tcp::socket& socket) {
   set(TCP_KEEPCNT, 3);
 }
 
+// Another than 8N1.
 void set_framing(asio::serial_port& port, Framing framing) {
   using asio::serial_port;
   const bool seven = framing == Framing::e7_1 || framing == Framing::o7_1;
   const bool even = framing == Framing::e7_1 || framing == Framing::e8_1;
-  const auto parity = framing == Framing::n8_1 ? serial_port::parity::none
-                      : even                   ? serial_port::parity::even
-                                               : serial_port::parity::odd;
+  const auto parity = even ? serial_port::parity::even : serial_port::parity::odd;
   port.set_option(serial_port::character_size(seven ? 7 : 8));
   port.set_option(serial_port::parity(parity));
-  port.set_option(serial_port::stop_bits(serial_port::stop_bits::one));
-  port.set_option(serial_port::flow_control(serial_port::flow_control::none));
   if (!seven) return;
   // A terminal without a line behind it passes the eighth bit on, whatever its character size says.
   termios mode{};
@@ -77,10 +76,8 @@ asio::awaitable<void> ByteSource::Impl::read_all(Stream& stream) {
 }
 
 asio::awaitable<void> ByteSource::Impl::serve_serial() {
-  asio::serial_port port(io);
-  port.open(config.path);
-  port.set_option(asio::serial_port::baud_rate(static_cast<unsigned>(config.baud)));
-  set_framing(port, config.framing);
+  asio::serial_port port = open_serial_line(io, config.path, config.baud);
+  if (config.framing != Framing::n8_1) set_framing(port, config.framing);
   tcflush(port.native_handle(), TCIFLUSH);
   still_there = [this, &port] {
     struct stat at_path {};
@@ -108,6 +105,8 @@ asio::awaitable<void> ByteSource::Impl::serve_tcp_client() {
   keep_alive(socket);
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": connected");
+  if (!config.greeting.empty())
+    co_await asio::async_write(socket, asio::buffer(config.greeting), asio::use_awaitable);
   co_await read_all(socket);
 }
 

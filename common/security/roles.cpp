@@ -66,14 +66,17 @@ std::vector<Entry> make_entries() {
   entries.push_back({"guidance", guidance_writes, guidance_reads});
   entries.push_back({"guidance_example", guidance_writes, guidance_reads});
   entries.push_back({"discovery", {kLifeSign}, {}});
-  // A black box: all that was measured, said and ordered. The engine's state is for those who may take over.
-  entries.push_back(
-      {"recorder",
-       {kLifeSign},
-       instruments_and({"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict",
-                        "fathom/v1/alignment", "fathom/v1/forecast", "fathom/v1/alarm",
-                        "fathom/v1/monitor_status", kLifeSign, "fathom/v1/replica_status",
-                        "fathom/v1/command", "fathom/v1/intake", "fathom/v1/route", "fathom/v1/truth"})});
+  // All that was measured, said and ordered, for a black box and for those who look on. The engine's state is
+  // for those who may take over.
+  const Topics everything =
+      instruments_and({"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict",
+                       "fathom/v1/alignment", "fathom/v1/forecast", "fathom/v1/alarm",
+                       "fathom/v1/monitor_status", kLifeSign, "fathom/v1/replica_status", "fathom/v1/command",
+                       "fathom/v1/intake", "fathom/v1/route", "fathom/v1/truth"});
+  entries.push_back({"recorder", {kLifeSign}, everything});
+  entries.push_back({"foxglove", {kLifeSign}, everything});
+  entries.push_back({"mavlink_gateway", {kLifeSign}, {"fathom/v1/nav_state"}});
+  entries.push_back({"nmea_out", {kLifeSign}, {"fathom/v1/nav_state"}});
   entries.push_back({"simulator", {"fathom/v1/truth", kLifeSign}, {}});
   // status, doctor, and the referee of a demonstration. What status shows and what a run is judged by; who
   // exists at all doctor learns from discovery.

@@ -24,6 +24,13 @@ SampleHeader& header_of(AnySample& sample) {
 // Samples that are decoded from one read and wait for each other; a read has room for some hundred.
 constexpr std::size_t kMostAtOnce = 256;
 
+/// The source of a sensor, with what its protocol wants to be told first.
+runtime::ByteSourceConfig greeting_from(const config::SensorConfig& sensor) {
+  runtime::ByteSourceConfig out = sensor.source;
+  out.greeting = codec::find_protocol(sensor.protocol)->greeting;
+  return out;
+}
+
 // Lets the first of a burst through.
 class Burst {
  public:
@@ -54,7 +61,7 @@ struct SensorChannel::Impl : codec::Sink {
         health(plan.intermittent ? 0.0 : plan.sensor.rate_hz, config::stale_after_s(plan.sensor),
                plan.sensor.first_sample_s, clock.monotonic_ns()),
         source(
-            plan.sensor.source, clock,
+            greeting_from(plan.sensor), clock,
             [this](std::span<const std::uint8_t> bytes, const Arrival& at) { on_bytes(bytes, at); },
             [this](const SourceEvent& event) { on_event(event); }) {
     plan.options.ascii_prefix = plan.ascii_prefix;

@@ -27,9 +27,10 @@ inline bool wait_until(const std::function<bool()>& condition, double seconds = 
 /// A program of the build, ended with the object. Its standard output and error go to files that can be read.
 class Process {
  public:
-  /// `program`: name in build/bin.
+  /// `program`: name in build/bin, or the whole path of one of the system.
   Process(const std::string& program, const std::vector<std::string>& arguments) {
-    const std::string path = std::string(FATHOM_BINARY_DIR) + "/bin/" + program;
+    const std::string path =
+        program.starts_with("/") ? program : std::string(FATHOM_BINARY_DIR) + "/bin/" + program;
     out_ = temporary();
     err_ = temporary();
     std::vector<std::string> words{path};

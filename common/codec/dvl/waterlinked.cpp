@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codec/framer.hpp"
+#include "codec/text/json_object.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMaxFrame = 8 * 1024;
-constexpr int kMaxDepth = 8;
 constexpr double kBeamAngle_rad = 22.5 * std::numbers::pi / 180.0;
 constexpr double kMaxSpeed_m_s = 50.0;
 constexpr DurationNs kMaxAge_ns = 60 * kNsPerSecond;
@@ -129,40 +129,7 @@ class WaterLinked : public Framer {
   WaterLinked() : Framer(kMaxFrame, LineEnds::belong_to_frames) {}
 
  private:
-  /// An object ends at the brace that closes it.
-  [[nodiscard]] Probe probe(Bytes front) const override {
-    std::size_t n = 0;
-    while (n < front.size() && front[n] != '{') ++n;
-    if (n > 0) return Probe::skip(n);
-    int depth = 0;
-    bool in_string = false;
-    bool escaped = false;
-    bool line_start = false;
-    for (std::size_t i = 0; i < front.size(); ++i) {
-      const std::uint8_t c = front[i];
-      const bool line_end = c == '\n' || c == '\r';
-      if (in_string) {
-        if (c < 0x20) return Probe::bad(line_end ? RejectReason::length : RejectReason::structure, i, i);
-        if (escaped) {
-          escaped = false;
-        } else if (c == '\\') {
-          escaped = true;
-        } else if (c == '"') {
-          in_string = false;
-        }
-        continue;
-      }
-      if (c == '{' && line_start) return Probe::bad(RejectReason::length, i, i);
-      line_start = line_end;
-      if ((c < 0x20 && !line_end && c != '\t') || c > 0x7E) return Probe::bad(RejectReason::structure, i, i);
-      if (c == '"') in_string = true;
-      if (c == '{' || c == '[') ++depth;
-      if (c == '}' || c == ']') --depth;
-      if (depth > kMaxDepth) return Probe::bad(RejectReason::structure, i, i);
-      if (depth == 0) return Probe::frame(i + 1);
-    }
-    return Probe::need();
-  }
+  [[nodiscard]] Probe probe(Bytes front) const override { return probe_json_object(front); }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
     const Json report = Json::parse(frame.begin(), frame.end(), nullptr, false);

@@ -19,7 +19,8 @@ double usual_latency_s(SourceKind kind) {
 std::string time_mode(SourceKind kind, const std::string& protocol) {
   const codec::Protocol* found = codec::find_protocol(protocol);
   const std::string_view name = found == nullptr ? std::string_view{} : found->name;
-  if (name == "vectornav" || name == "pd0" || name == "waterlinked") return "device_clock";
+  if (name == "vectornav" || name == "pd0" || name == "waterlinked" || name == "mavlink")
+    return "device_clock";
   if (name == "ubx" || name == "psimssb" || kind == SourceKind::gps) return "device_utc";
   return "arrival";
 }

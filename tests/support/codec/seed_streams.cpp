@@ -5,6 +5,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "mavlink/frame.hpp"
+#include "mavlink/messages.hpp"
 #include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
 #include "sim/encode/nmea.hpp"
@@ -121,6 +123,42 @@ void air_data_sentences(ByteVector& stream, int frame) {
   append(stream, sim::encode::nmea_sentence("IIXDR,G,100.0,N,TAS"));
 }
 
+void gpsd_reports(ByteVector& stream, int frame) {
+  const std::string time = to_iso8601(instant(frame));
+  append(stream, R"({"class":"GST","device":"/dev/ttyS0","time":")" + time +
+                     R"(","lat":0.5,"lon":0.6,"alt":1.2})"
+                     "\r\n");
+  append(stream, R"({"class":"SKY","device":"/dev/ttyS0","hdop":0.90,"uSat":9,"satellites":[{"PRN":2}]})"
+                 "\r\n");
+  append(stream, R"({"class":"TPV","device":"/dev/ttyS0","mode":3,"time":")" + time +
+                     R"(","lat":36.4,"lon":-127.3)" + std::to_string(frame) +
+                     R"(,"altHAE":44.1,"altMSL":18.5,"track":12.5,"speed":1.25,"climb":-0.1,"eps":0.2})"
+                     "\r\n");
+}
+
+void telemetry(ByteVector& stream, int frame) {
+  const mavlink::Sender autopilot{1, 1};
+  const auto put = [&](const auto& message) {
+    append(stream, mavlink::frame_of(message, autopilot, static_cast<std::uint8_t>(frame)));
+  };
+  mavlink::Attitude attitude;
+  attitude.time_boot_ms = 1000U + 250U * static_cast<std::uint32_t>(frame);
+  attitude.yaw = 0.5F * static_cast<float>(frame) - 1.5F;
+  put(attitude);
+  put(mavlink::Heartbeat{});
+  mavlink::GpsRawInt fix;
+  fix.time_usec = 1000ULL * attitude.time_boot_ms;
+  fix.fix_type = 3;
+  fix.lat = 364'000'000 + frame;
+  fix.vel = 125;
+  fix.h_acc = 900;
+  put(fix);
+  mavlink::ScaledPressure2 pressure;
+  pressure.time_boot_ms = attitude.time_boot_ms;
+  pressure.press_abs = 1100.0F + static_cast<float>(frame);
+  put(pressure);
+}
+
 void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
   DepthSample depth;
   depth.depth_m = 12.5 + frame;
@@ -155,6 +193,10 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::nmea_sentence("CAMPR,1" + std::to_string(frame % 3) + ",1,0.2500"));
     append(stream, sim::encode::nmea_sentence("SNTTA,0.1,,0.3," + std::to_string(frame) + ".5,120000.00"));
     append(stream, sim::encode::nmea_sentence("CAREV,120000,AUV,0.93.0.30"));
+  } else if (protocol == "gpsd") {
+    gpsd_reports(stream, frame);
+  } else if (protocol == "mavlink") {
+    telemetry(stream, frame);
   } else {
     throw std::invalid_argument("no seed stream for protocol " + std::string(protocol));
   }

@@ -39,8 +39,9 @@ TEST(Registry, CaseAndDashesDoNotMatter) {
 }
 
 TEST(Registry, EveryInstrumentOfTheVehicleIsThere) {
-  for (const char* name : {"nmea0183", "ubx", "pd0", "waterlinked", "vectornav", "paroscientific",
-                           "ascii_depth", "psimssb", "ascii_air_data", "nmea_air_data", "micromodem"}) {
+  for (const char* name :
+       {"nmea0183", "ubx", "pd0", "waterlinked", "vectornav", "paroscientific", "ascii_depth", "psimssb",
+        "ascii_air_data", "nmea_air_data", "micromodem", "gpsd", "mavlink"}) {
     EXPECT_NE(find_protocol(name), nullptr) << name;
   }
 }

@@ -93,7 +93,8 @@ TEST(Roles, TheStateOfTheEngineIsForFusionAndOrdersForThoseWhoFollowOrKeepThem) 
     return found;
   };
   EXPECT_EQ(readers("fathom/v1/engine_state"), (std::set<std::string_view>{"fusion"}));
-  EXPECT_EQ(readers("fathom/v1/command"), (std::set<std::string_view>{"fusion", "monitor", "recorder"}));
+  EXPECT_EQ(readers("fathom/v1/command"),
+            (std::set<std::string_view>{"fusion", "monitor", "recorder", "foxglove"}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "console/orders/roles.hpp"
+#include "config/token_book.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -9,7 +9,7 @@
 
 #include "config/json/strict_json.hpp"
 
-namespace fathom::console {
+namespace fathom::config {
 namespace {
 
 using nlohmann::json;
@@ -117,4 +117,4 @@ Identity TokenBook::whois(std::string_view token) const {
   return found;
 }
 
-}  // namespace fathom::console
+}  // namespace fathom::config
