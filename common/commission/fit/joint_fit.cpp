@@ -27,7 +27,7 @@ constexpr double kSmooth_s = 0.05;     // to both sides of an instant
 constexpr double kOvertakes_s = 1000;  // the wandering of a bias overtakes white noise here
 constexpr double kMargin = 1.25;       // of every sigma, for what no model here has
 constexpr std::size_t kCommon = 20;    // innovations that may have something in common
-constexpr double kMostStretch = 5.0;
+constexpr double kMostStretch = 2.5;
 constexpr double kWellBelow = 0.4549;  // median of the square of a normal number
 // No figure is surer than this: axes of an inertial unit are not square, samples are not instants.
 constexpr double kLeastTurn_rad = 0.02 * kDegree;
@@ -99,7 +99,7 @@ struct Innovations {
       }
       most = std::max(most, std::sqrt(std::max(sum, 1.0)));
     }
-    return std::min(most, kMostStretch);
+    return most;
   }
 };
 
@@ -305,10 +305,12 @@ class Fit {
       result_.dvl.latency_s = end.dvl_latency_s;
       result_.dvl.latency_sigma_s = std::max(kLeastLatency_s, dvl * sigma[I::kDvlLatency]);
     }
-    // A filter that does not follow the instruments has found nothing.
+    // A filter that does not follow the instruments has found nothing, and one whose innovations have much in
+    // common does not know what moves the vehicle.
     const double most = 3.0;
+    const bool follows = of_gps.excess().maxCoeff() < most && gps < kMostStretch;
     result_.done =
-        (of_gps.excess().maxCoeff() < most) && (!result_.dvl.done || of_dvl.excess().maxCoeff() < most);
+        follows && (!result_.dvl.done || (of_dvl.excess().maxCoeff() < most && dvl < kMostStretch));
   }
 
   const Series& series_;
