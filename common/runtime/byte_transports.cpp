@@ -52,10 +52,13 @@ void set_framing(asio::serial_port& port, Framing framing) {
   const bool seven = framing == Framing::e7_1 || framing == Framing::o7_1;
   const bool even = framing == Framing::e7_1 || framing == Framing::e8_1;
   const auto parity = even ? serial_port::parity::even : serial_port::parity::odd;
-  port.set_option(serial_port::character_size(seven ? 7 : 8));
-  port.set_option(serial_port::parity(parity));
+  // A terminal without a line behind it has no parity and no seven bits. Then the eighth bit is taken off
+  // here.
+  asio::error_code error;
+  port.set_option(serial_port::character_size(seven ? 7 : 8), error);
+  if (!error) port.set_option(serial_port::parity(parity), error);
+  if (!seven && error) throw std::system_error(error, std::string(to_string(framing)) + " is not to be had");
   if (!seven) return;
-  // A terminal without a line behind it passes the eighth bit on, whatever its character size says.
   termios mode{};
   if (tcgetattr(port.native_handle(), &mode) != 0)
     throw std::system_error(errno, std::generic_category(), "tcgetattr");
