@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <mutex>
 #include <span>
+#include <thread>
 #include <utility>
 
 #include "blackbox/enclosures.hpp"
@@ -24,6 +27,32 @@ constexpr std::size_t kMostOrigins = 4096;  // writers come from the network: bo
 constexpr std::size_t kMostNamed = 512;     // alarms and services
 
 constexpr DurationNs kClockWasSet_ns = kNsPerSecond / 100;
+
+/// Who listens to a thousand samples a second mostly wakes up and goes to sleep again. A thread that had to
+/// wait for a sample rests, and takes what has come meanwhile at once: the socket has room for it, and nobody
+/// waits for a recorder. It never rests twice within kAwake, nor while it is behind, as when others want the
+/// processor.
+class Rest {
+ public:
+  /// Before a sample is taken that was written so long ago.
+  void begin(DurationNs age_ns) {
+    const auto now = Clock::now();
+    if (now - done_ <= kWaited || now - rested_ <= kAwake || age_ns > kBehind_ns) return;
+    std::this_thread::sleep_for(kRest);
+    rested_ = Clock::now();
+  }
+  void end() { done_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::microseconds kWaited{300};
+  static constexpr std::chrono::milliseconds kAwake{3};
+  static constexpr std::chrono::milliseconds kRest{10};
+  static constexpr DurationNs kBehind_ns = 15 * kNsPerMillisecond;
+
+  Clock::time_point done_{};
+  Clock::time_point rested_{};
+};
 
 std::string hexadecimal(const WriterGuid& guid) {
   std::string out;
@@ -71,6 +100,10 @@ struct Tap::Impl {
     }
   }
 
+  /// All topics end at one instant, not one after the other: what was said of a sample is not there without
+  /// it.
+  ~Impl() { ending = true; }
+
   void listen(const bus::TopicInfo& topic) {
     bus::ReaderOptions options;
     options.profile_suffix = "deep";
@@ -79,7 +112,11 @@ struct Tap::Impl {
           participant, topic.topic,
           [this, topic, latched = bus::is_latched(participant, topic.topic)](
               std::span<const std::uint8_t> bytes, const bus::SampleInfo& info) {
+            if (ending) return;
+            thread_local Rest rest;
+            rest.begin(SystemClock().utc_ns() - info.source_ns);
             take(topic, latched, bytes, info);
+            rest.end();
           },
           options);
       readers.push_back(std::move(reader));
@@ -165,6 +202,7 @@ struct Tap::Impl {
   const std::string host;
   const std::string catalogue;
   std::vector<std::string> refused;
+  std::atomic<bool> ending = false;
 
   std::mutex mutex;
   std::map<std::pair<const char*, WriterGuid>, std::uint32_t> origins;

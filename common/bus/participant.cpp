@@ -118,6 +118,7 @@ dds::DomainParticipantQos participant_qos(const ParticipantOptions& options,
   }
   qos.name(options.name);
   std::string user = "host=" + host_name() + ";pid=" + std::to_string(getpid());
+  if (!options.user_data.empty()) user += ";" + options.user_data;
   if (options.low_priority) user += kLowPriorityMark;
   qos.user_data().setValue(std::vector<rtps::octet>(user.begin(), user.end()));
 

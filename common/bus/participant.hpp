@@ -55,6 +55,8 @@ struct ParticipantOptions {
   /// Empty: it is no server. Creating a server takes as long as a participant's lease, so that clients have
   /// given up a server that was killed before.
   std::string discovery_listen{};
+  /// What it adds to its USER_DATA in discovery, for those of another house: "key=value;".
+  std::string user_data{};
 };
 
 enum class BusEventKind : std::uint8_t {

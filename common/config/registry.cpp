@@ -10,6 +10,7 @@
 #include "config/doors/foxglove_config.hpp"
 #include "config/doors/mavlink_gateway_config.hpp"
 #include "config/doors/nmea_out_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/fusion/hydro_config.hpp"
 #include "config/guidance_config.hpp"
@@ -48,6 +49,7 @@ std::span<const ConfigKind> config_kinds() {
                                  hydro_kind(),
                                  monitor_kind(),
                                  recorder_kind(),
+                                 ros2_gateway_kind(),
                                  nmea_out_kind(),
                                  mavlink_gateway_kind(),
                                  foxglove_kind(),

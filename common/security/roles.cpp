@@ -75,6 +75,11 @@ std::vector<Entry> make_entries() {
                        "fathom/v1/intake", "fathom/v1/route", "fathom/v1/truth"});
   entries.push_back({"recorder", {kLifeSign}, everything});
   entries.push_back({"foxglove", {kLifeSign}, everything});
+  // What it takes from ROS 2 are instruments; from there come no orders.
+  entries.push_back({"ros2_gateway",
+                     {KindOf<ImuSample>::kTopic, KindOf<GpsSample>::kTopic, KindOf<DepthSample>::kTopic,
+                      KindOf<DvlSample>::kTopic, kLifeSign},
+                     {"fathom/v1/nav_state", "fathom/v1/alarm", kLifeSign}});
   entries.push_back({"mavlink_gateway", {kLifeSign}, {"fathom/v1/nav_state"}});
   entries.push_back({"nmea_out", {kLifeSign}, {"fathom/v1/nav_state"}});
   entries.push_back({"simulator", {"fathom/v1/truth", kLifeSign}, {}});

@@ -43,7 +43,7 @@ void bridge_layers(const Sources& vehicle, std::string_view role, Layers& out) {
   std::vector<std::string> names;
   for (const Known& known : vehicle.instruments) {
     const VehicleInstrument& one = *known.config;
-    if (role_of(one.kind) != role) continue;
+    if (one.role() != role) continue;
     if (std::find(names.begin(), names.end(), one.name.str()) != names.end()) continue;  // shares the port
     const std::string at = append(out, "sensors", names.size(), known.at.child("bridge"));
     names.push_back(one.name.str());

@@ -72,13 +72,14 @@ LoadRequest with_vehicle(LoadRequest request, const std::string& vehicle_file, s
   const auto roles = bridge_roles();
   if (std::find(roles.begin(), roles.end(), service) != roles.end()) {
     if (std::none_of(vehicle.instruments.begin(), vehicle.instruments.end(),
-                     [&](const Known& known) { return role_of(known.config->kind) == service; }) &&
+                     [&](const Known& known) { return known.config->role() == service; }) &&
         request.file.empty())
       throw ConfigError(vehicle_file, "instruments", "without any for " + std::string(service),
                         "an enabled one of a kind that " + std::string(service) + " reads");
     bridge_layers(vehicle, service, out);
   }
   if (service == "recorder") out.overlay("folder", "/var/lib/fathom/recordings", kStandard);
+  if (service == "ros2_gateway") ros2_layers(vehicle, out);
   if (service == "fusion") fusion_layers(vehicle, request, out);
   if (service == "monitor") monitor_layers(vehicle, out);
   if (vehicle.file.contains("services") && vehicle.file.at("services").contains(service))

@@ -50,8 +50,7 @@ void monitor_layers(const Sources& vehicle, Layers& out) {
     expect(role.name.str(), &role == &vehicle.config.roles.fusion.front(),
            {Layer::vehicle, vehicle.name, "roles.fusion"});
   for (const Known& known : vehicle.instruments)
-    expect(std::string(role_of(known.config->kind)), known.config->kind == SourceKind::imu,
-           known.at.child("kind"));
+    expect(std::string(known.config->role()), known.config->kind == SourceKind::imu, known.at.child("kind"));
   for (const std::string& name : vehicle.config.roles.expected)
     expect(name, false, {Layer::vehicle, vehicle.name, "roles.expected"});
 }

@@ -48,5 +48,6 @@ void bridge_layers(const Sources& vehicle, std::string_view role, Layers& out);
 /// Which of the fusion services it is stands in the request's overrides.
 void fusion_layers(const Sources& vehicle, const LoadRequest& request, Layers& out);
 void monitor_layers(const Sources& vehicle, Layers& out);
+void ros2_layers(const Sources& vehicle, Layers& out);
 
 }  // namespace fathom::config

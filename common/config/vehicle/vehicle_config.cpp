@@ -97,6 +97,9 @@ void describe(Schema<VehicleInstrument>& s) {
   s.field("bridge", &C::bridge, "further keys of the instrument in the file of its bridge");
   s.field("fusion", &C::fusion,
           "further keys of the instrument in the file of fusion: of engine.sensors, of an IMU of engine.imu");
+  s.field("ros2", &C::ros2,
+          "in place of a port: it is a topic of ROS 2, with the keys of an input of ros2_gateway")
+      .only_for(words_of({imu, gps, dvl, depth}));
 }
 
 void describe(Schema<VehicleLimits>& s) {
@@ -164,6 +167,7 @@ void describe(Schema<VehicleConfig>& s) {
       if (!seen.insert({one.kind, one.name.str()}).second)
         return {key + "name", "a name that no other instrument of this kind has"};
       inertial = inertial || (one.kind == SourceKind::imu && one.enabled);
+      if (one.ros2 && one.port) return {key + "ros2", "no port as well: its samples come from one place"};
       if (const std::string where = second_mounting(one); !where.empty())
         return {key + "mounting_rpy_deg", "[0, 0, 0] because " + key + where + " turns the same instrument"};
     }
@@ -193,7 +197,7 @@ std::vector<std::string> all_services() {
 std::vector<std::string> services_of(const VehicleConfig& vehicle) {
   std::set<std::string> out{"fusion", "monitor"};
   for (const VehicleInstrument& one : vehicle.instruments) {
-    if (one.enabled) out.emplace(role_of(one.kind));
+    if (one.enabled) out.emplace(one.role());
   }
   for (const auto& [service, keys] : vehicle.services) out.insert(service);
   return {out.begin(), out.end()};

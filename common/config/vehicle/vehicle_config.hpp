@@ -40,6 +40,11 @@ struct VehicleInstrument {
   std::array<double, 3> position_m{0.0, 0.0, 0.0};  ///< FRD, from any one point of the vehicle
   std::array<double, 3> mounting_rpy_rad{0.0, 0.0, 0.0};
   RawObject bridge, fusion;  ///< further keys, as in the files of these services
+  /// It is a topic of ROS 2: keys of an input of the gateway, which then is its bridge.
+  std::optional<RawObject> ros2;
+
+  /// The service that brings its samples.
+  [[nodiscard]] std::string_view role() const { return ros2 ? "ros2_gateway" : role_of(kind); }
 };
 
 /// What the vehicle is watched for.

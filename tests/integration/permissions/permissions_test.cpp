@@ -44,7 +44,9 @@ Uses table() {
   for (const security::Role& role : security::roles()) {
     const std::string name(role.name);
     // Not part of a demonstration; a person's own tools read what they are asked to.
-    if (name == "cli" || name == "guidance" || name == "discovery") continue;
+    static const std::set<std::string> kElsewhere{"cli",      "guidance",        "discovery", "ros2_gateway",
+                                                  "nmea_out", "mavlink_gateway", "foxglove"};
+    if (kElsewhere.contains(name)) continue;
     if (name == "console" && !std::filesystem::exists(FATHOM_BINARY_DIR "/bin/fathom-console")) continue;
     const auto add = [&](bool writes, std::span<const std::string_view> topics) {
       for (const auto topic : topics) {

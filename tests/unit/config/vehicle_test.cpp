@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "config/bridge/bridge_config.hpp"
+#include "config/doors/ros2_gateway_config.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/monitor_config.hpp"
 #include "config/service_config.hpp"
@@ -125,6 +126,32 @@ TEST_F(Vehicle, MonitorExpectsWhatIsThere) {
                                                         "depth_bridge", "recorder"));
   EXPECT_EQ(monitor.health.sensors.size(), 4U);
   EXPECT_TRUE(monitor.health.gps.expected);
+}
+
+TEST_F(Vehicle, AnInstrumentMayBeATopicOfRos2) {
+  instrument("imu").erase("port");
+  instrument("imu")["axes"] = "flu";
+  instrument("imu")["ros2"] = {{"topic", "/imu/data"}, {"frame_id", "imu_link"}};
+  instrument("depth").erase("port");
+  instrument("depth")["ros2"] = {{"topic", "/pressure"}, {"frame_id", ""}, {"atmosphere_Pa", 0.0}};
+  const auto gateway = load<Ros2GatewayConfig>("ros2_gateway");
+  ASSERT_EQ(gateway.inputs.size(), 2U);
+  EXPECT_EQ(gateway.inputs[0].kind, RosInputKind::imu);
+  EXPECT_EQ(gateway.inputs[0].sensor, Name("imu"));
+  EXPECT_EQ(gateway.inputs[0].rate_hz, 100.0);
+  EXPECT_EQ(gateway.inputs[0].axes, RosAxes::flu);
+  EXPECT_EQ(gateway.inputs[1].kind, RosInputKind::fluid_pressure);
+  EXPECT_NEAR(gateway.inputs[1].latitude_rad, 36.4 * std::numbers::pi / 180.0, 1e-12);
+  EXPECT_EQ(gateway.inputs[1].atmosphere_Pa, 0.0);
+  std::vector<std::string> services;
+  for (const auto& one : load<MonitorConfig>("monitor").health.services) services.push_back(one.name.str());
+  EXPECT_THAT(services, ::testing::UnorderedElementsAre("fusion", "ros2_gateway", "gps_bridge", "dvl_bridge",
+                                                        "heading_bridge", "recorder"));
+  EXPECT_EQ(load<FusionConfig>("fusion").engine.sensors.size(), 4U)
+      << "fusion does not care where it comes from";
+  EXPECT_EQ(complaint(), "");
+  instrument("imu")["port"] = {{"type", "serial"}, {"path", "/dev/ttyUSB0"}};
+  EXPECT_THAT(complaint(), HasSubstr("instruments.0.ros2"));
 }
 
 TEST_F(Vehicle, WhatNeedNotSpeakIsNotMissed) {

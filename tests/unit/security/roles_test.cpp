@@ -46,10 +46,10 @@ TEST(Roles, HaveNamesOfTheirOwn) {
 
 TEST(Roles, EveryTopicWithOneKindOfWriterHasOnlyThat) {
   const std::pair<std::string_view, std::set<std::string_view>> expected[] = {
-      {"fathom/v1/imu", {"imu_bridge"}},
-      {"fathom/v1/dvl", {"dvl_bridge"}},
-      {"fathom/v1/gps", {"gps_bridge"}},
-      {"fathom/v1/depth", {"depth_bridge"}},
+      {"fathom/v1/imu", {"imu_bridge", "ros2_gateway"}},
+      {"fathom/v1/dvl", {"dvl_bridge", "ros2_gateway"}},
+      {"fathom/v1/gps", {"gps_bridge", "ros2_gateway"}},
+      {"fathom/v1/depth", {"depth_bridge", "ros2_gateway"}},
       {"fathom/v1/heading", {"heading_bridge"}},
       {"fathom/v1/usbl", {"usbl_bridge"}},
       {"fathom/v1/propulsion", {"actuator_bridge"}},

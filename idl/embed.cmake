@@ -1,6 +1,8 @@
-# Writes the IDL files into a source file: cmake -DOUT=file "-DFILES=a.idl,b.idl" -P embed_idl.cmake
+# Writes IDL files into a source file, for a room that declares a struct of two texts and a function that returns a
+# span of them: cmake -DOUT=file "-DFILES=a.idl,b.idl" -DHEADER=room/header.hpp -DNAMESPACE=fathom::room -DTYPE=IdlFile
+# -DFUNCTION=idl_files -P embed.cmake
 string(REPLACE "," ";" files "${FILES}")
-set(code "// Written by common/record/embed_idl.cmake.\n#include \"record/idl.hpp\"\n\n#include <array>\n\nnamespace fathom::record {\nnamespace {\n\n")
+set(code "// Written by idl/embed.cmake.\n#include \"${HEADER}\"\n\n#include <array>\n\nnamespace ${NAMESPACE} {\nnamespace {\n\n")
 set(table "")
 set(count 0)
 foreach(file ${files})
@@ -14,5 +16,5 @@ foreach(file ${files})
   string(APPEND table "    {\"${name}\", {kBytes${count}, ${size}}},\n")
   math(EXPR count "${count} + 1")
 endforeach()
-string(APPEND code "\n}  // namespace\n\nstd::span<const IdlFile> idl_files() {\n  static const std::array<IdlFile, ${count}> kFiles{{\n${table}  }};\n  return kFiles;\n}\n\n}  // namespace fathom::record\n")
+string(APPEND code "\n}  // namespace\n\nstd::span<const ${TYPE}> ${FUNCTION}() {\n  static const std::array<${TYPE}, ${count}> kFiles{{\n${table}  }};\n  return kFiles;\n}\n\n}  // namespace ${NAMESPACE}\n")
 file(WRITE ${OUT} "${code}")
