@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "commission/asked.hpp"
 #include "commission/depth_check.hpp"
 #include "commission/dvl_check.hpp"
-#include "commission/fit/gps_fit.hpp"
+#include "commission/fit/joint_fit.hpp"
 #include "commission/gps_check.hpp"
 #include "commission/heading_check.hpp"
 #include "commission/imu_axes.hpp"
@@ -21,6 +22,10 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kWindow_s = 12.0;
+// Of the rate that an inertial unit reads at rest, as a bias: the Earth turns, and it wanders.
+constexpr double kRest_s = 20.0;
+constexpr double kBiasAtRest_rad_s = 3e-4;
+constexpr double kBias_rad_s = 0.01;
 constexpr std::size_t kLeastSamples = 100;
 constexpr std::size_t kFew = 16;    // windows that hypotheses are compared on
 constexpr std::size_t kMany = 250;  // and that figures come from
@@ -44,34 +49,39 @@ void report_gps(const GpsFit& fit, const Assumed& assumed, Commissioning& out) {
                             "stops would tell."});
     return;
   }
-  const bool late_known = fit.latency_sigma_s < 0.1;
+  const bool told = fit.latency_sigma_s < 0.1;
   const bool late =
-      late_known && std::abs(fit.latency_s) > 0.3 && std::abs(fit.latency_s) > 5.0 * fit.latency_sigma_s;
-  const bool differs = late_known && assumed.gps.configured && std::abs(fit.latency_s) > 0.05 &&
-                       std::abs(fit.latency_s) > 4.0 * fit.latency_sigma_s;
+      told && std::abs(fit.latency_s) > 0.3 && std::abs(fit.latency_s) > 5.0 * fit.latency_sigma_s;
+  const bool note =
+      told && assumed.gps.configured && differs(fit.latency_s, fit.latency_sigma_s, kNoticedLatency_s);
+  const bool late_known = known_to(kAskedLatency_s, fit.latency_sigma_s);
+  const std::string late_by = "GPS is stamped " + with_sigma(fit.latency_s, fit.latency_sigma_s) +
+                              " s later than the motion beyond the configured latency.";
+  const char* const quicker = " Quicker turns, starts and stops at the surface would tell.";
   add("latency", FindingKind::latency, late_known,
-      late      ? Severity::wrong
-      : differs ? Severity::note
-                : Severity::ok,
-      late_known ? "GPS is stamped " + with_sigma(fit.latency_s, fit.latency_sigma_s) +
-                       " s later than the motion beyond the configured latency."
-                 : "The time offset of GPS cannot be told: quicker turns, starts and stops would tell.",
+      late   ? Severity::wrong
+      : note ? Severity::note
+             : Severity::ok,
+      late_known ? late_by
+      : told     ? late_by + " That is not known to five milliseconds." + quicker
+                 : std::string("The time offset of GPS cannot be told.") + quicker,
       assumed.gps.latency_s + fit.latency_s, "s", fit.latency_sigma_s);
-  if (late || differs) out.patch.gps_latency_s = assumed.gps.latency_s + fit.latency_s;
+  if (late || note) out.patch.gps_latency_s = assumed.gps.latency_s + fit.latency_s;
   for (int axis = 0; axis < 3; ++axis) {
     const double s = fit.lever_sigma_m[axis];
-    const bool is_known = s < 0.3;
     const double off = fit.lever_B_m[axis] - assumed.gps.lever_B_m[axis];
-    const bool note = is_known && assumed.gps.configured && std::abs(off) > 4.0 * s && std::abs(off) > 0.5;
-    add(std::string("lever_") + kAxes[static_cast<std::size_t>(axis)], FindingKind::lever, is_known,
-        note ? Severity::note : Severity::ok,
-        is_known ? std::string("The antenna lies ") + with_sigma(fit.lever_B_m[axis], s) + " m along " +
-                       kAxes[static_cast<std::size_t>(axis)] + " from the inertial unit."
-                 : std::string("The lever of the antenna along ") + kAxes[static_cast<std::size_t>(axis)] +
-                       " cannot be told: " +
-                       (axis == 2 ? "rolling and pitching would tell." : "quicker turns would tell."),
+    const bool moved = s < 0.3 && assumed.gps.configured && differs(off, s, kNoticedLever_m);
+    const std::string name = kAxes[static_cast<std::size_t>(axis)];
+    const std::string lies = "The antenna lies " + with_sigma(fit.lever_B_m[axis], s) + " m along " + name +
+                             " from the inertial unit.";
+    const std::string would = axis == 2 ? " Rolling and pitching would tell." : " Quicker turns would tell.";
+    const bool is_known = known_to(kAskedLever_m, s);
+    add("lever_" + name, FindingKind::lever, is_known, moved ? Severity::note : Severity::ok,
+        is_known  ? lies
+        : s < 0.3 ? lies + " That is not known to five centimetres." + would
+                  : "The lever of the antenna along " + name + " cannot be told." + would,
         fit.lever_B_m[axis], "m", s);
-    if (!note) continue;
+    if (!moved) continue;
     if (!out.patch.gps_lever_B_m) out.patch.gps_lever_B_m = assumed.gps.lever_B_m;
     (*out.patch.gps_lever_B_m)[axis] = fit.lever_B_m[axis];
   }
@@ -108,7 +118,7 @@ void report_datum(const Series& series, Findings& out) {
 
 bool Patch::empty() const {
   return !imu_rate_hz && !C_BI && !C_BD && !gps_lever_B_m && !dvl_lever_B_m && !gps_latency_s &&
-         !dvl_latency_s && !depth_latency_s && !heading_latency_s && !angle_random_walk &&
+         !dvl_latency_s && !depth_latency_s && !heading_latency_s && !heading_yaw_rad && !angle_random_walk &&
          !velocity_random_walk;
 }
 
@@ -156,22 +166,35 @@ Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
     if (turned) out.patch.C_BI = axes.reading.rate * assumed.C_BI;
   }
 
+  GpsFit gps_fit;
   if (gps.usable) {
     const std::vector<Span> windows = windows_of(series, gps.velocity_N, kWindow_s, 6, kMany);
-    GpsFit fit;
     if (windows.size() >= 3)
-      fit = fit_gps(series, gps.velocity_N, windows, axes.reading, evidence.gps_latency_s,
-                    assumed.gps.lever_B_m);
-    report_gps(fit, assumed, out);
+      gps_fit = fit_gps(series, gps.velocity_N, windows, axes.reading, evidence.gps_latency_s,
+                        assumed.gps.lever_B_m);
   }
-  DvlCheck dvl = check_dvl(series, assumed, axes.reading, evidence.dvl_latency_s, out.patch);
+  DvlFound dvl_found;
+  if (series.dvl.size() >= 10) dvl_found = find_dvl(series, assumed, axes.reading, evidence.dvl_latency_s);
+  JointFit joint;
+  if (gps_fit.done && gps_fit.attitude && known(series.latitude_rad)) {
+    joint = fit_joint(series, gps.velocity_N,
+                      {axes.reading, gps_fit, noise.angle_random_walk, noise.velocity_random_walk,
+                       out.rest_s > kRest_s ? kBiasAtRest_rad_s : kBias_rad_s, gps.sigma_m_s,
+                       dvl_found.fit.done, dvl_found.fit});
+    if (joint.done) gps_fit = joint.gps;
+    if (joint.done && joint.dvl.done) dvl_found.fit = joint.dvl;
+  }
+  if (gps.usable) report_gps(gps_fit, assumed, out);
+  DvlCheck dvl = check_dvl(series, assumed, axes.reading, dvl_found, out.patch);
   append(out.findings, dvl.findings);
-  append(out.findings, check_heading(series, assumed, axes.reading, gps, dvl.velocity_B));
-  append(out.findings, check_depth(series, assumed, axes.reading, dvl.velocity_B));
+  append(out.findings, check_heading(series, assumed, axes.reading, gps, dvl.velocity_B, joint));
+  append(out.findings, check_depth(series, assumed, axes.reading, dvl.velocity_B, joint));
   for (const Finding& finding : out.findings) {
-    if (finding.what != "latency" || finding.severity != Severity::wrong) continue;
-    if (finding.sensor == "heading") out.patch.heading_latency_s = finding.value;
-    if (finding.sensor == "depth") out.patch.depth_latency_s = finding.value;
+    if (finding.severity == Severity::ok) continue;
+    if (finding.sensor == "heading" && finding.what == "latency") out.patch.heading_latency_s = finding.value;
+    if (finding.sensor == "heading" && finding.what == "offset" && !series.heading_magnetic)
+      out.patch.heading_yaw_rad = finding.value * kDegree;
+    if (finding.sensor == "depth" && finding.what == "latency") out.patch.depth_latency_s = finding.value;
   }
   report_datum(series, out.findings);
   return out;

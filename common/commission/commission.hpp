@@ -23,6 +23,7 @@ struct Patch {
   std::optional<Eigen::Matrix3d> C_BD;  ///< DVL's axes into body
   std::optional<Eigen::Vector3d> gps_lever_B_m, dvl_lever_B_m;
   std::optional<double> gps_latency_s, dvl_latency_s, depth_latency_s, heading_latency_s;
+  std::optional<double> heading_yaw_rad;       ///< of its north in the body
   std::optional<double> angle_random_walk;     ///< rad/sqrt(s)
   std::optional<double> velocity_random_walk;  ///< (m/s)/sqrt(s)
   [[nodiscard]] bool empty() const;

@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 
+#include "commission/asked.hpp"
 #include "commission/fit/latency.hpp"
+#include "commission/fit/track_fit.hpp"
 #include "commission/heading_check.hpp"
 #include "commission/text.hpp"
 
@@ -49,10 +51,31 @@ Slope compare(const ScalarSeries& depth, const ScalarSeries& sunk, double latenc
   return out;
 }
 
+template <class Add>
+void report_latency(const LatencyFit& fit, const Assumed& assumed, const Add& add) {
+  const double offset = fit.latency_s;
+  const double sigma = fit.sigma_s;
+  const bool told = sigma < 0.15;
+  const bool wrong = told && std::abs(offset) > 5.0 * sigma && std::abs(offset) > 0.5;
+  const bool note = told && assumed.depth.configured && differs(offset, sigma, kNoticedLatency_s);
+  const bool is_known = known_to(kAskedLatency_s, sigma);
+  const std::string stamped = "The depth is stamped " + with_sigma(offset, sigma) +
+                              " s later than the motion beyond the configured latency.";
+  const char* const steeper = " Steeper dives would tell.";
+  add("latency", FindingKind::latency, is_known,
+      wrong  ? Severity::wrong
+      : note ? Severity::note
+             : Severity::ok,
+      is_known ? stamped
+      : told   ? stamped + " That is not known to five milliseconds." + steeper
+               : std::string("The time offset of the depth cannot be told.") + steeper,
+      assumed.depth.latency_s + offset, "s", sigma);
+}
+
 }  // namespace
 
 Findings check_depth(const Series& series, const Assumed& assumed, const ImuReading& reading,
-                     const VectorSeries& dvl_B) {
+                     const VectorSeries& dvl_B, const JointFit& joint) {
   Findings out;
   const auto add = [&](const char* what, FindingKind kind, bool is_known, Severity severity, std::string text,
                        double value = kUnknown, const char* unit = "", double sigma = kUnknown) {
@@ -115,20 +138,25 @@ Findings check_depth(const Series& series, const Assumed& assumed, const ImuRead
         fits ? "The depth is in metres. " + grows + "."
              : "The depth has a scale that belongs to no unit. " + grows + ".",
         best.value, "", best.sigma);
-  const double h = 0.1;
-  const double left = compare(series.depth, sunk, latency - h).squares;
-  const double right = compare(series.depth, sunk, latency + h).squares;
-  if (const auto fit = parabola(latency, h, left, best.squares, right, static_cast<double>(best.count))) {
-    const double offset = fit->latency_s;
-    const double sigma = fit->sigma_s;
-    const bool is_known = sigma < 0.15;
-    const bool wrong = is_known && std::abs(offset) > 5.0 * sigma && std::abs(offset) > 0.5;
-    add("latency", FindingKind::latency, is_known, wrong ? Severity::wrong : Severity::ok,
-        is_known ? "The depth is stamped " + with_sigma(offset, sigma) +
-                       " s later than the motion beyond the configured latency."
-                 : "The time offset of the depth cannot be told: steeper dives would tell.",
-        assumed.depth.latency_s + offset, "s", sigma);
+  std::optional<LatencyFit> late;
+  if (joint.done) {
+    const Vector3d& l = assumed.depth.lever_B_m;
+    ScalarSeries way = joint.sunk_m;
+    for (std::size_t i = 0; i < way.size(); ++i) {
+      const Vector3d& rpy = joint.rpy_rad.v[i];
+      way.v[i] += std::cos(rpy.y()) * (std::sin(rpy.x()) * l.y() + std::cos(rpy.x()) * l.z()) -
+                  std::sin(rpy.y()) * l.x();
+    }
+    if (const auto fit = fit_depth(series.depth, way, best.value, latency))
+      late = LatencyFit{fit->latency_s.value, fit->latency_s.sigma};
   }
+  if (!late) {
+    const double h = 0.1;
+    const double left = compare(series.depth, sunk, latency - h).squares;
+    const double right = compare(series.depth, sunk, latency + h).squares;
+    late = parabola(latency, h, left, best.squares, right, static_cast<double>(best.count));
+  }
+  if (late) report_latency(*late, assumed, add);
   return out;
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "commission/asked.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "commission/text.hpp"
 #include "geo/so3.hpp"
@@ -50,8 +51,27 @@ struct Unit {
 
 }  // namespace
 
-DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading, double latency_s,
-                   Patch& patch) {
+DvlFound find_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading, double latency_s) {
+  DvlFound out;
+  const std::vector<Span> windows = windows_of(series, series.dvl, kFirst_s, 6, kMost);
+  const DvlFit linear = windows.size() >= 3 ? fit_dvl_linear(series, windows, reading, latency_s) : DvlFit{};
+  if (!linear.done) return out;
+  DvlFigures fit =
+      fit_dvl(series, windows, reading, fit_similarity(linear, false), assumed.dvl.lever_B_m, latency_s);
+  DvlFigures other =
+      fit_dvl(series, windows, reading, fit_similarity(linear, true), assumed.dvl.lever_B_m, latency_s);
+  double against = 0.0;  // log likelihood ratio of the two
+  if (fit.done && other.done)
+    against = kPerWindow * static_cast<double>(fit.windows) * std::log(other.residual_m_s / fit.residual_m_s);
+  out.mirrored = other.done && (!fit.done || against < -kClaim);
+  out.mirror_told = std::abs(against) > kClaim;
+  out.fit = out.mirrored ? other : fit;
+  if (out.fit.done) out.fit = fit_best(series, assumed, reading, out.fit);
+  return out;
+}
+
+DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading,
+                   const DvlFound& by_log, Patch& patch) {
   DvlCheck out;
   const auto add = [&](std::string what, FindingKind kind, bool is_known, Severity severity, std::string text,
                        double value = kUnknown, const char* unit = "", double sigma = kUnknown) {
@@ -59,24 +79,8 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
         {"dvl", std::move(what), kind, value, unit, sigma, is_known, severity, std::move(text)});
   };
   if (series.dvl.size() < 10) return out;
-  const std::vector<Span> windows = windows_of(series, series.dvl, kFirst_s, 6, kMost);
-  const DvlFit linear = windows.size() >= 3 ? fit_dvl_linear(series, windows, reading, latency_s) : DvlFit{};
-  const Similarity plain = linear.done ? fit_similarity(linear, false) : Similarity{};
-  const Similarity reflected = linear.done ? fit_similarity(linear, true) : Similarity{};
-  DvlFigures fit;
-  DvlFigures other;
-  double against = 0.0;  // log likelihood ratio of the two
-  if (linear.done) {
-    fit = fit_dvl(series, windows, reading, plain, assumed.dvl.lever_B_m, latency_s);
-    other = fit_dvl(series, windows, reading, reflected, assumed.dvl.lever_B_m, latency_s);
-    if (fit.done && other.done) {
-      against =
-          kPerWindow * static_cast<double>(fit.windows) * std::log(other.residual_m_s / fit.residual_m_s);
-    }
-  }
-  const bool mirrored = other.done && (!fit.done || against < -kClaim);
-  if (mirrored) std::swap(fit, other);
-  if (fit.done) fit = fit_best(series, assumed, reading, fit);
+  const DvlFigures& fit = by_log.fit;
+  const bool mirrored = by_log.mirrored;
   if (!fit.done) {
     add("mounting", FindingKind::missing, false, Severity::ok,
         "How the DVL is mounted cannot be told: there is no minute under way with the DVL on the bottom. "
@@ -84,7 +88,7 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
         "would tell.");
     return out;
   }
-  const bool mirror_told = std::abs(against) > kClaim;
+  const bool mirror_told = by_log.mirror_told;
   const Similarity& found = fit.similarity;
   Matrix3d D = Matrix3d::Identity();
   if (mirrored) D(1, 1) = -1.0;
@@ -135,61 +139,66 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
       rpy_sigma[i] = std::hypot(rpy_sigma[i], slope * sigma[axis]);
     }
   }
-  bool all_known = true;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const bool is_known = sigma[axis] < 2.0;
-    all_known = all_known && is_known;
-    const bool wrong = is_known && std::abs(off[axis]) > 5.0 * sigma[axis] && std::abs(off[axis]) > 5.0;
-    const bool differs = is_known && assumed.dvl.configured && std::abs(off[axis]) > 4.0 * sigma[axis] &&
-                         std::abs(off[axis]) > 1.0;
-    add(std::string("mounting_") + kAngles[i], FindingKind::mounting, is_known,
-        wrong     ? Severity::wrong
-        : differs ? Severity::note
-                  : Severity::ok,
-        is_known ? (wrong ? "The DVL is turned by " + with_sigma(off[axis], sigma[axis]) +
-                                " degrees about its " + kAxes[i] + " axis against what is configured. Its " +
-                                kAngles[i] + " in the body is " + number(rpy[axis], 1) + " degrees."
-                          : std::string("DVL mounting ") + kAngles[i] + " " +
-                                with_sigma(rpy[axis], rpy_sigma[axis]) + " degrees.")
-                 : std::string("DVL mounting ") + kAngles[i] + " cannot be told to two degrees: " +
-                       (axis == 0 ? "the vehicle slipped too little sideways; tight turns would tell."
-                                  : "starts, stops and turns under way would tell."),
+    const bool told = sigma[axis] < 2.0;
+    const bool is_known = known_to(kAskedTurn_deg, sigma[axis]);
+    const bool wrong = told && std::abs(off[axis]) > 5.0 * sigma[axis] && std::abs(off[axis]) > 5.0;
+    const bool note = told && assumed.dvl.configured && differs(off[axis], sigma[axis], kNoticedTurn_deg);
+    const std::string turned = "The DVL is turned by " + with_sigma(off[axis], sigma[axis]) +
+                               " degrees about its " + kAxes[i] + " axis against what is configured.";
+    const std::string would = axis == 0 ? " The vehicle slipped too little sideways: tight turns would tell."
+                                        : " Starts, stops and turns under way would tell.";
+    const Severity severity = wrong ? Severity::wrong : note ? Severity::note : Severity::ok;
+    add(std::string("mounting_") + kAngles[i], FindingKind::mounting, is_known, severity,
+        !told
+            ? std::string("DVL mounting ") + kAngles[i] + " cannot be told to two degrees." + would
+            : (wrong ? turned + " Its " + kAngles[i] + " in the body is " + number(rpy[axis], 1) + " degrees."
+                     : std::string("DVL mounting ") + kAngles[i] + " " +
+                           with_sigma(rpy[axis], rpy_sigma[axis]) + " degrees.") +
+                  (is_known ? "" : " That is not known to 0.2 degrees." + would),
         rpy[axis], "deg", rpy_sigma[axis]);
-    if (wrong || differs) patch.C_BD = found.C;
+    add(std::string("turn_") + kAxes[i], FindingKind::mounting, is_known, Severity::ok, turned, off[axis],
+        "deg", sigma[axis]);
+    if (wrong || note) patch.C_BD = found.C;
   }
-  if (mirrored || !all_known) {
-    // A mirror is no mounting, and a turn that is half unknown is none to write down.
-    if (mirrored) patch.C_BD.reset();
-  }
+  if (mirrored) patch.C_BD.reset();  // a mirror is no mounting
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     const double s = fit.lever_sigma_m[axis];
-    const bool is_known = s < 0.2;
-    const double differs = fit.lever_B_m[axis] - assumed.dvl.lever_B_m[axis];
-    add(std::string("lever_") + kAxes[i], FindingKind::lever, is_known,
-        is_known && assumed.dvl.configured && std::abs(differs) > 4.0 * s && std::abs(differs) > 0.3
-            ? Severity::note
-            : Severity::ok,
-        is_known ? std::string("The DVL lies ") + with_sigma(fit.lever_B_m[axis], s) + " m along " +
-                       kAxes[i] + " from the inertial unit."
-                 : std::string("The lever of the DVL along ") + kAxes[i] + " cannot be told: " +
-                       (axis == 2 ? "rolling and pitching would tell." : "quicker turns would tell."),
+    const double off_m = fit.lever_B_m[axis] - assumed.dvl.lever_B_m[axis];
+    const bool is_known = known_to(kAskedLever_m, s);
+    const bool moved = s < 0.2 && assumed.dvl.configured && differs(off_m, s, kNoticedLever_m);
+    const std::string lies = std::string("The DVL lies ") + with_sigma(fit.lever_B_m[axis], s) + " m along " +
+                             kAxes[i] + " from the inertial unit.";
+    const std::string would = axis == 2 ? " Rolling and pitching would tell." : " Quicker turns would tell.";
+    add(std::string("lever_") + kAxes[i], FindingKind::lever, is_known, moved ? Severity::note : Severity::ok,
+        is_known  ? lies
+        : s < 0.2 ? lies + " That is not known to five centimetres." + would
+                  : std::string("The lever of the DVL along ") + kAxes[i] + " cannot be told." + would,
         fit.lever_B_m[axis], "m", s);
-    if (is_known && assumed.dvl.configured && std::abs(differs) > 4.0 * s && std::abs(differs) > 0.3) {
-      if (!patch.dvl_lever_B_m) patch.dvl_lever_B_m = assumed.dvl.lever_B_m;
-      (*patch.dvl_lever_B_m)[axis] = fit.lever_B_m[axis];
-    }
+    if (!moved) continue;
+    if (!patch.dvl_lever_B_m) patch.dvl_lever_B_m = assumed.dvl.lever_B_m;
+    (*patch.dvl_lever_B_m)[axis] = fit.lever_B_m[axis];
   }
-  const bool late_known = fit.latency_sigma_s < 0.1;
+  const bool told = fit.latency_sigma_s < 0.1;
   const bool late =
-      late_known && std::abs(fit.latency_s) > 0.2 && std::abs(fit.latency_s) > 5.0 * fit.latency_sigma_s;
-  add("latency", FindingKind::latency, late_known, late ? Severity::wrong : Severity::ok,
-      late_known ? "The DVL is stamped " + with_sigma(fit.latency_s, fit.latency_sigma_s) + " s " +
-                       (late ? "late" : "later than the motion") + " beyond the configured latency."
-                 : "The time offset of the DVL cannot be told: starts, stops and turns under way would tell.",
+      told && std::abs(fit.latency_s) > 0.2 && std::abs(fit.latency_s) > 5.0 * fit.latency_sigma_s;
+  const bool note =
+      told && assumed.dvl.configured && differs(fit.latency_s, fit.latency_sigma_s, kNoticedLatency_s);
+  const bool late_known = known_to(kAskedLatency_s, fit.latency_sigma_s);
+  const std::string stamped = "The DVL is stamped " + with_sigma(fit.latency_s, fit.latency_sigma_s) + " s " +
+                              (late ? "late" : "later than the motion") + " beyond the configured latency.";
+  const char* const quicker = " Starts, stops and turns under way would tell.";
+  add("latency", FindingKind::latency, late_known,
+      late   ? Severity::wrong
+      : note ? Severity::note
+             : Severity::ok,
+      late_known ? stamped
+      : told     ? stamped + " That is not known to five milliseconds." + quicker
+                 : std::string("The time offset of the DVL cannot be told.") + quicker,
       assumed.dvl.latency_s + fit.latency_s, "s", fit.latency_sigma_s);
-  if (late) patch.dvl_latency_s = assumed.dvl.latency_s + fit.latency_s;
+  if (late || note) patch.dvl_latency_s = assumed.dvl.latency_s + fit.latency_s;
   const Matrix3d M = found.scale * axes;
   // A lever that the log does not tell is as configured.
   Vector3d lever = assumed.dvl.lever_B_m;

@@ -9,8 +9,11 @@
 #include <Eigen/Cholesky>
 
 #include "base/median.hpp"
+#include "commission/asked.hpp"
 #include "commission/fit/latency.hpp"
+#include "commission/fit/track_fit.hpp"
 #include "commission/text.hpp"
+#include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 
 namespace fathom::commission {
@@ -21,6 +24,7 @@ using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kStep_s = 2.0;  // of one comparison of turns
 constexpr double kGap_s = 3.0;
+constexpr double kNoticedHeading_rad = 0.5 * kDegree;
 constexpr double kHalf_s = 5.0;  // over which accelerations even out
 
 // Turn about the vertical by the gyro, from the start on.
@@ -89,6 +93,27 @@ Turns compare(const ScalarSeries& heading, const ScalarSeries& gyro, double late
   return out;
 }
 
+template <class Add>
+void report_latency(const LatencyFit& fit, const Assumed& assumed, const Add& add) {
+  const double offset = fit.latency_s;
+  const double sigma = fit.sigma_s;
+  const bool told = sigma < 0.1;
+  const bool wrong = told && std::abs(offset) > 5.0 * sigma && std::abs(offset) > 0.3;
+  const bool note = told && assumed.heading.configured && differs(offset, sigma, kNoticedLatency_s);
+  const bool is_known = known_to(kAskedLatency_s, sigma);
+  const std::string stamped = "The compass is stamped " + with_sigma(offset, sigma) +
+                              " s later than the gyro beyond the configured latency.";
+  const char* const quicker = " Quicker turns to both sides would tell.";
+  add("latency", FindingKind::latency, is_known,
+      wrong  ? Severity::wrong
+      : note ? Severity::note
+             : Severity::ok,
+      is_known ? stamped
+      : told   ? stamped + " That is not known to five milliseconds." + quicker
+               : std::string("The time offset of the compass cannot be told.") + quicker,
+      assumed.heading.latency_s + offset, "s", sigma);
+}
+
 }  // namespace
 
 VectorSeries down_of(const Series& series, const ImuReading& reading, double half_s) {
@@ -126,7 +151,7 @@ double heading_squares(const Series& series, const ImuReading& reading) {
 }
 
 Findings check_heading(const Series& series, const Assumed& assumed, const ImuReading& reading,
-                       const GpsCheck& gps, const VectorSeries& dvl_B) {
+                       const GpsCheck& gps, const VectorSeries& dvl_B, const JointFit& joint) {
   Findings out;
   const auto add = [&](const char* what, FindingKind kind, bool is_known, Severity severity, std::string text,
                        double value = kUnknown, const char* unit = "", double sigma = kUnknown) {
@@ -150,22 +175,20 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
       reversed ? "The compass counts the other way round: it decreases where the vehicle turns right."
                : "The compass turns with the gyro: " + with_sigma(best.slope, best.sigma) + " of it.",
       best.slope, "", best.sigma);
-  // The parabola through three latencies.
-  const double h = 0.05;
-  const double left = compare(series.heading, gyro, latency - h).squares;
-  const double right = compare(series.heading, gyro, latency + h).squares;
-  if (const auto fit = parabola(latency, h, left, best.squares, right, static_cast<double>(best.count))) {
-    const double offset = fit->latency_s;
-    const double sigma = fit->sigma_s;
-    const bool is_known = sigma < 0.1;
-    const bool wrong = is_known && std::abs(offset) > 5.0 * sigma && std::abs(offset) > 0.3;
-    add("latency", FindingKind::latency, is_known, wrong ? Severity::wrong : Severity::ok,
-        is_known ? "The compass is stamped " + with_sigma(offset, sigma) +
-                       " s later than the gyro beyond the configured latency."
-                 : "The time offset of the compass cannot be told: quicker turns to both sides would tell.",
-        assumed.heading.latency_s + offset, "s", sigma);
+  std::optional<CompassFit> by_attitude;
+  if (joint.done && !reversed) by_attitude = fit_compass(series.heading, joint.rpy_rad, latency);
+  std::optional<LatencyFit> late;
+  if (by_attitude) {
+    late = LatencyFit{by_attitude->latency_s.value, by_attitude->latency_s.sigma};
+  } else {  // the parabola through three latencies
+    const double h = 0.05;
+    const double left = compare(series.heading, gyro, latency - h).squares;
+    const double right = compare(series.heading, gyro, latency + h).squares;
+    late = parabola(latency, h, left, best.squares, right, static_cast<double>(best.count));
   }
+  if (late) report_latency(*late, assumed, add);
   if (reversed) return out;
+  const double configured_rad = geo::to_rpy(geo::from_matrix(assumed.heading.C_BD)).z();
   // Against the course: over ground by GPS, in the body by DVL, or straight ahead where there is none.
   std::vector<double> difference;
   std::vector<double> psi;
@@ -182,27 +205,35 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
     difference.push_back(geo::wrap_pi(*heading + ahead - std::atan2(v.y(), v.x())));
     weight.push_back(1.0);
   }
-  if (difference.size() < 20) {
+  if (difference.size() < 20 && !by_attitude) {
     add("offset", FindingKind::datum, false, Severity::ok,
         "Whether the compass reads true or magnetic heading cannot be told: there is no run with GPS "
         "velocity. A straight run of a minute "
         "at the surface, out and back, would tell.");
     return out;
   }
-  const double middle = median(difference);
+  const double by_course = difference.empty() ? 0.0 : median(difference);
   std::vector<double> apart;
   for (double& d : difference) {
-    d = geo::wrap_pi(d - middle);
+    d = geo::wrap_pi(d - by_course);
     apart.push_back(std::abs(d));
   }
-  const double scatter = std::max(1e-4, median(apart) / 0.6745);
+  const double scatter = apart.empty() ? 1e-4 : std::max(1e-4, median(apart) / 0.6745);
   // Fixes of ten seconds count as one: what sways the vehicle lasts.
   const double duration = gps.velocity_N.t_s.back() - gps.velocity_N.t_s.front();
   const double independent =
       std::max(3.0, std::min(static_cast<double>(difference.size()) / 5.0, duration / 5.0));
-  const double sigma = std::max(scatter / std::sqrt(independent), dvl_B.size() > 0 ? 0.0 : 2.0 * kDegree);
+  double middle = by_course;
+  double sigma = std::max(scatter / std::sqrt(independent), dvl_B.size() > 0 ? 0.0 : 2.0 * kDegree);
+  if (by_attitude) {
+    middle = by_attitude->deviation_rad[0].value;
+    sigma = std::hypot(by_attitude->deviation_rad[0].sigma, joint.yaw_sigma_rad);
+  }
+  const double excess = geo::wrap_pi(middle - configured_rad);
   const bool wrong =
-      std::abs(middle) > 4.0 * sigma && std::abs(middle) > 4.0 * kDegree && !series.heading_magnetic;
+      std::abs(excess) > 4.0 * sigma && std::abs(excess) > 4.0 * kDegree && !series.heading_magnetic;
+  const bool note =
+      assumed.heading.configured && !series.heading_magnetic && differs(excess, sigma, kNoticedHeading_rad);
   const double variation =
       known(assumed.variation_rad) ? assumed.variation_rad : series.heading_variation_rad;
   std::string text = "The compass reads " + with_sigma(middle / kDegree, sigma / kDegree) +
@@ -215,11 +246,14 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
                       number(-middle / kDegree, 1) +
                       " degrees (east positive), else it is mounted turned by so much.";
   }
-  add("offset", FindingKind::datum, true, wrong ? Severity::wrong : Severity::ok, text, middle / kDegree,
-      "deg", sigma / kDegree);
+  add("offset", FindingKind::datum, true,
+      wrong  ? Severity::wrong
+      : note ? Severity::note
+             : Severity::ok,
+      text, middle / kDegree, "deg", sigma / kDegree);
   // Deviation A + B sin + C cos + D sin 2 + E cos 2, where all headings were steered.
   std::array<int, 8> sectors{};
-  for (const double p : psi)
+  for (const double p : by_attitude ? series.heading.v : psi)
     ++sectors[static_cast<std::size_t>(geo::wrap_two_pi(p) / (2.0 * std::numbers::pi) * 7.9999)];
   const bool all_round = std::all_of(sectors.begin(), sectors.end(), [](int n) { return n >= 5; });
   if (!all_round) {
@@ -236,17 +270,23 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
     Eigen::Matrix<double, 5, 1> a;
     a << 1.0, std::sin(psi[i]), std::cos(psi[i]), std::sin(2.0 * psi[i]), std::cos(2.0 * psi[i]);
     N += a * a.transpose();
-    b += a * (difference[i] + middle);
+    b += a * (difference[i] + by_course);
     used += 1.0;
   }
   const Eigen::Matrix<double, 5, 1> x = N.ldlt().solve(b);
   const Eigen::Matrix<double, 5, 5> inverse = N.ldlt().solve(Eigen::Matrix<double, 5, 5>::Identity());
   for (int i = 0; i < 5; ++i) {
-    const double s = scatter * std::sqrt(inverse(i, i) * std::max(1.0, used / independent));
+    double value = x[i];
+    double s = scatter * std::sqrt(inverse(i, i) * std::max(1.0, used / independent));
+    if (by_attitude) {
+      value = by_attitude->deviation_rad[static_cast<std::size_t>(i)].value;
+      s = std::hypot(by_attitude->deviation_rad[static_cast<std::size_t>(i)].sigma,
+                     i == 0 ? joint.yaw_sigma_rad : 0.0);
+    }
     const std::string letter(1, static_cast<char>('A' + i));
     add(("deviation_" + letter).c_str(), FindingKind::deviation, true, Severity::ok,
-        "Deviation coefficient " + letter + ": " + with_sigma(x[i] / kDegree, s / kDegree) + " degrees.",
-        x[i] / kDegree, "deg", s / kDegree);
+        "Deviation coefficient " + letter + ": " + with_sigma(value / kDegree, s / kDegree) + " degrees.",
+        value / kDegree, "deg", s / kDegree);
   }
   return out;
 }

@@ -27,6 +27,7 @@ using Eigen::Vector3d;
 constexpr double kReject = 15.0;     // log likelihood ratio: e^-15 in some 400 hypotheses is no chance
 constexpr double kPerWindow = 6.0;   // independent figures that a window counts for at most
 constexpr double kDeparture = 10.0;  // log odds against an instrument that is not as configured
+constexpr double kSideways = 2.5;    // units of a departure: rather are two instruments turned alike
 constexpr double kSteady = 0.8;      // length of the mean direction of travel from which a vehicle has a bow
 
 struct Unit {
@@ -121,7 +122,7 @@ Explanation explain(const std::vector<Class>& classes, const Vector3d& mean_forc
       // Gravity is felt upwards; a vehicle goes where its bow points.
       if ((now.force * mean_force).z() > -0.5 * mean_force.norm()) now.cost += 1.5;
       if (forward.norm() > kSteady && (each.force_sign * now.force * forward).x() < 0.7 * forward.norm())
-        now.cost += 1.5;
+        now.cost += kSideways;
       if (M != nullptr) {
         now.dvl_agrees = nearest_signed_axes(now.force * *M).isIdentity(1e-9);
         now.cost += now.dvl_agrees ? 0.0 : 1.0;

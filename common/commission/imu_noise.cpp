@@ -19,6 +19,10 @@ struct Noise {
   bool known = false;
 };
 
+// Of a noise density: what shakes a vehicle at rest, and that the noisiest of three axes is taken, make it
+// larger.
+constexpr double kShaken = 0.02;
+
 Noise largest(const std::array<std::vector<AllanPoint>, 3>& curves) {
   Noise out;
   for (const auto& curve : curves) {
@@ -111,8 +115,10 @@ ImuNoise check_imu_noise(const Series& series, const Assumed& assumed, const std
     out.gyro[axis] = allan_deviation(rates[axis], 1.0 / rate);
     out.force[axis] = allan_deviation(forces[axis], 1.0 / rate);
   }
-  const Noise gyro = largest(out.gyro);
-  const Noise force = largest(out.force);
+  Noise gyro = largest(out.gyro);
+  Noise force = largest(out.force);
+  for (Noise* each : {&gyro, &force})
+    each->figures.density_sigma = std::hypot(each->figures.density_sigma, kShaken * each->figures.density);
   const auto note = [](double found, double sigma, double configured) {
     return known(configured) && std::abs(found - configured) > 3.0 * sigma &&
                    (found > 3.0 * configured || configured > 10.0 * found)
@@ -121,6 +127,7 @@ ImuNoise check_imu_noise(const Series& series, const Assumed& assumed, const std
   };
   const std::string over = " over " + number(rest_s, 0) + " s at rest";
   if (gyro.known) {
+    out.angle_random_walk = gyro.figures.density;
     const double scale = 60.0 / kDegree;
     const double N = gyro.figures.density * scale;
     add("gyro_noise", FindingKind::noise, true,
@@ -130,6 +137,7 @@ ImuNoise check_imu_noise(const Series& series, const Assumed& assumed, const std
         N, "deg/sqrt(h)", gyro.figures.density_sigma * scale);
   }
   if (force.known) {
+    out.velocity_random_walk = force.figures.density;
     const double scale = 60.0;
     const double N = force.figures.density * scale;
     add("accelerometer_noise", FindingKind::noise, true,

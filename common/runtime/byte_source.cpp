@@ -14,6 +14,11 @@
 
 namespace fathom::runtime {
 
+std::string_view to_string(Framing framing) {
+  static constexpr std::array<std::string_view, 5> kWords{"8N1", "8E1", "8O1", "7E1", "7O1"};
+  return kWords[static_cast<std::size_t>(framing)];
+}
+
 std::string_view to_string(SourceState state) {
   static constexpr std::array<std::string_view, 4> kWords{"lost", "connected", "silent", "finished"};
   const auto index = static_cast<std::size_t>(state);

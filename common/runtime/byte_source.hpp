@@ -13,6 +13,10 @@ namespace fathom::runtime {
 
 enum class SourceType : std::uint8_t { serial = 0, tcp_client = 1, tcp_server = 2, udp = 3, file = 4 };
 
+/// A character on a serial line: data bits, parity, stop bits.
+enum class Framing : std::uint8_t { n8_1 = 0, e8_1 = 1, o8_1 = 2, e7_1 = 3, o7_1 = 4 };
+[[nodiscard]] std::string_view to_string(Framing framing);  ///< "8N1", "8E1", ...
+
 /// How a file is played.
 enum class Pace : std::uint8_t {
   original = 0,  ///< as the times in its frames say; the decoder calls hold()
@@ -23,8 +27,9 @@ enum class Pace : std::uint8_t {
 /// Where bytes of one instrument come from.
 struct ByteSourceConfig {
   SourceType type = SourceType::serial;
-  std::string path;    ///< serial: device, file: file
-  int baud = 115'200;  ///< serial; 8 data bits, no parity, 1 stop bit
+  std::string path;                 ///< serial: device, file: file
+  int baud = 115'200;               ///< serial
+  Framing framing = Framing::n8_1;  ///< serial
   std::string address =
       "127.0.0.1";  ///< tcp_client: of the device; tcp_server, udp: address to bind; numeric
   int port = 0;

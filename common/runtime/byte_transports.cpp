@@ -46,6 +46,27 @@ void keep_alive(tcp::socket& socket) {
   set(TCP_KEEPCNT, 3);
 }
 
+// Another than 8N1.
+void set_framing(asio::serial_port& port, Framing framing) {
+  using asio::serial_port;
+  const bool seven = framing == Framing::e7_1 || framing == Framing::o7_1;
+  const bool even = framing == Framing::e7_1 || framing == Framing::e8_1;
+  const auto parity = even ? serial_port::parity::even : serial_port::parity::odd;
+  // A terminal without a line behind it has no parity and no seven bits. Then the eighth bit is taken off
+  // here.
+  asio::error_code error;
+  port.set_option(serial_port::character_size(seven ? 7 : 8), error);
+  if (!error) port.set_option(serial_port::parity(parity), error);
+  if (!seven && error) throw std::system_error(error, std::string(to_string(framing)) + " is not to be had");
+  if (!seven) return;
+  termios mode{};
+  if (tcgetattr(port.native_handle(), &mode) != 0)
+    throw std::system_error(errno, std::generic_category(), "tcgetattr");
+  mode.c_iflag |= ISTRIP;
+  if (tcsetattr(port.native_handle(), TCSANOW, &mode) != 0)
+    throw std::system_error(errno, std::generic_category(), "tcsetattr");
+}
+
 }  // namespace
 
 template <class Stream>
@@ -59,6 +80,7 @@ asio::awaitable<void> ByteSource::Impl::read_all(Stream& stream) {
 
 asio::awaitable<void> ByteSource::Impl::serve_serial() {
   asio::serial_port port = open_serial_line(io, config.path, config.baud);
+  if (config.framing != Framing::n8_1) set_framing(port, config.framing);
   tcflush(port.native_handle(), TCIFLUSH);
   still_there = [this, &port] {
     struct stat at_path {};

@@ -37,6 +37,7 @@ struct SensorCommon {
   double rate_hz = 1.0;
   double phase_s = 0.0;                            ///< of the first sample
   double latency_s = 0.0;                          ///< from validity to the last byte sent
+  double stamp_late_s = 0.0;                       ///< its stamp is later than validity by this
   double jitter_s = 0.0;                           ///< uniform, on top of the latency
   double dropout_probability = 0.0;                ///< per sample
   double outlier_probability = 0.0;                ///< per sample

@@ -40,9 +40,10 @@ class Schedule {
   void stamp(SampleHeader& header, const Simulation::Options& options, double t_s, double latency_s) {
     header.vehicle = options.vehicle;
     header.sensor = sensor_;
-    header.stamp_ns = options.epoch_ns + from_seconds(t_s);
+    const TimeNs valid_ns = options.epoch_ns + from_seconds(t_s);
+    header.stamp_ns = valid_ns + from_seconds(config_.stamp_late_s);
     // The messages of one device leave in order.
-    header.received_ns = std::max(header.stamp_ns + from_seconds(latency_s), last_received_ns_);
+    header.received_ns = std::max(valid_ns + from_seconds(latency_s), last_received_ns_);
     last_received_ns_ = header.received_ns;
     header.sequence = sequence_++;
   }

@@ -94,6 +94,7 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
   constexpr double kRateStep = 2e-4;
   constexpr double kTimeStep_s = 0.02;
   std::vector<Matrix3d> turns(windows.size(), Matrix3d::Zero());
+  std::vector<double> changes(windows.size(), 0.0);  // of the velocity over ground, squares
   for (int iteration = 0; iteration < 6; ++iteration) {
     WindowFit fit(kCommon);
     std::vector<double> residuals;
@@ -130,6 +131,8 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
       for (std::size_t k = 0; k < x.size(); ++k) sum += (y[k] - mean_y) * (x[k] - mean_x).transpose();
       const Matrix3d R = best_rotation(sum);
       turns[w] = R;
+      changes[w] = 0.0;
+      for (const Vector3d& each : y) changes[w] += (each - mean_y).head<2>().squaredNorm();
       const auto rows = static_cast<Eigen::Index>(3 * x.size());
       MatrixXd J(rows, kCommon);
       MatrixXd Jw(rows, 6);
@@ -187,9 +190,14 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
   Vector3d sum = Vector3d::Zero();
   Vector3d over_ground = Vector3d::Zero();
   double length = 0.0;
+  double most = 0.0;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (turns[w].isZero()) continue;
     const Strapdown strapdown(series.imu, now, windows[w].from_s - kMargin_s, windows[w].to_s + kMargin_s);
+    if (changes[w] > most && strapdown.covers(windows[w].from_s)) {
+      most = changes[w];
+      out.attitude = AttitudeAt{windows[w].from_s, turns[w] * strapdown.at(windows[w].from_s).C_WB};
+    }
     for (const auto& [i, j] : pairs_in(velocity_N, windows[w], kApart_s, kGap_s)) {
       const double t = velocity_N.t_s[i] - out.latency_s;
       if (!strapdown.covers(t)) continue;

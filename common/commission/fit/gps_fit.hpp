@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,12 @@ namespace fathom::commission {
                                  const std::vector<Span>& windows, const ImuReading& reading,
                                  double latency_s);
 
+/// The attitude of the body at one instant.
+struct AttitudeAt {
+  double t_s = 0.0;
+  Eigen::Matrix3d C_NB = Eigen::Matrix3d::Identity();
+};
+
 /// What IMU and GPS together tell.
 struct GpsFit {
   bool done = false;
@@ -29,6 +36,7 @@ struct GpsFit {
   /// Direction in which the vehicle goes, in body axes, unit or shorter: the length says how steady it is.
   /// Zero where it kept to one course.
   Eigen::Vector3d forward_B = Eigen::Vector3d::Zero();
+  std::optional<AttitudeAt> attitude;  ///< where the velocity changed most
 };
 [[nodiscard]] GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N,
                              const std::vector<Span>& windows, const ImuReading& reading, double latency_s,

@@ -3,6 +3,7 @@
 namespace fathom::config {
 
 using runtime::ByteSourceConfig;
+using runtime::Framing;
 using runtime::Pace;
 using runtime::SourceType;
 using runtime::TimeConfig;
@@ -23,8 +24,13 @@ void describe_source(Schema<Source>& s) {
       .required();
   s.field("path", &ByteSourceConfig::path, "the device, e.g. /dev/ttyUSB0, or the recording")
       .only_for({"serial", "file"});
-  s.field("baud", &ByteSourceConfig::baud, "bits per second; 8 data bits, no parity, 1 stop bit")
-      .range(1200, 4'000'000)
+  s.field("baud", &ByteSourceConfig::baud, "bits per second").range(1200, 4'000'000).only_for({"serial"});
+  s.field("framing", &ByteSourceConfig::framing, "data bits, parity and stop bits of a character")
+      .words({{"8N1", Framing::n8_1},
+              {"8E1", Framing::e8_1},
+              {"8O1", Framing::o8_1},
+              {"7E1", Framing::e7_1},
+              {"7O1", Framing::o7_1}})
       .only_for({"serial"});
   s.field("address", &ByteSourceConfig::address,
           "numeric address: of the device for tcp_client, else of this host to bind")

@@ -62,6 +62,7 @@ Vector3d TriadModel::point(const Vector3d& truth, double dt_s, Random& random) {
 ImuModel::ImuModel(const ImuConfig& config, std::uint64_t seed)
     : config_(config),
       random_(seed, "imu"),
+      C_IB_(geo::to_matrix(geo::from_rpy(geo::vec(config.mounting_rpy_rad))).transpose()),
       gyro_(config.gyro, random_),
       accelerometer_(config.accelerometer, random_) {}
 
@@ -69,16 +70,16 @@ ImuSample ImuModel::sample(const ImuTruth& interval, const TruthPoint& end) {
   ImuSample out;
   const double dt = interval.dt_s;
   if (config_.increments) {
-    const Vector3d angle = gyro_.increment(interval.delta_angle_B_rad, dt, random_);
-    const Vector3d velocity = accelerometer_.increment(interval.delta_velocity_B_m_s, dt, random_);
+    const Vector3d angle = gyro_.increment(C_IB_ * interval.delta_angle_B_rad, dt, random_);
+    const Vector3d velocity = accelerometer_.increment(C_IB_ * interval.delta_velocity_B_m_s, dt, random_);
     out.delta_angle_B_rad = geo::arr(angle);
     out.delta_velocity_B_m_s = geo::arr(velocity);
     out.delta_time_s = dt;
     out.angular_rate_B_rad_s = geo::arr(angle / dt);
     out.specific_force_B_m_s2 = geo::arr(velocity / dt);
   } else {
-    out.angular_rate_B_rad_s = geo::arr(gyro_.point(end.omega_IB_B_rad_s, dt, random_));
-    out.specific_force_B_m_s2 = geo::arr(accelerometer_.point(end.f_B_m_s2, dt, random_));
+    out.angular_rate_B_rad_s = geo::arr(gyro_.point(C_IB_ * end.omega_IB_B_rad_s, dt, random_));
+    out.specific_force_B_m_s2 = geo::arr(accelerometer_.point(C_IB_ * end.f_B_m_s2, dt, random_));
   }
   return out;
 }

@@ -35,6 +35,7 @@ template <>
 struct SimulatedSensor<ImuSample> : SensorCommon {
   static constexpr const char* kDescription = "inertial measurement unit at the body origin";
   static constexpr bool kAlwaysHeard = true;
+  std::array<double, 3> mounting_rpy_rad{0, 0, 0};  ///< rotation of the unit's axes against the body
   GyroConfig gyro;
   AccelerometerConfig accelerometer;
   /// True: increments over the sample interval and their mean rates, as a strapdown unit gives. False: rates
@@ -73,6 +74,7 @@ class ImuModel {
  private:
   ImuConfig config_;
   Random random_;
+  Eigen::Matrix3d C_IB_;  ///< body axes into those of the unit
   TriadModel gyro_;
   TriadModel accelerometer_;
 };

@@ -13,6 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+
 double rounded(double value, double step) {
   return std::round(value / step) * step + 0.0;
 }
@@ -29,7 +31,7 @@ Json list(const Eigen::Vector3d& v, int digits) {
 }
 
 Json rpy_deg(const Eigen::Matrix3d& C) {
-  return list(geo::to_rpy(geo::from_matrix(C)) * (180.0 / std::numbers::pi), 3);
+  return list(geo::to_rpy(geo::from_matrix(C)) * kDegrees, 3);
 }
 
 Json::json_pointer pointer_of(std::string key) {
@@ -63,18 +65,20 @@ std::vector<Change> changes_of(const commission::Patch& patch, const Json& confi
     change("engine.imu.velocity_random_walk_m_s_sqrt_h", decimal(*patch.velocity_random_walk * 60.0, 4));
   if (const auto gps = sensor("gps")) {
     if (patch.gps_lever_B_m) change(*gps + "lever_B_m", list(*patch.gps_lever_B_m, 3));
-    if (patch.gps_latency_s) change(*gps + "latency_s", decimal(*patch.gps_latency_s, 3));
+    if (patch.gps_latency_s) change(*gps + "latency_s", decimal(*patch.gps_latency_s, 4));
   }
   if (const auto dvl = sensor("dvl")) {
     if (patch.C_BD) change(*dvl + "mounting_rpy_deg", rpy_deg(*patch.C_BD));
     if (patch.dvl_lever_B_m) change(*dvl + "lever_B_m", list(*patch.dvl_lever_B_m, 3));
-    if (patch.dvl_latency_s) change(*dvl + "latency_s", decimal(*patch.dvl_latency_s, 3));
+    if (patch.dvl_latency_s) change(*dvl + "latency_s", decimal(*patch.dvl_latency_s, 4));
   }
   const auto depth = sensor("depth");
-  if (depth && patch.depth_latency_s) change(*depth + "latency_s", decimal(*patch.depth_latency_s, 3));
+  if (depth && patch.depth_latency_s) change(*depth + "latency_s", decimal(*patch.depth_latency_s, 4));
   const auto heading = sensor("heading");
   if (heading && patch.heading_latency_s)
-    change(*heading + "latency_s", decimal(*patch.heading_latency_s, 3));
+    change(*heading + "latency_s", decimal(*patch.heading_latency_s, 4));
+  if (heading && patch.heading_yaw_rad)
+    change(*heading + "mounting_rpy_deg", list({0.0, 0.0, *patch.heading_yaw_rad * kDegrees}, 3));
   return out;
 }
 
@@ -108,14 +112,16 @@ std::vector<Change> vehicle_changes_of(const commission::Patch& patch, const Jso
     change(imu, "fusion.velocity_random_walk_m_s_sqrt_h", decimal(*patch.velocity_random_walk * 60.0, 4));
   const auto gps = first("gps");
   if (patch.gps_lever_B_m) change(gps, "position_m", list(*patch.gps_lever_B_m + unit_m, 3));
-  if (patch.gps_latency_s) change(gps, "fusion.latency_s", decimal(*patch.gps_latency_s, 3));
+  if (patch.gps_latency_s) change(gps, "fusion.latency_s", decimal(*patch.gps_latency_s, 4));
   const auto dvl = first("dvl");
   if (patch.C_BD) change(dvl, "mounting_rpy_deg", rpy_deg(*patch.C_BD));
   if (patch.dvl_lever_B_m) change(dvl, "position_m", list(*patch.dvl_lever_B_m + unit_m, 3));
-  if (patch.dvl_latency_s) change(dvl, "fusion.latency_s", decimal(*patch.dvl_latency_s, 3));
-  if (patch.depth_latency_s) change(first("depth"), "fusion.latency_s", decimal(*patch.depth_latency_s, 3));
+  if (patch.dvl_latency_s) change(dvl, "fusion.latency_s", decimal(*patch.dvl_latency_s, 4));
+  if (patch.depth_latency_s) change(first("depth"), "fusion.latency_s", decimal(*patch.depth_latency_s, 4));
   if (patch.heading_latency_s)
-    change(first("heading"), "fusion.latency_s", decimal(*patch.heading_latency_s, 3));
+    change(first("heading"), "fusion.latency_s", decimal(*patch.heading_latency_s, 4));
+  if (patch.heading_yaw_rad)
+    change(first("heading"), "mounting_rpy_deg", list({0.0, 0.0, *patch.heading_yaw_rad * kDegrees}, 3));
   return out;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <chrono>
 #include <filesystem>
@@ -16,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array kBauds{115'200, 9'600, 38'400, 921'600, 57'600, 19'200, 4'800, 230'400, 460'800};
+// In this order, all rates of one before the next. Seven bits with parity are seen in the eighth bit of 8N1.
+constexpr std::array kFramings{runtime::Framing::n8_1, runtime::Framing::e8_1, runtime::Framing::o8_1};
 constexpr double kDwell_s = 2.5;       // at one rate, from the first byte
 constexpr double kSlowDwell_s = 25.0;  // where something was understood
 constexpr double kCount_s = 8.0;       // to count a rate, from where the instrument was recognised
@@ -29,6 +32,46 @@ int port_number(const std::string& text, const std::string& whole, const char* f
   return port;
 }
 
+/// Seven data bits with parity, as a line of eight without hears them: the eighth bit makes the parity of
+/// every byte the same.
+class SevenBits {
+ public:
+  explicit SevenBits(bool possible) {
+    if (possible) recognizer_ = std::make_unique<Recognizer>();
+  }
+  void feed(std::span<const std::uint8_t> bytes, TimeNs now_ns) {
+    if (!recognizer_) return;
+    std::vector<std::uint8_t> stripped(bytes.begin(), bytes.end());
+    for (std::uint8_t& byte : stripped) {
+      odd_ += static_cast<std::uint64_t>(std::popcount(byte) % 2);
+      ++count_;
+      byte &= 0x7f;
+    }
+    if (count_ > kFew && !framing())
+      recognizer_.reset();
+    else
+      recognizer_->feed(stripped, now_ns);
+  }
+  [[nodiscard]] std::optional<runtime::Framing> framing() const {
+    constexpr double kAll = 0.98;
+    const double odd = static_cast<double>(odd_);
+    const double count = static_cast<double>(count_);
+    if (!recognizer_ || count_ < kFew) return std::nullopt;
+    if (odd > kAll * count) return runtime::Framing::o7_1;
+    if (odd < (1.0 - kAll) * count) return runtime::Framing::e7_1;
+    return std::nullopt;
+  }
+  [[nodiscard]] std::optional<Recognition> best() const {
+    return framing() ? recognizer_->best() : std::nullopt;
+  }
+
+ private:
+  static constexpr std::uint64_t kFew = 64;
+  std::unique_ptr<Recognizer> recognizer_;
+  std::uint64_t count_ = 0;
+  std::uint64_t odd_ = 0;
+};
+
 class Listening {
  public:
   Listening(PortToHear port, const Clock& clock) : port_(std::move(port)), clock_(clock) { open(); }
@@ -37,7 +80,7 @@ class Listening {
   bool step() {
     const TimeNs now = clock_.monotonic_ns();
     const std::lock_guard lock(mutex_);
-    const bool recognised = recognizer_->best().has_value();
+    const bool recognised = recognizer_->best() || seven_bits_.best();
     if (recognised && recognised_ns_ == 0) recognised_ns_ = now;
     if (recognised) return to_seconds(now - recognised_ns_) >= kCount_s;
     recognised_ns_ = 0;
@@ -59,6 +102,10 @@ class Listening {
   [[nodiscard]] Heard heard() {
     source_.reset();
     Heard out{port_.port, bytes_before_ + recognizer_->bytes(), recognizer_->best()};
+    if (const auto framing = seven_bits_.framing(); !out.recognition && seven_bits_.best()) {
+      out.recognition = seven_bits_.best();
+      out.port.framing = *framing;
+    }
     return out;
   }
 
@@ -66,9 +113,14 @@ class Listening {
   void open() {
     source_.reset();
     recognizer_ = std::make_unique<Recognizer>();
+    const bool serial = port_.port.type == runtime::SourceType::serial;
+    seven_bits_ = SevenBits(serial);
     first_byte_ns_ = 0;
-    if (port_.port.type == runtime::SourceType::serial && !port_.baud_known)
-      port_.port.baud = kBauds[rate_++ % kBauds.size()];
+    if (serial && !port_.baud_known) {
+      port_.port.baud = kBauds[rate_ % kBauds.size()];
+      port_.port.framing = kFramings[rate_ / kBauds.size() % kFramings.size()];
+      ++rate_;
+    }
     source_ = std::make_unique<runtime::ByteSource>(
         port_.port, clock_,
         [this](std::span<const std::uint8_t> bytes, const runtime::Arrival&) {
@@ -76,6 +128,7 @@ class Listening {
           const TimeNs now = clock_.monotonic_ns();
           if (first_byte_ns_ == 0) first_byte_ns_ = now;
           recognizer_->feed(bytes, now);
+          seven_bits_.feed(bytes, now);
         },
         [](const runtime::SourceEvent&) {});
     source_->start();
@@ -85,6 +138,7 @@ class Listening {
   const Clock& clock_;
   std::mutex mutex_;
   std::unique_ptr<Recognizer> recognizer_;
+  SevenBits seven_bits_{false};
   TimeNs first_byte_ns_ = 0;
   TimeNs recognised_ns_ = 0;
   std::size_t rate_ = 0;

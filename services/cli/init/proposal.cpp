@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <map>
 
+#include "config/vehicle/catalogue.hpp"
 #include "config/vehicle/vehicle_config.hpp"
 #include "samples/kinds.hpp"
 
@@ -21,8 +22,11 @@ std::string role_name(SourceKind kind) {
 
 Json port_json(const runtime::ByteSourceConfig& port) {
   switch (port.type) {
-    case runtime::SourceType::serial:
-      return {{"type", "serial"}, {"path", port.path}, {"baud", port.baud}};
+    case runtime::SourceType::serial: {
+      Json out = {{"type", "serial"}, {"path", port.path}, {"baud", port.baud}};
+      if (port.framing != runtime::Framing::n8_1) out["framing"] = to_string(port.framing);
+      return out;
+    }
     case runtime::SourceType::tcp_client:
       return {{"type", "tcp_client"}, {"address", port.address}, {"port", port.port}};
     default:
@@ -66,6 +70,27 @@ std::string number_text(double value, const char* format) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), format, value);
   return text.data();
+}
+
+/// The models of the catalogue that speak the protocol. The only one is taken: its protocol is its maker's
+/// own.
+void add_model(SourceKind kind, const std::string& protocol, Proposal& out) {
+  std::vector<std::string> models;
+  for (const std::string& model : config::catalogue_models()) {
+    const auto entry = config::load_catalogue_entry(config::catalogue_directory() + "/" + model + ".json");
+    if (entry.kind == kind && entry.protocol == protocol) models.push_back(model);
+  }
+  if (models.empty()) return;
+  const bool own = protocol != "nmea0183" && !protocol.starts_with("ascii_");
+  if (models.size() == 1 && own) {
+    out.instrument["model"] = models.front();
+    out.notes.push_back("its protocol is that of model " + models.front());
+    return;
+  }
+  std::string all;
+  for (const std::string& model : models) all += (all.empty() ? "" : ", ") + model;
+  out.notes.push_back("of the catalogue these speak so: " + all +
+                      "; \"model\" brings the figures of the data sheet");
 }
 
 void add_depth(const Recognition& seen, Proposal& out) {
@@ -156,6 +181,7 @@ std::vector<Proposal> propose(const std::vector<Heard>& heard) {
       const double rate_hz = tidy_rate_hz(kind.rate_hz, kind.samples);
       made.instrument["rate_hz"] = rate_hz > 0.0 ? rate_hz : 1.0;
       if (first) made.instrument["port"] = port_json(one.port);
+      add_model(kind.kind, seen.protocol, made);
       first = false;
       made.what = name + ": " + runtime::describe_source(one.port) + ", " + seen.protocol + ", " +
                   number_text(kind.rate_hz, "%.4g Hz") +

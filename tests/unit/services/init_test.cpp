@@ -33,8 +33,10 @@ Heard heard(SourceKind kind, double rate_hz, const std::string& protocol, const 
 }
 
 TEST(Recognizer, KnowsEachInstrumentFromItsBytes) {
-  for (const char* name :
-       {"nmea0183", "ubx", "pd0", "waterlinked", "vectornav", "paroscientific", "psimssb", "micromodem"}) {
+  // All that there are, but those that any line with a number may be: whoever adds one adds it here.
+  for (const codec::Protocol& protocol : codec::protocols()) {
+    const std::string name(protocol.name);
+    if (name.starts_with("ascii_")) continue;
     SCOPED_TRACE(name);
     const auto found = recognised(test::seed_stream(name));
     ASSERT_TRUE(found);
@@ -131,6 +133,17 @@ TEST(Proposal, EachPortIsAnInstrumentWithAName) {
   EXPECT_EQ(made[1].instrument["name"], "gps2");
   EXPECT_TRUE(made[1].has_place);
   EXPECT_FALSE(made[1].has_mounting);
+}
+
+TEST(Proposal, NamesTheModelsThatSpeakSo) {
+  const auto made = propose({heard(SourceKind::imu, 100.0, "vectornav", "/dev/a"),
+                             heard(SourceKind::usbl, 1.0, "psimssb", "/dev/b"),
+                             heard(SourceKind::heading, 10.0, "nmea0183", "/dev/c")});
+  ASSERT_EQ(made.size(), 3U);
+  EXPECT_FALSE(made[0].instrument.contains("model")) << "several speak so, with figures of their own";
+  EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("vectornav_vn100, vectornav_vn200")));
+  EXPECT_EQ(made[1].instrument["model"], "kongsberg_hipap");
+  EXPECT_FALSE(made[2].instrument.contains("model"));
 }
 
 TEST(Ports, AreReadAsPeopleWriteThem) {

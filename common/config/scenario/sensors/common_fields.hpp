@@ -28,6 +28,10 @@ void common_fields(Schema<T>& s) {
   s.field("latency_s", static_cast<double T::*>(&C::latency_s), "from validity to the last byte")
       .unit("s")
       .range(0, 60);
+  s.field("stamp_late_s", static_cast<double T::*>(&C::stamp_late_s),
+          "its stamps are later than validity by this: what navigation has to be told")
+      .unit("s")
+      .range(-5, 5);
   s.field("jitter_s", static_cast<double T::*>(&C::jitter_s), "of the latency, uniform, on top of it")
       .unit("s")
       .range(0, 10);

@@ -73,6 +73,10 @@ void describe(Schema<sim::AccelerometerConfig>& s) {
 template <>
 void describe(Schema<sim::SimulatedSensor<ImuSample>>& s) {
   common_fields(s);
+  s.field("mounting_rpy_deg", &sim::ImuConfig::mounting_rpy_rad, "attitude of the unit's axes in the body")
+      .unit("deg")
+      .scaled(kDegree)
+      .range(-180, 180);
   s.field("gyro", &sim::ImuConfig::gyro, "error model of the gyros");
   s.field("accelerometer", &sim::ImuConfig::accelerometer, "error model of the accelerometers");
   s.field("increments", &sim::ImuConfig::increments,
