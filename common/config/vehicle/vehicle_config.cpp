@@ -85,7 +85,7 @@ void describe(Schema<VehicleInstrument>& s) {
           "where it is, forward, right, down of a point of the vehicle that is the same for all instruments")
       .unit("m")
       .range(-1000, 1000)
-      .only_for(words_of({imu, gps, dvl, depth, usbl, propulsion, range, altimeter}))
+      .only_for(words_of({imu, gps, dvl, depth, usbl, propulsion, range, fix, altimeter}))
       .required_for(words_of({gps, dvl, depth, usbl, range}));
   s.field("mounting_rpy_deg", &C::mounting_rpy_rad,
           "which way round it is: roll, pitch, yaw of its axes in the vehicle")

@@ -93,7 +93,7 @@ TEST_F(Vehicle, LeversAreFromTheInertialUnit) {
     EXPECT_DOUBLE_EQ(sensor.lever_B_m[1], -2.0);
     EXPECT_DOUBLE_EQ(sensor.lever_B_m[2], -2.8);
   }
-  EXPECT_EQ(fusion.engine.sensors.size(), 4U);
+  EXPECT_EQ(fusion.engine.sensors.size(), 5U) << "and the operator";
 }
 
 TEST_F(Vehicle, ABiasIsAtLeastAsUncertainAsItWanders) {
@@ -147,7 +147,7 @@ TEST_F(Vehicle, AnInstrumentMayBeATopicOfRos2) {
   for (const auto& one : load<MonitorConfig>("monitor").health.services) services.push_back(one.name.str());
   EXPECT_THAT(services, ::testing::UnorderedElementsAre("fusion", "ros2_gateway", "gps_bridge", "dvl_bridge",
                                                         "heading_bridge", "recorder"));
-  EXPECT_EQ(load<FusionConfig>("fusion").engine.sensors.size(), 4U)
+  EXPECT_EQ(load<FusionConfig>("fusion").engine.sensors.size(), 5U)
       << "fusion does not care where it comes from";
   EXPECT_EQ(complaint(), "");
   instrument("imu")["port"] = {{"type", "serial"}, {"path", "/dev/ttyUSB0"}};
@@ -158,7 +158,7 @@ TEST_F(Vehicle, WhatNeedNotSpeakIsNotMissed) {
   instrument("heading")["watched"] = false;
   const auto monitor = load<MonitorConfig>("monitor");
   EXPECT_EQ(monitor.health.sensors.size(), 4U);
-  EXPECT_EQ(load<FusionConfig>("fusion").engine.sensors.size(), 4U) << "it is used all the same";
+  EXPECT_EQ(load<FusionConfig>("fusion").engine.sensors.size(), 5U) << "it is used all the same";
 }
 
 TEST_F(Vehicle, AnInstrumentIsTurnedOnce) {
@@ -186,7 +186,7 @@ TEST_F(Vehicle, InstrumentsOfOneNameAreKeptApartByTheirKind) {
   file["services"]["fusion"]["engine"]["sensors"] = {
       {{"sensor", "actuator"}, {"kind", "fins"}, {"enabled", false}}};
   const auto fusion = load<FusionConfig>("fusion");
-  ASSERT_EQ(fusion.engine.sensors.size(), 6U);
+  ASSERT_EQ(fusion.engine.sensors.size(), 7U);
   EXPECT_TRUE(fusion.engine.sensors[4].enabled);
   EXPECT_FALSE(fusion.engine.sensors[5].enabled);
   EXPECT_EQ(load<ActuatorBridgeConfig>("actuator_bridge").sensors.size(), 1U);
