@@ -42,7 +42,7 @@ struct Recorder::Impl {
     const SystemClock host;
     TimeNs settled_ns = host.monotonic_ns();
     for (bool ended = false; !ended;) {
-      Queue::Batch batch = queue.take(options.sync_ns / 2);
+      Queue::Batch batch = queue.take(options.sync_ns / 8);
       ended = batch.ended;
       for (Queue::Item& item : batch.items) {
         std::visit([&](auto& one) { store.add(std::move(one)); }, item);

@@ -117,7 +117,7 @@ class Gpsd final : public Framer {
     const double used = number(report, "uSat");
     satellites_ = used >= 0.0 && used < 256.0 ? static_cast<std::int32_t>(used) : -1;
     hdop_ = above_zero(number(report, "hdop"));
-    return Outcome::used();
+    return Outcome::ignored();  // on its own it is no sample
   }
 
   Outcome take_gst(const Json& report) {
@@ -126,7 +126,7 @@ class Gpsd final : public Framer {
     gst_ns_ = *time_ns;
     gst_sigma_N_m_ = {above_zero(number(report, "lat")), above_zero(number(report, "lon")),
                       above_zero(number(report, "alt"))};
-    return Outcome::used();
+    return Outcome::ignored();
   }
 
   Outcome take_tpv(const Json& report, std::uint64_t offset, std::uint64_t length, Sink& sink) {

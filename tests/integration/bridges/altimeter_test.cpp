@@ -40,14 +40,15 @@ TEST(AltimeterBridge, DptAndDbtBecomeAltitudesAndNonsenseIsRefused) {
   })) << bridge.output();
   int dpt = 0;
   int dbt = 0;
-  for (const AltimeterSample& sample : altimeter.all()) {
+  const auto all = altimeter.all();  // more may still come
+  for (const AltimeterSample& sample : all) {
     EXPECT_EQ(sample.header.sensor, Name("altimeter"));
     if (sample.altitude_m == 12.34 && sample.transducer_offset_m == 0.5) ++dpt;
     if (sample.altitude_m == 2.4 && !known(sample.transducer_offset_m)) ++dbt;
   }
   EXPECT_GT(dpt, 0);
   EXPECT_GT(dbt, 0);
-  EXPECT_EQ(static_cast<std::size_t>(dpt + dbt), altimeter.all().size());
+  EXPECT_EQ(static_cast<std::size_t>(dpt + dbt), all.size());
 }
 
 }  // namespace

@@ -280,7 +280,7 @@ TEST(AidingPolicies, EachModelSaysWhatItBrings) {
     for (const double value : policy.reading)
       EXPECT_TRUE(std::isnan(value) || value == 0.0) << entry.name << " repeats what nobody said";
   }
-  EXPECT_EQ(fixes, 5);
+  EXPECT_EQ(fixes, 6);
   EXPECT_GE(velocities, 8);
 }
 
