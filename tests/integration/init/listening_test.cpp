@@ -1,6 +1,8 @@
 // What init hears on pseudo-terminals: rates and framings as far as a terminal without a line can show them.
 // It keeps the rate that its reader set, which the device here looks at; bits of a character it does not
 // keep.
+#include "cli/init/listening.hpp"
+
 #include <array>
 #include <atomic>
 #include <bit>
@@ -14,8 +16,8 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "cli/init/listening.hpp"
 #include "support/codec/seed_streams.hpp"
+#include "support/process.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -118,11 +120,10 @@ TEST(InitListening, FindsRateAndFramingOnPseudoTerminals) {
         },
         [](const runtime::SourceEvent&) {});
     source.start();
-    for (int i = 0; i < 100; ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_TRUE(test::wait_until([&] {
       const std::lock_guard lock(mutex);
-      if (bridge.best()) break;
-    }
+      return bridge.best().has_value();
+    }));
   }
   ASSERT_TRUE(bridge.best());
   EXPECT_EQ(bridge.best()->protocol, "nmea0183");
