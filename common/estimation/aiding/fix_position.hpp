@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimation/aiding/model.hpp"
+#include "estimation/aiding/underwater_place.hpp"
 #include "samples/position/fix.hpp"
 
 namespace fathom::estimation {
@@ -39,17 +40,10 @@ class FixPosition {
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const Sample& sample) {
     // Whoever tells a position says how well it is known.
     if (sensor.use_sample_sigma && !known(sample.sigma_m)) return Usable::out_of_range;
-    const bool placed = is_on_earth(sample.latitude_rad, sample.longitude_rad);
-    const bool deep = !known(sample.depth_m) || (sample.depth_m > -50.0 && sample.depth_m < 12000.0);
-    return placed && deep ? Usable::yes : Usable::out_of_range;
+    return usable_place(sample);
   }
   [[nodiscard]] int dimension() const { return 3; }
-  [[nodiscard]] Vector3 measured() const {
-    const geo::Geodetic& here = s_.state.nav.position;
-    Vector3 m = geo::difference_N(here, {sample_.latitude_rad, sample_.longitude_rad, here.altitude_m});
-    m.z() = sample_.depth_m;
-    return m;
-  }
+  [[nodiscard]] Vector3 measured() const { return place_N_m(s_, sample_); }
   [[nodiscard]] Vector3 predicted() const {
     return {lever_N_.x(), lever_N_.y(), surface_m_ - s_.state.nav.position.altitude_m + lever_N_.z()};
   }

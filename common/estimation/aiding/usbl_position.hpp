@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimation/aiding/model.hpp"
+#include "estimation/aiding/underwater_place.hpp"
 #include "samples/usbl.hpp"
 
 namespace fathom::estimation {
@@ -58,18 +59,9 @@ class UsblPosition {
     turn_ -= geo::skew(s.value3(Group::usbl_misalignment));
   }
 
-  [[nodiscard]] static Usable usable(const UsblSample& sample) {
-    const bool placed = is_on_earth(sample.latitude_rad, sample.longitude_rad);
-    const bool deep = !known(sample.depth_m) || (sample.depth_m > -50.0 && sample.depth_m < 12000.0);
-    return placed && deep ? Usable::yes : Usable::out_of_range;
-  }
+  [[nodiscard]] static Usable usable(const UsblSample& sample) { return usable_place(sample); }
   [[nodiscard]] int dimension() const { return 3; }
-  [[nodiscard]] Vector3 measured() const {
-    const geo::Geodetic& here = s_.state.nav.position;
-    Vector3 m = geo::difference_N(here, {sample_.latitude_rad, sample_.longitude_rad, here.altitude_m});
-    m.z() = sample_.depth_m;
-    return m;
-  }
+  [[nodiscard]] Vector3 measured() const { return place_N_m(s_, sample_); }
   [[nodiscard]] Vector3 predicted() const {
     const Vector3 straight{lever_N_.x() + s_.value(Group::usbl_bias, 0),
                            lever_N_.y() + s_.value(Group::usbl_bias, 1),
