@@ -14,9 +14,8 @@
 #include <asio/serial_port.hpp>
 #include <asio/steady_timer.hpp>
 
-#include "base/time.hpp"
-#include "runtime/backoff.hpp"
 #include "runtime/lane.hpp"
+#include "runtime/reopening.hpp"
 #include "runtime/serial_line.hpp"
 
 namespace fathom::runtime {
@@ -25,8 +24,6 @@ namespace {
 using asio::ip::tcp;
 using asio::ip::udp;
 
-constexpr double kFirstWait_s = 0.1;
-constexpr double kLongestWait_s = 5.0;
 constexpr std::chrono::seconds kConnectTimeout{3};
 constexpr std::size_t kPiece = 4096;
 constexpr int kMostInKernel = 16 * 1024;
@@ -50,7 +47,6 @@ std::string describe(const ByteLinkConfig& config) {
 struct ByteLink::Impl {
   Impl(ByteLinkConfig config_in, BytesHandler on_bytes_in, Say say_in)
       : config(std::move(config_in)), on_bytes(std::move(on_bytes_in)), say(std::move(say_in)) {
-    shown.name = describe(config);
     asio::post(io, [this] { open(); });
     thread = std::thread([this] { io.run(); });
   }
@@ -58,6 +54,7 @@ struct ByteLink::Impl {
     asio::post(io, [this] {
       stopping = true;
       timer.cancel();
+      port.stop();
       close();
       io.stop();
     });
@@ -142,7 +139,7 @@ struct ByteLink::Impl {
                                    });
   }
   void take(std::size_t size) {
-    backoff.reset();
+    port.begin_anew();
     {
       const std::lock_guard lock(mutex);
       shown.bytes_received += size;
@@ -181,27 +178,9 @@ struct ByteLink::Impl {
   }
   void fail(const std::string& why) {
     close();
-    bool is_new = false;
-    {
-      const std::lock_guard lock(mutex);
-      is_new = shown.trouble.empty();
-      shown.trouble = why;
-    }
-    if (is_new) say(true, shown.name + ": " + why + "; it is tried again and again");
-    timer.expires_after(std::chrono::nanoseconds(from_seconds(backoff.next_s())));
-    timer.async_wait([this](const asio::error_code& error) {
-      if (!error) open();
-    });
+    port.fail(why, [this] { open(); });
   }
-  void well() {
-    bool was_bad = false;
-    {
-      const std::lock_guard lock(mutex);
-      was_bad = !shown.trouble.empty();
-      shown.trouble.clear();
-    }
-    say(false, shown.name + (was_bad ? ": open again" : ": open"));
-  }
+  void well() { port.well("open"); }
 
   const ByteLinkConfig config;
   const BytesHandler on_bytes;
@@ -209,7 +188,7 @@ struct ByteLink::Impl {
   asio::io_context io;
   asio::executor_work_guard<asio::io_context::executor_type> work{io.get_executor()};
   asio::steady_timer timer{io};
-  Backoff backoff{kFirstWait_s, kLongestWait_s};
+  Reopening port{io, describe(config), say};
   udp::socket datagrams{io};
   udp::endpoint target;
   udp::endpoint from;
@@ -234,7 +213,10 @@ void ByteLink::send(std::vector<std::uint8_t> bytes) {
 
 LinkStatus ByteLink::status() const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->shown;
+  LinkStatus out = impl_->shown;
+  out.name = impl_->port.name();
+  out.trouble = impl_->port.trouble();
+  return out;
 }
 
 }  // namespace fathom::runtime

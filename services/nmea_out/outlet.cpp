@@ -14,11 +14,9 @@
 #include <asio/ip/udp.hpp>
 #include <asio/post.hpp>
 #include <asio/serial_port.hpp>
-#include <asio/steady_timer.hpp>
 
-#include "base/time.hpp"
-#include "runtime/backoff.hpp"
 #include "runtime/lane.hpp"
+#include "runtime/reopening.hpp"
 #include "runtime/serial_line.hpp"
 
 namespace fathom::nmea_out {
@@ -31,8 +29,6 @@ using config::NmeaOutputType;
 using Text = std::shared_ptr<const std::string>;
 
 constexpr int kMostInKernel = 16 * 1024;
-constexpr double kFirstWait_s = 0.1;
-constexpr double kLongestWait_s = 5.0;
 
 std::string describe(const NmeaOutputConfig& config) {
   const std::string endpoint = config.address + ":" + std::to_string(config.port);
@@ -50,14 +46,8 @@ std::string describe(const NmeaOutputConfig& config) {
 /// One way out. Everything but status() runs on the outlets' thread.
 class Outlet {
  public:
-  Outlet(asio::io_context& io_in, NmeaOutputConfig config_in, const Outlets::Say& say_in)
-      : io(io_in),
-        config(std::move(config_in)),
-        say(say_in),
-        timer(io),
-        backoff(kFirstWait_s, kLongestWait_s) {
-    shown.name = describe(config);
-  }
+  Outlet(asio::io_context& io_in, NmeaOutputConfig config_in, const Outlets::Say& say)
+      : io(io_in), config(std::move(config_in)), port(io, describe(config), say) {}
   virtual ~Outlet() = default;
   Outlet(const Outlet&) = delete;
   Outlet& operator=(const Outlet&) = delete;
@@ -65,18 +55,21 @@ class Outlet {
   void start() {
     try {
       open();
-      backoff.reset();
-      well();
+      port.begin_anew();
+      port.well();
     } catch (const std::exception& error) {
       fail(error.what());
     }
   }
   virtual void send(const Text& text) = 0;
-  virtual void stop() { timer.cancel(); }
+  virtual void stop() { port.stop(); }
 
   [[nodiscard]] OutletStatus status() const {
     const std::lock_guard lock(mutex);
-    return shown;
+    OutletStatus out = shown;
+    out.name = port.name();
+    out.trouble = port.trouble();
+    return out;
   }
 
  protected:
@@ -86,26 +79,7 @@ class Outlet {
   /// Closes, says why once, and opens again after a while.
   void fail(const std::string& why) {
     close();
-    bool is_new = false;
-    {
-      const std::lock_guard lock(mutex);
-      is_new = shown.trouble.empty();
-      shown.trouble = why;
-    }
-    if (is_new) say(true, shown.name + ": " + why + "; it is tried again and again");
-    timer.expires_after(std::chrono::nanoseconds(from_seconds(backoff.next_s())));
-    timer.async_wait([this](const asio::error_code& error) {
-      if (!error) start();
-    });
-  }
-  void well() {
-    bool was_bad = false;
-    {
-      const std::lock_guard lock(mutex);
-      was_bad = !shown.trouble.empty();
-      shown.trouble.clear();
-    }
-    if (was_bad) say(false, shown.name + ": open again");
+    port.fail(why, [this] { start(); });
   }
   void show(const runtime::Flow& flow, int clients = 0) {
     const std::lock_guard lock(mutex);
@@ -116,9 +90,7 @@ class Outlet {
 
   asio::io_context& io;
   const NmeaOutputConfig config;
-  const Outlets::Say& say;
-  asio::steady_timer timer;
-  runtime::Backoff backoff;
+  runtime::Reopening port;
 
  private:
   mutable std::mutex mutex;
