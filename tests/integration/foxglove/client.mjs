@@ -7,6 +7,8 @@
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
+import { leaves } from "../../support/leaves.mjs";
+
 const require = createRequire(join(process.env.FATHOM_NPM_DIR, "package.json"));
 const { FoxgloveClient } = require("@foxglove/ws-protocol");
 const { parseIDL } = require("@foxglove/omgidl-parser");
@@ -14,23 +16,6 @@ const { MessageReader } = require("@foxglove/omgidl-serialization");
 const WebSocket = require("ws");
 
 const [mode, url, seconds] = process.argv.slice(2);
-const bits = new DataView(new ArrayBuffer(8));
-function leaves(value, field, definitions, out) {
-  if (Array.isArray(value) || ArrayBuffer.isView(value)) {
-    if (field.arrayLengths === undefined) out.push(String(value.length));
-    for (const one of value) leaves(one, { ...field, isArray: false }, definitions, out);
-  } else if (field.isComplex) {
-    for (const inner of definitions.get(field.type).definitions) leaves(value[inner.name], inner, definitions, out);
-  } else if (field.type === "float64") {
-    bits.setFloat64(0, value);
-    out.push(Number.isNaN(value) ? "nan" : bits.getBigUint64(0).toString());
-  } else if (typeof value === "string") {
-    out.push(`'${value}'`);
-  } else {
-    out.push(String(Number.isInteger(value) || typeof value === "bigint" ? value : Number(value)));
-  }
-}
-
 const socket = new WebSocket(url, [FoxgloveClient.SUPPORTED_SUBPROTOCOL], { rejectUnauthorized: false });
 socket.on("unexpected-response", (_, answer) => {
   answer.on("data", (text) => process.stderr.write(`${answer.statusCode} ${text}`));

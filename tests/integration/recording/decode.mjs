@@ -4,6 +4,8 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
+import { leaves } from "../../support/leaves.mjs";
+
 const require = createRequire(join(process.env.FATHOM_NPM_DIR, "package.json"));
 const { McapIndexedReader, McapStreamReader } = require("@mcap/core");
 const { parseIDL } = require("@foxglove/omgidl-parser");
@@ -50,24 +52,6 @@ function unlz4(frame, size) {
   return out;
 }
 const decompressHandlers = { zstd: (bytes, size) => unzstd(bytes, new Uint8Array(Number(size))), lz4: unlz4 };
-
-const bits = new DataView(new ArrayBuffer(8));
-function leaves(value, field, definitions, out) {
-  if (Array.isArray(value) || ArrayBuffer.isView(value)) {
-    if (field.arrayLengths === undefined) out.push(String(value.length));
-    for (const one of value) leaves(one, { ...field, isArray: false }, definitions, out);
-  } else if (field.isComplex) {
-    const definition = definitions.get(field.type);
-    for (const inner of definition.definitions) leaves(value[inner.name], inner, definitions, out);
-  } else if (field.type === "float64") {
-    bits.setFloat64(0, value);
-    out.push(Number.isNaN(value) ? "nan" : bits.getBigUint64(0).toString());
-  } else if (typeof value === "string") {
-    out.push(`'${value}'`);
-  } else {
-    out.push(String(Number.isInteger(value) || typeof value === "bigint" ? value : Number(value)));
-  }
-}
 
 const file = readFileSync(process.argv[2]);
 const readable = {
