@@ -6,6 +6,7 @@
 
 #include <fathom/client.hpp>
 
+#include "samples/position/gives_position.hpp"
 #include "samples/uncertainty.hpp"
 
 namespace fathom {
@@ -33,7 +34,7 @@ std::string first_fault(const NavHealth& health, const NavState& state, const He
     return sentence("The navigation state is %.2f s old (limit %.2f s).", health.age_s, limits.max_age_s);
   }
   const std::string mode(to_string(state.mode));
-  if (state.mode == NavMode::none || state.mode == NavMode::aligning) {
+  if (!gives_position(state.mode)) {
     return sentence("Navigation gives no position yet: mode %s.", mode.c_str());
   }
   if (!health.usable) return sentence("The navigation state of mode %s is not finite.", mode.c_str());
@@ -63,9 +64,9 @@ NavHealth judge(const std::optional<NavState>& state, double age_s, const Health
   health.age_s = age_s;
   health.fresh = age_s <= limits.max_age_s;
   health.mode = state->mode;
-  health.usable = state->mode != NavMode::none && state->mode != NavMode::aligning &&
-                  std::isfinite(state->latitude_rad) && std::isfinite(state->longitude_rad) &&
-                  all_finite(state->velocity_N_m_s) && all_finite(state->q_NB);
+  health.usable = gives_position(state->mode) && std::isfinite(state->latitude_rad) &&
+                  std::isfinite(state->longitude_rad) && all_finite(state->velocity_N_m_s) &&
+                  all_finite(state->q_NB);
   health.aligned = state->alignment == AlignmentPhase::aligned;
   health.horizontal_95_m = horizontal_95_m(state->position_covariance_N_m2);
   health.heading_sigma_rad = state->rpy_sigma_rad[2];

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "health/text.hpp"
+#include "samples/position/gives_position.hpp"
 
 namespace fathom::health {
 
@@ -174,7 +175,7 @@ MonitorStatus VehicleHealth::status(const Instant& now) const {
   status.alarms_unacknowledged = book_.unacknowledged_count();
   status.sensors = sensors_.items(now);
   status.services = services_.items(now);
-  const bool navigating = !config_.nav.expected || (nav_.fresh() && is_navigating(nav_.mode()));
+  const bool navigating = !config_.nav.expected || (nav_.fresh() && gives_position(nav_.mode()));
   status.known = known(now);
   status.healthy = status.known && navigating && gps_.good() && !book_.any_active(Severity::warning);
   return status;

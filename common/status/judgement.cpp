@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "health/text.hpp"
+#include "samples/position/gives_position.hpp"
 
 namespace fathom::status {
 namespace {
@@ -38,7 +39,7 @@ Judgement judge(const StatusView& view) {
     const NavState& nav = view.nav->sample;
     if (view.nav->age_s > kNavFresh_s) {
       no_navigation(health::sentence("The last navigation state is %.1f s old.", view.nav->age_s));
-    } else if (nav.mode == NavMode::none || nav.mode == NavMode::aligning) {
+    } else if (!gives_position(nav.mode)) {
       no_navigation("There is no position yet: mode " + std::string(to_string(nav.mode)) + ".");
     } else if (!std::isfinite(nav.latitude_rad) || !std::isfinite(nav.longitude_rad)) {
       no_navigation("The position is not finite.");

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "health/text.hpp"
+#include "samples/position/gives_position.hpp"
 #include "samples/uncertainty.hpp"
 
 namespace fathom::status {
@@ -130,7 +131,7 @@ Trust judge_trust(const StatusView& view, double fresh_s) {
   if (!view.nav || view.nav->age_s > fresh_s) return no_navigation(view);
   const NavState& nav = view.nav->sample;
   const bool finite = std::isfinite(nav.latitude_rad) && std::isfinite(nav.longitude_rad);
-  if (nav.mode == NavMode::none || nav.mode == NavMode::aligning || !finite) return not_yet(view);
+  if (!gives_position(nav.mode) || !finite) return not_yet(view);
 
   Trust out;
   out.level = nav.mode == NavMode::inertial ? TrustLevel::caution : TrustLevel::good;

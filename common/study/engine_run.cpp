@@ -9,6 +9,7 @@
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "samples/position/gives_position.hpp"
 
 namespace fathom::study {
 
@@ -59,7 +60,7 @@ void EngineRun::take(const sim::Measurement& measurement) {
 }
 
 bool EngineRun::navigating() const {
-  return engine_.nav_state().mode > NavMode::aligning;
+  return gives_position(engine_.nav_state().mode);
 }
 
 void carry_out(sim::Simulation& simulation, double duration_s, std::span<EngineRun* const> engines,
@@ -92,7 +93,7 @@ void carry_out(sim::Simulation& simulation, double duration_s, std::span<EngineR
 
 HorizontalError horizontal_error(const NavState& nav, const Truth& truth) {
   HorizontalError out{kUnknown, kUnknown, kUnknown};
-  if (nav.mode <= NavMode::aligning) return out;
+  if (!gives_position(nav.mode)) return out;
   const Eigen::Vector3d error = geo::difference_N({truth.latitude_rad, truth.longitude_rad, truth.altitude_m},
                                                   {nav.latitude_rad, nav.longitude_rad, nav.altitude_m});
   const Eigen::Vector2d e = error.head<2>();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "samples/position/gives_position.hpp"
+
 namespace fathom::demo {
 namespace {
 
@@ -18,7 +20,7 @@ bool all_known(const std::array<double, N>& values) {
 }
 
 bool has_position(const NavState& state) {
-  return state.mode != NavMode::none && state.mode != NavMode::aligning;
+  return gives_position(state.mode);
 }
 
 /// A state that guidance can steer by.

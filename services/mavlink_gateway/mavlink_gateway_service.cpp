@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/forward_only.hpp"
 #include "bus/reader.hpp"
 #include "config/json/error.hpp"
 #include "mavlink/frame.hpp"
@@ -20,9 +21,6 @@ namespace fathom::mavlink_gateway {
 namespace {
 
 constexpr DurationNs kFresh_ns = kNsPerSecond;
-/// A state so far behind the one before is of a clock that was set; one that is less is of another fusion
-/// service that has just been relieved.
-constexpr DurationNs kClockWasSet_ns = 10 * kNsPerSecond;
 constexpr std::size_t kMostUnread = 4 * mavlink::kMostFrame;
 constexpr std::uint8_t kTypeGcs = 6;
 
@@ -96,8 +94,7 @@ struct MavlinkGatewayService::Impl {
 
   void take(const NavState& state) {
     const std::lock_guard lock(mutex);
-    const DurationNs behind_ns = newest ? newest->header.stamp_ns - state.header.stamp_ns : -1;
-    if (behind_ns >= 0 && behind_ns < kClockWasSet_ns) return;
+    if (!forward.takes(state.header.stamp_ns)) return;
     newest = state;
     heard_ns = host.clock().monotonic_ns();
     const TimeNs stamp_ns = state.header.stamp_ns;
@@ -208,6 +205,7 @@ struct MavlinkGatewayService::Impl {
   Pace vision;
   Pace gps_input;
   std::optional<geo::Geodetic> origin = origin_in(config);
+  ForwardOnly forward;
   std::optional<NavState> newest;
   TimeNs heard_ns = 0;
   bool is_useful = false;

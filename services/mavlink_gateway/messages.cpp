@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "geo/so3.hpp"
+#include "samples/position/gives_position.hpp"
 #include "samples/uncertainty.hpp"
 
 namespace fathom::mavlink_gateway {
@@ -90,8 +91,7 @@ bool all_finite(const NavState& s) {
 }  // namespace
 
 std::optional<Pose> pose_of(const NavState& state, const MavlinkGatewayConfig& config) {
-  if (state.mode == NavMode::none || state.mode == NavMode::aligning || !all_finite(state))
-    return std::nullopt;
+  if (!gives_position(state.mode) || !all_finite(state)) return std::nullopt;
   if (!(state.rpy_sigma_rad[2] <= config.valid_heading_rad)) return std::nullopt;
   const Vector3d lever_B = vector_of(config.point_B_m);
   const Matrix3d C_NB = C_NB_of(state);
@@ -191,7 +191,7 @@ mavlink::Heartbeat heartbeat_of(const std::optional<NavState>& state, bool is_fr
   mavlink::Heartbeat out;
   out.type = kTypeOnboardController;
   out.autopilot = kAutopilotInvalid;
-  const bool has_position = state && state->mode != NavMode::none && state->mode != NavMode::aligning;
+  const bool has_position = state && gives_position(state->mode);
   out.system_status = !state         ? kStateStandby
                       : !is_fresh    ? kStateCritical
                       : has_position ? kStateActive

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/forward_only.hpp"
 #include "bus/reader.hpp"
 #include "nmea_out/outlet.hpp"
 #include "nmea_out/report.hpp"
@@ -15,9 +16,6 @@ namespace fathom::nmea_out {
 namespace {
 
 constexpr DurationNs kTick_ns = kNsPerSecond / 20;
-/// A state so far behind the one before is of a clock that was set; one that is less is of another fusion
-/// service that has just been relieved.
-constexpr DurationNs kClockWasSet_ns = 10 * kNsPerSecond;
 
 }  // namespace
 
@@ -42,9 +40,7 @@ struct NmeaOutService::Impl {
 
   void take(const NavState& state) {
     const std::lock_guard lock(mutex);
-    const DurationNs behind_ns = newest_ns - state.header.stamp_ns;
-    if (newest_ns != 0 && behind_ns >= 0 && behind_ns < kClockWasSet_ns) return;
-    newest_ns = state.header.stamp_ns;
+    if (!forward.takes(state.header.stamp_ns)) return;
     heard_ns = host.clock().monotonic_ns();
     ++states;
     say(report_of(state, config));
@@ -97,7 +93,7 @@ struct NmeaOutService::Impl {
   const config::NmeaOutConfig config;
   std::mutex mutex;  // of what follows up to the outlets
   std::vector<Schedule> schedules;
-  TimeNs newest_ns = 0;
+  ForwardOnly forward;
   std::uint64_t states = 0;
   Outlets outlets;
   TimeNs heard_ns;

@@ -8,6 +8,7 @@
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "samples/position/gives_position.hpp"
 #include "samples/uncertainty.hpp"
 
 namespace fathom::nmea_out {
@@ -46,7 +47,7 @@ bool has_position(const NavState& state) {
   const bool finite = std::isfinite(state.latitude_rad) && std::isfinite(state.longitude_rad) &&
                       std::isfinite(state.velocity_N_m_s[0]) && std::isfinite(state.velocity_N_m_s[1]) &&
                       std::isfinite(state.velocity_N_m_s[2]);
-  return finite && state.mode != NavMode::none && state.mode != NavMode::aligning;
+  return finite && gives_position(state.mode);
 }
 
 bool has_attitude(const NavState& state) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "samples/position/gives_position.hpp"
+
 namespace fathom::explain {
 namespace {
 
@@ -16,7 +18,7 @@ double speed_m_s(const StateRow& row) {
 }  // namespace
 
 bool navigating(const StateRow& row) {
-  return row.mode != NavMode::none && row.mode != NavMode::aligning;
+  return gives_position(row.mode);
 }
 
 Track::Track(const History& history) {

@@ -7,6 +7,7 @@
 #include "health/gps/gps_outage.hpp"
 #include "health/navigation/nav_watch.hpp"
 #include "health/text.hpp"
+#include "samples/position/gives_position.hpp"
 
 namespace fathom::health {
 namespace {
@@ -41,7 +42,7 @@ void FixWatch::advance(Travel& travel, TimeNs stamp_ns, const Pair& velocity_m_s
 
 void FixWatch::add(const NavState& state, const Instant& /*now*/) {
   const auto& v = state.velocity_N_m_s;
-  const bool usable = is_navigating(state.mode) && std::isfinite(v[0]) && std::isfinite(v[1]);
+  const bool usable = gives_position(state.mode) && std::isfinite(v[0]) && std::isfinite(v[1]);
   if (!usable) {
     nav_.stamp_ns = 0;
     nav_velocity_sigma_m_s_ = kUnknown;

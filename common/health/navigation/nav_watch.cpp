@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "health/text.hpp"
+#include "samples/position/gives_position.hpp"
 #include "samples/uncertainty.hpp"
 
 namespace fathom::health {
@@ -23,10 +24,6 @@ bool all_finite(const std::array<double, N>& values) {
 
 }  // namespace
 
-bool is_navigating(NavMode mode) {
-  return mode != NavMode::none && mode != NavMode::aligning;
-}
-
 NavWatch::NavWatch(const NavWatchConfig& config, double startup_s, const Instant& start)
     : config_(config), startup_s_(startup_s), stream_(limits_of(config), start.monotonic_ns) {}
 
@@ -36,10 +33,10 @@ void NavWatch::add(const NavState& state, const Instant& now) {
   stream_.heard(now.monotonic_ns);
   mode_ = state.mode;
   invalid_ =
-      is_navigating(mode_) && !(std::isfinite(state.latitude_rad) && std::isfinite(state.longitude_rad) &&
-                                all_finite(state.velocity_N_m_s) && all_finite(state.q_NB));
+      gives_position(mode_) && !(std::isfinite(state.latitude_rad) && std::isfinite(state.longitude_rad) &&
+                                 all_finite(state.velocity_N_m_s) && all_finite(state.q_NB));
   horizontal_95_m_ =
-      is_navigating(mode_) ? fathom::horizontal_95_m(state.position_covariance_N_m2) : kUnknown;
+      gives_position(mode_) ? fathom::horizontal_95_m(state.position_covariance_N_m2) : kUnknown;
   const double limit_m = config_.horizontal_95_limit_m;
   uncertain_ = horizontal_95_m_ > (uncertain_ ? 0.9 * limit_m : limit_m);
 }

@@ -44,7 +44,4 @@ class NavWatch {
   bool uncertain_ = false;
 };
 
-/// Modes in which the position may be used.
-[[nodiscard]] bool is_navigating(NavMode mode);
-
 }  // namespace fathom::health

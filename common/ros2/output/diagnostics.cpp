@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "ros2/output/messages.hpp"
+#include "samples/position/gives_position.hpp"
 
 namespace fathom::ros2 {
 namespace {
@@ -22,7 +23,7 @@ DiagnosticStatus navigation(const NavState& state, bool is_stale) {
   DiagnosticStatus out;
   out.name = "fathom: navigation";
   out.message = std::string(to_string(state.mode)) + ", alignment " + std::string(to_string(state.alignment));
-  const bool usable = state.mode != NavMode::none && state.mode != NavMode::aligning;
+  const bool usable = gives_position(state.mode);
   out.level =
       is_stale ? DiagnosticStatus::kStale : (usable ? DiagnosticStatus::kOk : DiagnosticStatus::kWarning);
   out.values.push_back(pair("horizontal_sigma_m", std::sqrt(state.position_covariance_N_m2[0] +

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "samples/position/gives_position.hpp"
+
 namespace fathom::ros2 {
 namespace {
 
@@ -40,7 +42,7 @@ Result<Attitude> attitude_of(const NavState& state, Convention convention) {
 }
 
 std::optional<geo::Geodetic> place_of(const NavState& state) {
-  if (state.mode == NavMode::none || state.mode == NavMode::aligning) return std::nullopt;
+  if (!gives_position(state.mode)) return std::nullopt;
   const geo::Geodetic place{state.latitude_rad, state.longitude_rad, state.altitude_m};
   if (!std::isfinite(place.latitude_rad) || !std::isfinite(place.longitude_rad) ||
       !std::isfinite(place.altitude_m)) {

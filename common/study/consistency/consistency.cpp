@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "estimation/engine/fusion_engine.hpp"
+#include "samples/position/gives_position.hpp"
 #include "study/consistency/cell_run.hpp"
 #include "study/consistency/errors.hpp"
 
@@ -46,7 +47,7 @@ class Contender {
   void look(double t_s, const Truth& truth) {
     for (Verdict verdict; engine_.next_verdict(verdict);) continue;
     const NavState& nav = engine_.nav_state();
-    if (nav.mode <= NavMode::aligning) return;
+    if (!gives_position(nav.mode)) return;
     if (!known(aligned_s_) && nav.alignment == AlignmentPhase::aligned) aligned_s_ = t_s;
     if (!known(forecast_m_) && t_s >= cell_->forecast_at_s) {
       forecast_until_s_ = std::min(cell_->duration_s, t_s + kLongestForecast_s) - 0.05;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "estimation/engine/fusion_engine.hpp"
+#include "samples/position/gives_position.hpp"
 #include "sim/random.hpp"
 #include "study/consistency/cell_run.hpp"
 #include "study/consistency/errors.hpp"
@@ -114,7 +115,7 @@ class Contender {
   void look(double t_s, const CellRun& run) {
     for (Verdict verdict; engine_.next_verdict(verdict);) continue;
     const NavState& nav = engine_.nav_state();
-    if (nav.mode <= NavMode::aligning) return;
+    if (!gives_position(nav.mode)) return;
     if (!known(first_s_)) first_s_ = t_s;
     if (!known(aligned_s_) && nav.alignment == AlignmentPhase::aligned) aligned_s_ = t_s;
     if (done() || t_s - first_s_ < kAges[errors_.size()].s) return;

@@ -9,6 +9,7 @@
 #include "base/median.hpp"
 #include "dataset/score.hpp"
 #include "estimation/engine/fusion_engine.hpp"
+#include "samples/position/gives_position.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -132,7 +133,7 @@ class Gatherer {
     if (out_.phases.empty() || out_.phases.back().phase != state.alignment)
       out_.phases.push_back({t_s, state.alignment});
     std::optional<dataset::NavError> error;
-    if (state.mode != NavMode::none && state.mode != NavMode::aligning) {
+    if (gives_position(state.mode)) {
       if (const auto truth = truth_.at(state.header.stamp_ns)) error = dataset::error_of(state, *truth);
     }
     if (error) scorer_.add(*error);

@@ -29,6 +29,7 @@
 #include "report/comparison.hpp"
 #include "runtime/build_info.hpp"
 #include "samples/alignment/help.hpp"
+#include "samples/position/gives_position.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -174,7 +175,7 @@ SolveReport solve(const SolveOptions& options) {
   const dataset::TruthTrack truth(data.reference);
   ReferencePlacement placement;
   const auto score = [&truth](const NavState& state, dataset::Scorer& scorer, ReferencePlacement* place) {
-    if (state.mode == NavMode::none || state.mode == NavMode::aligning) return;
+    if (!gives_position(state.mode)) return;
     const auto at = truth.at(state.header.stamp_ns);
     if (!at) return;
     const dataset::NavError error = dataset::error_of(state, *at);

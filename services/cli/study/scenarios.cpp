@@ -19,6 +19,7 @@
 #include "dataset/score.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
+#include "samples/position/gives_position.hpp"
 #include "sim/simulation.hpp"
 
 namespace fathom::cli {
@@ -181,7 +182,7 @@ void ScenarioStudy::run(const study::RunRequest& request, study::Scores& scores)
       const NavState& state = engine.nav_state();
       if (!known(aligned_s) && state.alignment == AlignmentPhase::aligned)
         aligned_s = to_seconds(state.header.stamp_ns - kEpochNs);
-      if (state.header.stamp_ns >= next_score_ns && state.mode > NavMode::aligning) {
+      if (state.header.stamp_ns >= next_score_ns && gives_position(state.mode)) {
         kept.push_back({state, engine.navigation_covariance().block<3, 3>(6, 6)});
         next_score_ns += kNsPerSecond;
       }

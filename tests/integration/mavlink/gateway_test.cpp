@@ -168,8 +168,12 @@ TEST(MavlinkGateway, AnIndependentReaderFindsWhatWasSaid) {
       "fathom-mavlink-gateway",
       arguments(port, {"messages.vision_position_hz=10", "messages.gps_input_hz=5", "geoid_height_m=10"}));
   std::map<std::uint32_t, int> count;
+  bool navigating = false;  // told once a second; the first heartbeat may come before the first state
   EXPECT_TRUE(autopilot.listen([&](const mavlink::Frame& frame) {
-    return ++count[frame.id] >= 30 && count.size() >= 4;
+    if (frame.id == mavlink::Heartbeat::kId)
+      navigating = mavlink::message_of<mavlink::Heartbeat>(frame.payload).system_status == 4;
+    count[frame.id]++;
+    return count[mavlink::Odometry::kId] >= 30 && count.size() >= 4 && navigating;
   })) << gateway.err();
   vehicle.reset();
   EXPECT_TRUE(autopilot.listen([&](const mavlink::Frame& frame) {

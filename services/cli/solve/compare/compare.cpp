@@ -11,6 +11,7 @@
 #include "cli/solve/smooth.hpp"
 #include "dataset/score.hpp"
 #include "estimation/engine/fusion_engine.hpp"
+#include "samples/position/gives_position.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -30,7 +31,7 @@ Truth truth_of(const NavState& state) {
 }
 
 bool navigates(const NavState& state) {
-  return state.mode != NavMode::none && state.mode != NavMode::aligning && known(state.latitude_rad);
+  return gives_position(state.mode) && known(state.latitude_rad);
 }
 
 dataset::TruthTrack smoothed_track(const SolveRun& first) {
