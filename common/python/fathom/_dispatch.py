@@ -1,0 +1,67 @@
+"""Calls the handlers of a client, on a thread of Python, and ends it in every way that a program may end."""
+from __future__ import annotations
+
+import atexit
+import threading
+from collections.abc import Callable
+
+from . import _native
+
+_EXIT_S = 2.0  # how long the end of the interpreter waits for a handler that is running
+
+
+class Dispatch:
+    """Refers to the client's core and not to the client: a client that nobody uses any more can be collected."""
+
+    def __init__(self, core: _native.Core) -> None:
+        self._core = core
+        self._handlers: dict[str, Callable] = {}
+        self._hear = {"nav_state": core.hear_states, "alarm": core.hear_alarms}
+        self._lock = threading.RLock()  # held while a handler runs
+        self._thread: threading.Thread | None = None
+        atexit.register(self._at_exit)
+
+    def handle(self, topic: str, handler: Callable | None) -> None:
+        if handler is not None and not callable(handler):
+            raise TypeError(f"Client.on_{topic}: handler: expected something to call, or None, got {type(handler).__name__}")
+        with self._lock:
+            self._hear[topic](handler is not None)
+            if handler is None:
+                self._handlers.pop(topic, None)
+                return
+            self._handlers[topic] = handler
+            if self._thread is None:
+                self._thread = threading.Thread(target=self._run, name="fathom", daemon=True)
+                self._thread.start()
+
+    def _run(self) -> None:
+        while (event := self._core.next_event()) is not None:
+            self._call(*event)
+            del event  # a thread that waits keeps nothing alive
+
+    def _call(self, topic: str, value: object) -> None:
+        with self._lock:
+            handler = self._handlers.get(topic)
+            if handler is None:
+                return
+            try:
+                handler(value)
+            except BaseException as error:  # the next state is handled whatever this one did
+                _native.report(error, handler)
+
+    def close(self) -> None:
+        """Returns when no handler runs any more, unless it is called from one."""
+        self.abandon()
+        thread = self._thread
+        if thread is not None and thread is not threading.current_thread():
+            thread.join()
+
+    def abandon(self) -> None:
+        """Does not wait for the handlers: the collector calls this anywhere, and may hold what they wait for."""
+        atexit.unregister(self._at_exit)
+        self._core.close()
+
+    def _at_exit(self) -> None:
+        self._core.close_at_exit()
+        if self._thread is not None:
+            self._thread.join(_EXIT_S)
