@@ -80,7 +80,7 @@ class Core::Use {
   };
   explicit Use(const Core& core) : impl_(*core.impl_) {
     if (core.of_another_process()) {
-      throw std::runtime_error("Client: was made by another process, expected one made after the fork");
+      throw std::runtime_error("Client: was made by another process, expected one of this process");
     }
     std::unique_lock lock(impl_.mutex);
     if (impl_.closed) {

@@ -35,6 +35,7 @@ PYBIND11_MODULE(_native, module) {
   py::options options;
   options.disable_function_signatures();
   module.doc() = "The compiled part of the package fathom; not for use by itself.";
+  module.attr("__version__") = FATHOM_VERSION;
   add_values(module, make_kit(module));
   add_core(module);
   module.def("judge", &judgement, py::arg("state"), py::arg("age_s"), py::arg("limits") = py::none(),

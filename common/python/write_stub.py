@@ -14,6 +14,7 @@ from typing import Any
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+__version__: str
 Array = NDArray[numpy.float64]  # without numpy: a tuple, of 3 rows where it is a matrix
 '''
 TAIL = '''
@@ -71,7 +72,8 @@ def stub_of_enum(kind):
 def stub_of_value(kind):
     out = [f"\n\nclass {kind.__name__}:", doc(kind.__doc__, 4)]
     fields = kind.__annotations__
-    out.append("    def __init__(self, *, " + ", ".join(f"{name}: {given(what)} = ..." for name, what in fields.items()) + ") -> None: ...")
+    words = ", ".join(f"{name}: {given(what)} = ..." for name, what in fields.items())
+    out.append(f"    def __init__(self, *, {words}) -> None: ...")
     for name, what in fields.items():
         out += ["    @property", f"    def {name}(self) -> {what}:", doc(getattr(kind, name).__doc__, 8)]
     return out

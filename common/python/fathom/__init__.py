@@ -18,6 +18,7 @@ Values do not change: a newer state is another object.
 from ._native import (
     Alarm, AlignmentCondition, AlignmentPhase, AlignmentStatus, ClientSecurity, HealthLimits, MonitorStatus, NavHealth, NavMode,
     NavState, Presence, ReceiverOutage, Route, RouteWaypoint, SampleHeader, ScaledClock, Severity, WatchedItem, judge)
+from ._native import __version__ as __version__
 from .client import Client
 
 __all__ = [

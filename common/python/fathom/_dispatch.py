@@ -4,6 +4,7 @@ from __future__ import annotations
 import atexit
 import threading
 from collections.abc import Callable
+from typing import Any
 
 from . import _native
 
@@ -15,13 +16,13 @@ class Dispatch:
 
     def __init__(self, core: _native.Core) -> None:
         self._core = core
-        self._handlers: dict[str, Callable] = {}
+        self._handlers: dict[str, Callable[[Any], object]] = {}
         self._hear = {"nav_state": core.hear_states, "alarm": core.hear_alarms}
         self._lock = threading.RLock()  # held while a handler runs
         self._thread: threading.Thread | None = None
         atexit.register(self._at_exit)
 
-    def handle(self, topic: str, handler: Callable | None) -> None:
+    def handle(self, topic: str, handler: Callable[[Any], object] | None) -> None:
         if handler is not None and not callable(handler):
             raise TypeError(f"Client.on_{topic}: handler: expected something to call, or None, got {type(handler).__name__}")
         with self._lock:
