@@ -48,7 +48,7 @@ class Client:
         """Has `handler` called with each navigation state, on a thread of the client, one at a time: be quick.
 
         Replaces the handler before; None ends the calls. No call to the old handler begins once this has returned,
-        unless it is called from within a handler. States and alarms share the thread. Up to 32 states wait for a
+        unless it is called from within a handler: it waits for one that is under way. States and alarms share the thread. Up to 32 states wait for a
         handler that is slow; of more, the oldest are left out, as header.sequence shows. What a handler raises goes
         to sys.unraisablehook, and the calls go on.
 
