@@ -16,39 +16,48 @@ class Dispatch:
 
     def __init__(self, core: _native.Core) -> None:
         self._core = core
-        self._handlers: dict[str, Callable[[Any], object]] = {}
         self._hear = {"nav_state": core.hear_states, "alarm": core.hear_alarms}
-        self._lock = threading.RLock()  # held while a handler runs
+        self._changed = threading.Condition()  # guards what follows; not held while a handler runs
+        self._handlers: dict[str, Callable[[Any], object]] = {}
+        self._call: object | None = None  # the one that is under way
         self._thread: threading.Thread | None = None
         atexit.register(self._at_exit)
 
     def handle(self, topic: str, handler: Callable[[Any], object] | None) -> None:
         if handler is not None and not callable(handler):
             raise TypeError(f"Client.on_{topic}: handler: expected something to call, or None, got {type(handler).__name__}")
-        with self._lock:
+        with self._changed:
             self._hear[topic](handler is not None)
             if handler is None:
                 self._handlers.pop(topic, None)
-                return
-            self._handlers[topic] = handler
-            if self._thread is None:
-                self._thread = threading.Thread(target=self._run, name="fathom", daemon=True)
-                self._thread.start()
+            else:
+                self._handlers[topic] = handler
+                if self._thread is None:
+                    self._thread = threading.Thread(target=self._run, name="fathom", daemon=True)
+                    self._thread.start()
+            call = self._call
+            if call is not None and threading.current_thread() is not self._thread:
+                self._changed.wait_for(lambda: self._call is not call)
 
     def _run(self) -> None:
         while (event := self._core.next_event()) is not None:
-            self._call(*event)
+            self._pass_on(*event)
             del event  # a thread that waits keeps nothing alive
 
-    def _call(self, topic: str, value: object) -> None:
-        with self._lock:
+    def _pass_on(self, topic: str, value: object) -> None:
+        with self._changed:
             handler = self._handlers.get(topic)
             if handler is None:
                 return
-            try:
-                handler(value)
-            except BaseException as error:  # the next state is handled whatever this one did
-                _native.report(error, handler)
+            self._call = object()
+        try:
+            handler(value)
+        except BaseException as error:  # the next state is handled whatever this one did
+            _native.report(error, handler)
+        finally:
+            with self._changed:
+                self._call = None
+                self._changed.notify_all()
 
     def close(self) -> None:
         """Returns when no handler runs any more, unless it is called from one."""

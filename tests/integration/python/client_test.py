@@ -3,6 +3,7 @@ import gc
 import math
 import sys
 import threading
+import time
 import unittest
 import weakref
 
@@ -119,6 +120,24 @@ class ClientTest(unittest.TestCase):
             seen, newest = len(after), navigation.latest().header.sequence
             self.assertTrue(wait_until(lambda: navigation.latest().header.sequence > newest + 5))
             self.assertEqual(len(after), seen)
+
+    def test_taking_a_handler_away_waits_for_the_call_that_is_under_way(self):
+        with client() as navigation:
+            for take_away in (lambda: navigation.on_nav_state(None), lambda: navigation.on_nav_state(lambda _: None), navigation.close):
+                entered, left = [], []
+
+                def handler(state):
+                    entered.append(state)
+                    time.sleep(0.3)
+                    left.append(state)
+
+                navigation.on_nav_state(handler)
+                self.assertTrue(wait_until(lambda: entered))
+                take_away()
+                seen = len(entered)
+                self.assertEqual(len(left), seen)
+                time.sleep(0.1)
+                self.assertEqual(len(entered), seen)
 
     def test_a_handler_that_takes_long_holds_up_neither_the_bus_nor_itself_with_old_states(self):
         with client() as navigation:
