@@ -1,6 +1,7 @@
 #include "python/core.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
@@ -9,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include <arpa/inet.h>
 #include <unistd.h>
 
 #include "base/clock.hpp"
@@ -47,15 +49,45 @@ py::object or_none(const std::optional<T>& value) {
   return value ? py::cast(*value) : py::none();
 }
 
+bool is_address(const std::string& text) {
+  in_addr parsed{};
+  return inet_pton(AF_INET, text.c_str(), &parsed) == 1;
+}
+
+bool is_endpoint(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos || !is_address(text.substr(0, colon))) return false;
+  std::uint16_t port = 0;
+  const auto [rest, error] = std::from_chars(text.data() + colon + 1, text.data() + text.size(), port);
+  return error == std::errc() && rest == text.data() + text.size() && port != 0;
+}
+
+void check_each(const std::vector<std::string>& texts, const std::string& where,
+                bool (*fits)(const std::string&), const char* expected) {
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (!fits(texts[i])) wrong_value(where + "[" + std::to_string(i) + "]", expected, text_of(texts[i]));
+  }
+}
+
+/// What can be told without the network is a ValueError.
 void check(const ClientOptions& options) {
-  if (options.domain > kMostDomain)
+  if (options.domain > kMostDomain) {
     wrong_value("Client.domain", "an int from 0 to 232", py::int_(options.domain));
+  }
   for (const auto& [what, name] :
        {std::pair("vehicle", &options.vehicle), std::pair("name", &options.name)}) {
     if (name->size() > Name::kCapacity) {
-      wrong_value(std::string("Client.") + what, "at most 31 bytes of UTF-8", py::str(*name));
+      wrong_value(std::string("Client.") + what, "at most 31 bytes of UTF-8", text_of(*name));
     }
   }
+  if (options.interfaces.empty()) {
+    wrong_value("Client.interfaces", "at least one IPv4 address of this host", py::list());
+  }
+  constexpr const char* kAddress = "an IPv4 address such as 127.0.0.1";
+  check_each(options.interfaces, "Client.interfaces", is_address, kAddress);
+  check_each(options.peers, "Client.peers", is_address, kAddress);
+  check_each(options.discovery_servers, "Client.discovery_servers", is_endpoint,
+             "an IPv4 address and a port such as 192.168.2.1:11811");
 }
 
 }  // namespace

@@ -123,7 +123,8 @@ class ClientTest(unittest.TestCase):
 
     def test_taking_a_handler_away_waits_for_the_call_that_is_under_way(self):
         with client() as navigation:
-            for take_away in (lambda: navigation.on_nav_state(None), lambda: navigation.on_nav_state(lambda _: None), navigation.close):
+            for take_away in (lambda: navigation.on_nav_state(None), lambda: navigation.on_nav_state(lambda _: None),
+                              navigation.close):
                 entered, left = [], []
 
                 def handler(state):
