@@ -93,7 +93,7 @@ void expect_judged(const Request& request) {
   static const Site kSite({"auv", true, true, "/nonexistent", "[]", kTokens},
                           {[] { return std::string("{}"); },
                            [](const std::string& body, const Identity& who, const std::string&) {
-                             expect(who.role == Role::operator_ || !judge_order(body, who, true).command,
+                             expect(who.role == Role::operator_ || !judge_order(body, who, true).order,
                                     "an order of a stranger");
                              return judge_order(body, who, true);
                            },
