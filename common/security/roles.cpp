@@ -66,12 +66,12 @@ std::vector<Entry> make_entries() {
                      {"fathom/v1/alarm", "fathom/v1/monitor_status", kLifeSign},
                      instruments_and({"fathom/v1/nav_state", "fathom/v1/alignment", "fathom/v1/verdict",
                                       "fathom/v1/forecast", kLifeSign, "fathom/v1/command"})});
-  entries.push_back(
-      {"console",
-       {"fathom/v1/command", told_positions(), kLifeSign},
-       {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
-        "fathom/v1/monitor_status", "fathom/v1/forecast", kLifeSign, "fathom/v1/alarm",
-        KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic, told_positions(), "fathom/v1/route"}});
+  entries.push_back({"console",
+                     {"fathom/v1/command", told_positions(), kLifeSign},
+                     {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict",
+                      "fathom/v1/alignment", "fathom/v1/monitor_status", "fathom/v1/forecast", kLifeSign,
+                      "fathom/v1/alarm", KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic,
+                      KindOf<RangeSample>::kTopic, told_positions(), "fathom/v1/route"}});
   entries.push_back({"guidance", guidance_writes, guidance_reads});
   entries.push_back({"guidance_example", guidance_writes, guidance_reads});
   entries.push_back({"discovery", {kLifeSign}, {}});

@@ -89,7 +89,8 @@ NavRow nav_row(const NavState& state) {
                 state.rpy_sigma_rad[0] * kDegrees,
                 state.rpy_sigma_rad[1] * kDegrees,
                 state.rpy_sigma_rad[2] * kDegrees,
-                state.gps_outage_s};
+                state.gps_outage_s,
+                static_cast<double>(state.mode)};
   return row;
 }
 
