@@ -98,6 +98,8 @@ class History {
   /// Rows nearer to the one before than the spacing are left out, unless one was not used. A later verdict on
   /// the same measurement takes the place of the row of the first one, where that was kept.
   void add(const Verdict& verdict);
+  /// Rows nearer than the spacing are left out here as well, but for positions that somebody told: who told
+  /// one wants to see it.
   void add(const FixRow& fix);
   /// A later verdict on a fix that add() has kept.
   void revise_fix(const Verdict& verdict);
