@@ -146,6 +146,7 @@ async function looksRight(page) {
       const before = await store(page, "(s) => s.tickNumber");
       await until("an update of every part", () => store(page, `(s) => s.tickNumber > ${before} + 12`));
       const theme = await page.evaluate(() => document.documentElement.dataset.theme);
+      await page.waitForSelector("#notices p", {state: "detached"}); // the answer to an order lies over the corner
       await page.screenshot({path: `${kShots}/${name}-${theme}.png`});
       const found = await findings(page);
       check(found.length === 0, `${name} by ${theme}: ${found.join("\n")}`);
