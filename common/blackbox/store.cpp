@@ -72,7 +72,9 @@ void Store::write(Sample& sample, std::uint32_t sequence) {
     auto [schema, is_new] = schemas_.try_emplace(origin.type, 0);
     if (is_new) {
       const auto idl = record::self_contained_idl(record::idl_files(), origin.type);
-      if (idl) schema->second = writer_->add_schema(origin.type, "omgidl", idl.value());
+      // Of a type of others the name alone is known.
+      schema->second = idl ? writer_->add_schema(origin.type, "omgidl", idl.value())
+                           : writer_->add_schema(origin.type, "", "");
     }
     known.channel = writer_->add_channel(schema->second, origin.topic, "cdr",
                                          {{"writer", origin.writer},

@@ -8,13 +8,16 @@
 #include <cstdlib>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include "blackbox/enclosures.hpp"
 #include "blackbox/surroundings.hpp"
 #include "bus/cdr.hpp"
+#include "bus/foreign.hpp"
 #include "bus/raw.hpp"
 #include "bus/topics.hpp"
 #include "samples/command.hpp"
@@ -25,6 +28,7 @@ namespace {
 
 constexpr std::size_t kMostOrigins = 4096;  // writers come from the network: bounded
 constexpr std::size_t kMostNamed = 512;     // alarms and services
+constexpr std::size_t kMostForeign = 256;   // topics of others
 
 constexpr DurationNs kClockWasSet_ns = kNsPerSecond / 100;
 
@@ -62,6 +66,11 @@ std::string hexadecimal(const WriterGuid& guid) {
     out += digits.data();
   }
   return out;
+}
+
+bool is_of(const std::string& topic, const std::string& pattern) {
+  if (!pattern.ends_with('*')) return topic == pattern;
+  return topic.starts_with(std::string_view(pattern).substr(0, pattern.size() - 1));
 }
 
 std::string in_words(const Command& order) {
@@ -125,8 +134,50 @@ struct Tap::Impl {
     }
   }
 
+  std::vector<std::string> look_around(const std::vector<std::string>& patterns) {
+    std::vector<std::string> troubles;
+    for (const bus::ForeignTopic& topic : bus::foreign_topics(participant)) {
+      const bool wanted = std::any_of(patterns.begin(), patterns.end(), [&](const std::string& pattern) {
+        return is_of(topic.topic, pattern);
+      });
+      if (!wanted || foreign.size() >= kMostForeign) continue;
+      const auto [at, is_new] = foreign.try_emplace({topic.topic, topic.type});
+      if (!is_new) continue;
+      at->second.name = topic;
+      try {
+        at->second.reader = std::make_unique<bus::ForeignReader>(
+            participant, topic,
+            [this, name = &at->second.name](std::span<const std::uint8_t> bytes,
+                                            const bus::SampleInfo& info) {
+              if (!ending) (void)put(name->topic.c_str(), name->type.c_str(), name->latched, "", bytes, info);
+            });
+      } catch (const bus::BusError& error) {
+        troubles.emplace_back(error.what());
+      }
+    }
+    return troubles;
+  }
+
   void take(const bus::TopicInfo& topic, bool latched, std::span<const std::uint8_t> bytes,
             const bus::SampleInfo& info) {
+    const std::string key = latched ? bus::key_of(topic.topic, bytes).value_or("") : "";
+    const auto now_ns = put(topic.topic, topic.type, latched, key, bytes, info);
+    if (!now_ns) return;
+    if (topic.topic == std::string_view("fathom/v1/alarm")) {
+      if (const auto alarm = bus::from_cdr<Alarm>(bytes)) note(*alarm, *now_ns);
+    } else if (topic.topic == std::string_view("fathom/v1/command")) {
+      if (const auto order = bus::from_cdr<Command>(bytes))
+        queue.put(Event{*now_ns, "order", in_words(*order)});
+    } else if (topic.topic == std::string_view("fathom/v1/service_status")) {
+      if (const auto status = bus::from_cdr<ServiceStatus>(bytes)) enclose(*status, *now_ns);
+    }
+  }
+
+  /// When it came, the vehicle's time; nothing where there are too many writers to tell apart. `topic` and
+  /// `type` are kept as long as this.
+  std::optional<TimeNs> put(const char* topic, const char* type, bool latched,
+                            const std::string& key_of_sample, std::span<const std::uint8_t> bytes,
+                            const bus::SampleInfo& info) {
     Sample sample;
     sample.log_ns = clock.utc_ns();
     // The writer's clock is its host's; the vehicle's may run at another rate.
@@ -135,31 +186,24 @@ struct Tap::Impl {
     sample.publish_ns =
         sample.log_ns - (sound ? static_cast<DurationNs>(static_cast<double>(age_ns) * clock.rate()) : 0);
     sample.bytes.assign(bytes.begin(), bytes.end());
-    if (latched) sample.key = bus::key_of(topic.topic, bytes).value_or("");
+    sample.key = key_of_sample;
     {
       const std::lock_guard lock(mutex);
-      const std::pair<const char*, WriterGuid> key(topic.topic, info.writer_guid);  // a text of the program
+      const std::pair<const char*, WriterGuid> key(topic, info.writer_guid);
       const auto found = origins.find(key);
       if (found != origins.end()) {
         sample.origin = found->second;
       } else if (origins.size() < kMostOrigins) {
-        sample.origin = queue.add({topic.topic, topic.type, participant.writer_name(info.writer_guid),
-                                   hexadecimal(info.writer_guid), latched});
+        sample.origin = queue.add(
+            {topic, type, participant.writer_name(info.writer_guid), hexadecimal(info.writer_guid), latched});
         origins.emplace(key, sample.origin);
       } else {
-        return;
+        return std::nullopt;
       }
     }
     const TimeNs now_ns = sample.log_ns;
     queue.put(std::move(sample));
-    if (topic.topic == std::string_view("fathom/v1/alarm")) {
-      if (const auto alarm = bus::from_cdr<Alarm>(bytes)) note(*alarm, now_ns);
-    } else if (topic.topic == std::string_view("fathom/v1/command")) {
-      if (const auto order = bus::from_cdr<Command>(bytes))
-        queue.put(Event{now_ns, "order", in_words(*order)});
-    } else if (topic.topic == std::string_view("fathom/v1/service_status")) {
-      if (const auto status = bus::from_cdr<ServiceStatus>(bytes)) enclose(*status, now_ns);
-    }
+    return now_ns;
   }
 
   /// Alarms are published again and again: an event is what changes.
@@ -209,7 +253,12 @@ struct Tap::Impl {
   std::map<Name, bool> alarms;
   std::map<Name, Process> services;
 
-  std::vector<std::unique_ptr<bus::RawReader>> readers;  // end first: they use everything above
+  struct Foreign {
+    bus::ForeignTopic name;
+    std::unique_ptr<bus::ForeignReader> reader;  ///< none where it cannot be listened to
+  };
+  std::map<std::pair<std::string, std::string>, Foreign> foreign;  ///< by topic and type
+  std::vector<std::unique_ptr<bus::RawReader>> readers;  // these end first: they use everything above
 };
 
 Tap::Tap(bus::Participant& participant, Queue& queue, const Clock& clock,
@@ -217,6 +266,9 @@ Tap::Tap(bus::Participant& participant, Queue& queue, const Clock& clock,
     : impl_(
           std::make_unique<Impl>(participant, queue, clock, topics, std::move(host), std::move(catalogue))) {}
 Tap::~Tap() = default;
+std::vector<std::string> Tap::look_around(const std::vector<std::string>& patterns) {
+  return impl_->look_around(patterns);
+}
 const std::vector<std::string>& Tap::refused() const {
   return impl_->refused;
 }

@@ -21,6 +21,10 @@ class Tap {
   /// this host; `catalogue`: its folder of models of instruments.
   Tap(bus::Participant& participant, Queue& queue, const Clock& clock, const std::vector<std::string>& topics,
       std::string host, std::string catalogue);
+
+  /// Listens to what others have begun to write and one of these patterns is: a topic, or its begin with *
+  /// behind it. A line for each that cannot be listened to. Call it now and then, from one thread.
+  [[nodiscard]] std::vector<std::string> look_around(const std::vector<std::string>& patterns);
   ~Tap();
   Tap(const Tap&) = delete;
   Tap& operator=(const Tap&) = delete;

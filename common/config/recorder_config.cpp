@@ -53,6 +53,10 @@ void describe(Schema<RecorderConfig>& s) {
   s.field("around_events", &RecorderConfig::around_events, "a recorder of events");
   s.field("topics", &RecorderConfig::topics,
           "that are kept, e.g. fathom/v1/nav_state; empty: all but the engine's state");
+  s.field("foreign", &RecorderConfig::foreign,
+          "topics of others on the same domain that are kept as well, e.g. rt/camera or rt/*: their bytes "
+          "and the "
+          "names of their types; * at the end stands for anything");
   s.check([](const RecorderConfig& config) -> Fault {
     if (config.folder.empty()) return {"folder", "the path of a folder"};
     if (config.folder.ends_with(".mcap")) return {"folder", "a folder, not a file"};

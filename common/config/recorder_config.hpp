@@ -35,7 +35,8 @@ struct RecorderConfig {
   std::string folder = "/var/lib/fathom/recordings";
   RecordFilesConfig files;
   RecordEventsConfig around_events;
-  std::vector<std::string> topics;  ///< empty: all but the engine's state
+  std::vector<std::string> topics;   ///< empty: all but the engine's state
+  std::vector<std::string> foreign;  ///< patterns of topics that are not this build's; empty: none
 };
 
 [[nodiscard]] ConfigKind recorder_kind();

@@ -89,10 +89,11 @@ std::vector<Entry> make_entries() {
                        "fathom/v1/intake", "fathom/v1/route", "fathom/v1/truth"});
   entries.push_back({"recorder", {kLifeSign}, everything});
   entries.push_back({"foxglove", {kLifeSign}, everything});
-  // What it takes from ROS 2 are instruments; from there come no orders.
+  // What it takes from ROS 2 are instruments and positions that are told; on a protected network come no
+  // orders from there.
   entries.push_back({"ros2_gateway",
                      {KindOf<ImuSample>::kTopic, KindOf<GpsSample>::kTopic, KindOf<DepthSample>::kTopic,
-                      KindOf<DvlSample>::kTopic, kLifeSign},
+                      KindOf<DvlSample>::kTopic, told_positions(), kLifeSign},
                      {"fathom/v1/nav_state", "fathom/v1/alarm", kLifeSign}});
   entries.push_back({"mavlink_gateway", {kLifeSign}, {"fathom/v1/nav_state"}});
   entries.push_back({"nmea_out", {kLifeSign}, {"fathom/v1/nav_state"}});

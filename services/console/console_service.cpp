@@ -179,32 +179,14 @@ struct ConsoleService::Impl {
   OrderJudgement order(const std::string& body, const Identity& who, const std::string& peer) {
     OrderJudgement judgement = judge_order(body, who, config.access.orders);
     const std::string name = who.name.empty() ? "nobody" : who.name;
-    if (judgement.command) {
-      judgement.command->header = host.header();
-      judgement.command->header.sensor = std::string_view("console:" + name);
-      judgement.command->header.sequence = ++sequence;
-      const auto departure = departure_of(*judgement.command);  // before it is set
-      if (!commands.write(*judgement.command)) {
-        judgement = {503, "The vehicle network did not take the order.", {}};
-      } else if (departure && departure->far() && !judgement.command->confirmed) {
-        judgement.confirm = true;
-        judgement.text = health::sentence(
-            "This position lies %.0f m from where navigation is, and %.0f m are expected at most. It is held "
-            "for 60 s, until it is confirmed.",
-            departure->apart_m, departure->allowed_m);
-      }
-    }
-    if (judgement.fix && !tell(*judgement.fix, judgement.age_s))
-      judgement = {503, "The vehicle network did not take the position.", {}};
+    const bool passed_on = judgement.order && pass_on(judgement, name);
     // Every order of somebody known leaves a line with who and when, also one that was refused; strangers are
     // counted and said now and then, so that they cannot fill the disk. Tokens are never written.
     const std::string line =
         " an order of " + name + " (" + std::string(to_string(who.role)) + ") from " + peer + ": ";
-    if (judgement.command || judgement.fix) {
+    if (passed_on) {
       ++orders_given;
-      host.log().info(
-          "passed on" + line +
-          (judgement.fix ? describe(*judgement.fix, judgement.age_s) : describe(*judgement.command)));
+      host.log().info("passed on" + line + describe(*judgement.order));
     } else {
       ++orders_refused;
       if (who.role != Role::nobody) host.log().warning("refused" + line + judgement.text);
@@ -213,15 +195,27 @@ struct ConsoleService::Impl {
     return judgement;
   }
 
-  /// A position of somebody who may give orders goes onto the network as any other measurement does.
-  bool tell(const FixSample& fix, double age_s) {
-    FixSample told = fix;
-    told.header = host.header();
-    told.header.sensor = fix.header.sensor;
-    told.header.received_ns = host.clock().utc_ns();
-    told.header.stamp_ns = told.header.received_ns - from_seconds(age_s);
-    told.header.sequence = static_cast<std::uint64_t>(told.header.received_ns);
-    return fixes.write(told);
+  /// Onto the vehicle network; a position that is told goes there as any other measurement does.
+  bool pass_on(OrderJudgement& judgement, const std::string& name) {
+    if (const auto* told = std::get_if<orders::ToldFix>(&*judgement.order)) {
+      if (fixes.write(orders::sample_of(*told, host.header(), host.clock().utc_ns()))) return true;
+      judgement = {503, "The vehicle network did not take the position.", {}};
+      return false;
+    }
+    auto& command = std::get<Command>(*judgement.order);
+    command.header = host.header();
+    command.header.sensor = std::string_view("console:" + name);
+    command.header.sequence = ++sequence;
+    const auto departure = departure_of(command);  // before it is set
+    if (!commands.write(command)) {
+      judgement = {503, "The vehicle network did not take the order.", {}};
+      return false;
+    }
+    if (departure && departure->far() && !command.confirmed) {
+      judgement.confirm = true;
+      judgement.text = orders::held_text(*departure);
+    }
+    return true;
   }
 
   void say_refused(const Refusal& refusal, const std::string& peer) {

@@ -62,9 +62,14 @@ struct RecorderService::Impl {
       recorder.queue().put(std::move(one));
     for (const std::string& topic : tap.refused()) host.log().warning("not recorded: " + topic);
     host.on_status([this](ServiceStatus& status) { fill(status); });
+    if (config.foreign.empty()) return;
+    host.on_tick(kNsPerSecond, [this, patterns = config.foreign] {
+      for (const std::string& line : tap.look_around(patterns)) host.log().warning("not recorded: " + line);
+    });
   }
   ~Impl() {
     host.on_status([](ServiceStatus&) {});
+    host.on_tick(kNsPerSecond, [] {});
   }
 
   void fill(ServiceStatus& status) {

@@ -10,6 +10,8 @@
 #include "bus/ros2/node.hpp"
 #include "ros2/output/diagnostics.hpp"
 #include "ros2_gateway/inputs.hpp"
+#include "ros2_gateway/map_frame.hpp"
+#include "ros2_gateway/orders.hpp"
 #include "ros2_gateway/outputs.hpp"
 
 namespace fathom::ros2_gateway {
@@ -40,6 +42,10 @@ ros2::Distro distro_of(config::RosDistro word) {
   return ros2::Distro::jazzy;
 }
 
+ros2::PoseRule poses_in(const config::RosFramesConfig& frames) {
+  return {configured_origin(frames).value_or(geo::Geodetic{}), convention_of(frames)};
+}
+
 }  // namespace
 
 struct GatewayService::Impl {
@@ -52,7 +58,11 @@ struct GatewayService::Impl {
         outputs(node, config, host.clock().utc_ns()),
         inputs(make_inputs(config.inputs,
                            {host.participant(), node, host.clock(), host.log(), config.common.vehicle,
-                            config.ros.name_space, config.common.clock.rate})),
+                            config.ros.name_space, config.common.clock.rate, poses_in(config.frames)})),
+        orders(config.orders.topic.empty()
+                   ? nullptr
+                   : std::make_unique<Orders>(host, node,
+                                              config::ros_topic(config.ros.name_space, config.orders.topic))),
         states(host.participant(), [this](const NavState& state, const bus::SampleInfo&) { take(state); }),
         services(host.participant(), [this](const ServiceStatus& s, const bus::SampleInfo&) { note(s); }),
         alarms(host.participant(), [this](const Alarm& alarm, const bus::SampleInfo&) { note(alarm); }) {
@@ -77,6 +87,7 @@ struct GatewayService::Impl {
   void take(const NavState& state) {
     if (state.header.vehicle.view() != config.common.vehicle) return;
     outputs.take(state, host.clock().monotonic_ns());
+    if (orders) orders->heard(state);
     const std::lock_guard lock(mutex);
     book.heard(state, host.clock().utc_ns());
   }
@@ -117,6 +128,10 @@ struct GatewayService::Impl {
     counter("graph_malformed", bus.malformed_datagram);
     status.rates.push_back({"states", static_cast<double>(said.states - last_states)});
     last_states = said.states;
+    if (orders) {
+      counter("orders", orders->passed_on());
+      counter("orders_refused", orders->refused());
+    }
     std::string trouble;
     for (std::size_t i = 0; i < inputs.size(); ++i) fill(*inputs[i], i, status, trouble);
     if (!trouble.empty()) {
@@ -142,6 +157,7 @@ struct GatewayService::Impl {
     status.rates.push_back(
         {std::string_view(sensor), static_cast<double>(counts.samples - last_samples[index])});
     last_samples[index] = counts.samples;
+    if (input.config().rate_hz <= 0.0) return;  // nothing regular that could be missed
     const double silent_s =
         to_seconds(host.clock().monotonic_ns() - (counts.last_ns != 0 ? counts.last_ns : started_ns));
     if (silent_s < std::max(kLeastSilence_s, 5.0 / input.config().rate_hz)) return;
@@ -165,7 +181,8 @@ struct GatewayService::Impl {
   bus::ros2::Node node;
   Outputs outputs;
   std::vector<std::unique_ptr<Input>> inputs;
-  bus::Reader<NavState> states;  // these end first: they hand over to all of the above
+  std::unique_ptr<Orders> orders;  // none where none are taken
+  bus::Reader<NavState> states;    // these end first: they hand over to all of the above
   bus::Reader<ServiceStatus> services;
   bus::Reader<Alarm> alarms;
 };

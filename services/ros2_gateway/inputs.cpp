@@ -7,7 +7,6 @@
 
 #include "bridge/sanity.hpp"
 #include "bus/writer.hpp"
-#include "ros2/input/samples.hpp"
 
 namespace fathom::ros2_gateway {
 namespace {
@@ -62,12 +61,13 @@ class InputOf final : public Input {
   [[nodiscard]] int matched_publishers() const override { return subscription_.matched_publishers(); }
 
  private:
-  /// As bridges promise it: three periods.
+  /// As bridges promise it: three periods; nothing where nothing is regular.
   static bus::WriterOptions writer_options(const config::RosInputConfig& config, double clock_rate) {
     constexpr double kPeriods = 3.0;
     constexpr DurationNs kShortest_ns = 20 * kNsPerMillisecond;
     bus::WriterOptions out;
-    out.deadline_ns = std::max(kShortest_ns, from_seconds(kPeriods / config.rate_hz / clock_rate));
+    if (config.rate_hz > 0.0)
+      out.deadline_ns = std::max(kShortest_ns, from_seconds(kPeriods / config.rate_hz / clock_rate));
     return out;
   }
 
@@ -151,6 +151,10 @@ std::unique_ptr<Input> make_input(const config::RosInputConfig& config, const In
       return std::make_unique<InputOf<ros2::TwistWithCovarianceStamped, DvlSample>>(
           config, around, [rule](const auto& m, const auto& header) { return dvl_sample(m, header, rule); });
     }
+    case RosInputKind::pose:
+      return std::make_unique<InputOf<ros2::PoseWithCovarianceStamped, FixSample>>(
+          config, around,
+          [rule = around.poses](const auto& m, const auto& header) { return fix_sample(m, header, rule); });
   }
   return nullptr;
 }

@@ -11,6 +11,7 @@
 #include "bus/ros2/node.hpp"
 #include "config/doors/ros2_gateway_config.hpp"
 #include "ros2/input/door.hpp"
+#include "ros2/input/samples.hpp"
 #include "runtime/log.hpp"
 
 namespace fathom::ros2_gateway {
@@ -40,6 +41,7 @@ struct InputSurroundings {
   std::string vehicle;
   std::string name_space;
   double clock_rate = 1.0;
+  ros2::PoseRule poses;  ///< how poses in map are places; its origin counts where an input is one
 };
 
 /// Throws bus::BusError.

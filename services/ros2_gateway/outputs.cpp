@@ -4,8 +4,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/unknown.hpp"
 #include "ros2/output/messages.hpp"
+#include "ros2_gateway/map_frame.hpp"
 #include "ros2_gateway/pace.hpp"
 
 namespace fathom::ros2_gateway {
@@ -33,11 +33,6 @@ struct Outlet {
   Pace pace;
 };
 
-std::optional<geo::Geodetic> configured_origin(const config::RosFramesConfig& frames) {
-  if (!known(frames.origin_latitude_rad)) return std::nullopt;
-  return geo::Geodetic{frames.origin_latitude_rad, frames.origin_longitude_rad, frames.origin_altitude_m};
-}
-
 }  // namespace
 
 struct Outputs::Impl {
@@ -45,8 +40,7 @@ struct Outputs::Impl {
       : frames(config.frames),
         names{frames.map, frames.odom, frames.base_link},
         noise{config.outputs.angular_rate_sigma_rad_s, config.outputs.specific_force_sigma_m_s2},
-        convention(frames.convention == config::RosConvention::enu_flu ? ros2::Convention::enu_flu
-                                                                       : ros2::Convention::ned_frd),
+        convention(convention_of(frames)),
         odometry(node, config.ros, config.outputs.odometry),
         imu(node, config.ros, config.outputs.imu),
         fix(node, config.ros, config.outputs.fix),

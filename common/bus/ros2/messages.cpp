@@ -123,5 +123,6 @@ FATHOM_ROS2_MESSAGE(PoseWithCovarianceStamped)
 FATHOM_ROS2_MESSAGE(GeoPoseStamped)
 FATHOM_ROS2_MESSAGE(TFMessage)
 FATHOM_ROS2_MESSAGE(DiagnosticArray)
+FATHOM_ROS2_MESSAGE(String)
 
 }  // namespace fathom::bus::ros2

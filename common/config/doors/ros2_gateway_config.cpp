@@ -68,6 +68,10 @@ std::string ros_topic(const std::string& name_space, const std::string& topic) {
   return (name_space == "/" ? "" : name_space) + "/" + topic;
 }
 
+std::string ros_answer_topic(const std::string& topic) {
+  return topic + "/answer";
+}
+
 void describe(Schema<RosGraphConfig>& s) {
   using C = RosGraphConfig;
   s.field("distro", &C::distro, "the distribution of ROS 2 that the others run, as far as the wire differs")
@@ -185,12 +189,14 @@ void describe(Schema<RosOutputsConfig>& s) {
 
 void describe(Schema<RosInputConfig>& s) {
   using C = RosInputConfig;
+  const std::vector<std::string> kRegular{"imu", "nav_sat_fix", "fluid_pressure", "dvl", "twist"};
   s.field("kind", &C::kind, "which message it is")
       .words({{"imu", RosInputKind::imu},
               {"nav_sat_fix", RosInputKind::nav_sat_fix},
               {"fluid_pressure", RosInputKind::fluid_pressure},
               {"dvl", RosInputKind::dvl},
-              {"twist", RosInputKind::twist}})
+              {"twist", RosInputKind::twist},
+              {"pose", RosInputKind::pose}})
       .decides()
       .required();
   s.field("topic", &C::topic, "in the namespace, or from a slash on").required();
@@ -209,7 +215,11 @@ void describe(Schema<RosInputConfig>& s) {
   s.field("ahead_s", &C::ahead_s, "a stamp further ahead of this host's clock is refused")
       .unit("s")
       .range(0, 60);
-  s.field("rate_hz", &C::rate_hz, "messages per second to expect").unit("Hz").range(0.001, 10'000).required();
+  s.field("rate_hz", &C::rate_hz, "messages per second to expect")
+      .unit("Hz")
+      .range(0.001, 10'000)
+      .only_for(kRegular)
+      .required_for(kRegular);
   s.field("through_water", &C::through_water, "the velocity is relative to the water, not to the bottom")
       .only_for({"twist"});
   s.field("lat_deg", &C::latitude_rad, "of the area of operation, for gravity")
@@ -245,6 +255,34 @@ void describe(Schema<RosInputConfig>& s) {
   });
 }
 
+void describe(Schema<RosOrdersConfig>& s) {
+  using C = RosOrdersConfig;
+  s.field(
+      "topic", &C::topic,
+      "std_msgs/String, in the namespace or from a slash on: orders as the console takes them; what becomes "
+      "of each is said on TOPIC/answer; empty: none are taken, which is so on a protected vehicle network");
+  s.check([](const C& orders) -> Fault {
+    if (!orders.topic.empty() && !is_ros_name(orders.topic, true)) return {"topic", kTopicForm};
+    return {};
+  });
+}
+
+/// What a pose needs: it is a place only in a map that has one.
+Fault fault_of_poses(const Ros2GatewayConfig& config) {
+  for (std::size_t i = 0; i < config.inputs.size(); ++i) {
+    const RosInputConfig& one = config.inputs[i];
+    if (one.kind != RosInputKind::pose) continue;
+    if (!known(config.frames.origin_latitude_rad)) {
+      return {"frames.origin_lat_deg", "the place where map begins, because an input is a pose in it"};
+    }
+    if (one.frame_id != config.frames.map) {
+      return {"inputs." + std::to_string(i) + ".frame_id",
+              config.frames.map + ", the frame of positions (frames.map)"};
+    }
+  }
+  return {};
+}
+
 void describe(Schema<Ros2GatewayConfig>& s) {
   using C = Ros2GatewayConfig;
   s.include(&C::common);
@@ -252,6 +290,7 @@ void describe(Schema<Ros2GatewayConfig>& s) {
   s.field("frames", &C::frames, "names and axes of the frames");
   s.field("outputs", &C::outputs, "what navigation says there");
   s.field("inputs", &C::inputs, "instruments of the vehicle that are topics there");
+  s.field("orders", &C::orders, "orders from there");
   s.check([](const C& config) -> Fault {
     std::set<std::string> topics{"/tf_static"};
     const auto& out = config.outputs;
@@ -279,10 +318,20 @@ void describe(Schema<Ros2GatewayConfig>& s) {
         return {key + ".sensor", "a name that no other input of its kind has"};
       }
     }
-    if (!config.common.bus.security.folder.empty() && config.ros.domain == config.common.bus.domain) {
-      return {"ros.domain", "another domain than bus.domain, which is protected: ROS 2 has no part in it"};
+    const std::string orders = ros_topic(config.ros.name_space, config.orders.topic);
+    if (!orders.empty() &&
+        !(topics.insert(orders).second && topics.insert(ros_answer_topic(orders)).second)) {
+      return {"orders.topic", "a topic that nothing else reads or writes here"};
     }
-    return {};
+    if (!config.common.bus.security.folder.empty()) {
+      if (config.ros.domain == config.common.bus.domain) {
+        return {"ros.domain", "another domain than bus.domain, which is protected: ROS 2 has no part in it"};
+      }
+      if (!orders.empty()) {
+        return {"orders.topic", "nothing: the vehicle network is protected, and the graph of ROS 2 is not"};
+      }
+    }
+    return fault_of_poses(config);
   });
 }
 

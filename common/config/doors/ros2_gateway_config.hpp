@@ -77,6 +77,7 @@ enum class RosInputKind : std::uint8_t {
   fluid_pressure = 2,  ///< sensor_msgs/FluidPressure -> depth
   dvl = 3,             ///< marine_acoustic_msgs/Dvl -> dvl
   twist = 4,           ///< geometry_msgs/TwistWithCovarianceStamped -> dvl
+  pose = 5,            ///< geometry_msgs/PoseWithCovarianceStamped in map -> fix
 };
 
 /// One topic that is an instrument of the vehicle.
@@ -90,14 +91,19 @@ struct RosInputConfig {
   RosStamp stamp = RosStamp::message;
   double oldest_s = 10.0;
   double ahead_s = 0.5;
-  double rate_hz = 1.0;            ///< expected; silent for five periods, at least 2 s, it is missed
-  bool through_water = false;      ///< twist
-  double latitude_rad = 0.0;       ///< fluid_pressure
+  double rate_hz = 0.0;        ///< expected; silent for five periods, at least 2 s, it is missed; 0: never
+  bool through_water = false;  ///< twist
+  double latitude_rad = 0.0;   ///< fluid_pressure
   double atmosphere_Pa = 101'325;  ///< fluid_pressure; 0: of gauge pressure
   double max_angular_rate_rad_s = 35.0;
   double max_specific_force_m_s2 = 400.0;
   double max_speed_m_s = 20.0;
   double max_depth_m = 11'000.0;
+};
+
+/// Section "orders".
+struct RosOrdersConfig {
+  std::string topic;  ///< std_msgs/String; empty: no orders are taken
 };
 
 /// deploy/config/ros2_gateway.json
@@ -107,10 +113,14 @@ struct Ros2GatewayConfig {
   RosFramesConfig frames;
   RosOutputsConfig outputs;
   std::vector<RosInputConfig> inputs;
+  RosOrdersConfig orders;
 };
 
 /// The full name of a topic: "odometry" in "/fathom" is "/fathom/odometry".
 [[nodiscard]] std::string ros_topic(const std::string& name_space, const std::string& topic);
+
+/// Where is said what became of the orders of a topic.
+[[nodiscard]] std::string ros_answer_topic(const std::string& topic);
 
 [[nodiscard]] ConfigKind ros2_gateway_kind();
 

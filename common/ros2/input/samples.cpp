@@ -178,4 +178,34 @@ Entry<DvlSample> dvl_sample(const TwistWithCovarianceStamped& message, const Sam
   return out;
 }
 
+Entry<FixSample> fix_sample(const PoseWithCovarianceStamped& message, const SampleHeader& header,
+                            const PoseRule& rule) {
+  // Metres along the meridian and the parallel mean little further away, and nobody sends a vehicle there.
+  constexpr double kFarthest_m = 1e6;
+  const Point& place = message.pose.pose.position;
+  const Vector3 given{place.x, place.y, place.z};
+  if (!finite(given) || std::hypot(place.x, place.y) > kFarthest_m) {
+    return {Refusal::value,
+            "position is " + text_of(given) + ", expected finite m within 1000 km of the origin"};
+  }
+  const Eigen::Matrix3d P_W = linear_block(message.pose.covariance);
+  const double xx = P_W(0, 0);
+  const double yy = P_W(1, 1);
+  const double xy = P_W(0, 1);
+  const double half_difference = std::hypot(0.5 * (xx - yy), xy);
+  const double greatest_m2 = 0.5 * (xx + yy) + half_difference;
+  if (!std::isfinite(greatest_m2) || xx <= 0.0 || yy <= 0.0 || xy * xy > xx * yy) {
+    return {Refusal::covariance, "pose.covariance has x, y and xy " + text_of({xx, yy, xy}) +
+                                     " m^2, expected a positive covariance: a fix counts by its sigma"};
+  }
+  const Eigen::Vector3d horizontal_W(place.x, place.y, 0.0);
+  const geo::Geodetic at = geo::moved_by(rule.origin, R_WN(rule.convention) * horizontal_W);
+  FixSample out;
+  out.header = header;
+  out.latitude_rad = at.latitude_rad;
+  out.longitude_rad = geo::wrap_pi(at.longitude_rad);
+  out.sigma_m = std::sqrt(greatest_m2);
+  return out;
+}
+
 }  // namespace fathom::ros2

@@ -3,12 +3,15 @@
 #include <array>
 #include <cstdint>
 
+#include "geo/wgs84.hpp"
+#include "ros2/frames/convention.hpp"
 #include "ros2/input/door.hpp"
 #include "ros2/messages/sensors.hpp"
 #include "samples/depth.hpp"
 #include "samples/dvl.hpp"
 #include "samples/gps.hpp"
 #include "samples/imu.hpp"
+#include "samples/position/fix.hpp"
 
 /// Messages as samples. Units, axes and unknown quantities are fathom's afterwards; the values are finite
 /// where they are known. Limits of what an instrument can mean are those of a bridge and not checked here.
@@ -44,5 +47,14 @@ struct VelocityRule {
                                           const VelocityRule& rule);
 [[nodiscard]] Entry<DvlSample> dvl_sample(const TwistWithCovarianceStamped& message,
                                           const SampleHeader& header, const VelocityRule& rule);
+
+struct PoseRule {
+  geo::Geodetic origin;  ///< of the frame map
+  Convention convention = Convention::enu_flu;
+};
+/// The horizontal place alone: heights in map are above the ellipsoid and no depths, and the attitude is
+/// estimated. The sigma of the sample is that along the longest axis of the ellipse. Refused without one.
+[[nodiscard]] Entry<FixSample> fix_sample(const PoseWithCovarianceStamped& message,
+                                          const SampleHeader& header, const PoseRule& rule);
 
 }  // namespace fathom::ros2

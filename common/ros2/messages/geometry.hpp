@@ -41,6 +41,12 @@ struct Header {
   }
 };
 
+struct String {
+  static constexpr const char* kType = "std_msgs/msg/String";
+  std::string data;
+  static void fields(auto& walk, auto& m) { walk("data", m.data); }
+};
+
 struct Vector3 {
   static constexpr const char* kType = "geometry_msgs/msg/Vector3";
   double x = 0.0;

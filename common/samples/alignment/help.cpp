@@ -33,6 +33,26 @@ constexpr std::array kHelp{
     Help{"speed_slope_m_s2", "hold the speed steady"},
 };
 
+// By the names of what is implausible: estimation/navigator/plausibility/findings.cpp.
+constexpr std::array kBlames{
+    std::pair{std::string_view("force_in_g"), Blame{SourceKind::imu, "unit"}},
+    std::pair{std::string_view("force_downwards"), Blame{SourceKind::imu, "sign"}},
+    std::pair{std::string_view("force_along_x"), Blame{SourceKind::imu, "axes"}},
+    std::pair{std::string_view("force_along_y"), Blame{SourceKind::imu, "axes"}},
+    std::pair{std::string_view("imu_rate"), Blame{SourceKind::imu, "rate"}},
+    std::pair{std::string_view("gyro_negated"), Blame{SourceKind::imu, "sign"}},
+    std::pair{std::string_view("gyro_axes"), Blame{SourceKind::imu, "axes"}},
+    std::pair{std::string_view("gyro_in_degrees"), Blame{SourceKind::imu, "unit"}},
+    std::pair{std::string_view("gyro_too_slow"), Blame{SourceKind::imu, "unit"}},
+    std::pair{std::string_view("gps_axes"), Blame{SourceKind::gps, "axes"}},
+    std::pair{std::string_view("gps_unit"), Blame{SourceKind::gps, "unit"}},
+    std::pair{std::string_view("dvl_unit"), Blame{SourceKind::dvl, "unit"}},
+    std::pair{std::string_view("dvl_turned"), Blame{SourceKind::dvl, "mounting"}},
+    std::pair{std::string_view("dvl_mirrored"), Blame{SourceKind::dvl, "axes"}},
+    std::pair{std::string_view("depth_unit"), Blame{SourceKind::depth, "unit"}},
+    std::pair{std::string_view("depth_upwards"), Blame{SourceKind::depth, "sign"}},
+};
+
 }  // namespace
 
 bool is_implausible(const AlignmentCondition& condition) {
@@ -44,6 +64,14 @@ const AlignmentCondition* implausible(const AlignmentStatus& status) {
                                                    status.condition_count, AlignmentStatus::kMaxConditions));
   const auto found = std::find_if(status.conditions.begin(), end, is_implausible);
   return found == end ? nullptr : &*found;
+}
+
+Blame blame_of(const AlignmentCondition& condition) {
+  if (!is_implausible(condition)) return {};
+  const std::string_view name = condition.name.view().substr(kImplausiblePrefix.size());
+  const auto* const found =
+      std::find_if(kBlames.begin(), kBlames.end(), [&](const auto& one) { return one.first == name; });
+  return found == kBlames.end() ? Blame{} : found->second;
 }
 
 std::string_view help_of(const AlignmentCondition& condition) {

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "samples/alignment_status.hpp"
+#include "samples/kinds.hpp"
 
 namespace fathom {
 
@@ -12,6 +13,15 @@ inline constexpr std::string_view kImplausiblePrefix = "implausible_";
 [[nodiscard]] bool is_implausible(const AlignmentCondition& condition);
 /// The first of them in a status; nullptr when all is plausible.
 [[nodiscard]] const AlignmentCondition* implausible(const AlignmentStatus& status);
+
+/// Which instrument is meant and in what it is wrong: "unit", "sign", "axes", "rate" or "mounting", as
+/// findings of commissioning are named.
+struct Blame {
+  SourceKind source = SourceKind::imu;
+  std::string_view kind;
+};
+/// Of a condition that is implausible; without a kind for one that is not known.
+[[nodiscard]] Blame blame_of(const AlignmentCondition& condition);
 
 /// What brings a condition about, as a part of a sentence: "hold still, away from waves". Empty for a name
 /// that is not known.

@@ -30,6 +30,7 @@ struct RecordOptions {
   std::string recover;
   double duration_s = 0.0;
   std::vector<std::string> topics;
+  std::vector<std::string> foreign;
   std::string compression = "zstd";
   bus::ParticipantOptions bus;
 };
@@ -81,14 +82,20 @@ ExitCode record(const RecordOptions& options) {
     blackbox::Recorder recorder(keep, clock, [](bool /*is_trouble*/, const std::string& line) {
       std::fprintf(stderr, "fathom: record: %s\n", line.c_str());
     });
-    const blackbox::Tap tap(participant, recorder.queue(), clock, topics, runtime::host_name(),
-                            config::catalogue_directory());
+    blackbox::Tap tap(participant, recorder.queue(), clock, topics, runtime::host_name(),
+                      config::catalogue_directory());
     for (blackbox::Enclosure& one : blackbox::qos_profiles(options.bus.profiles_dir, clock.utc_ns()))
       recorder.queue().put(std::move(one));
     for (const std::string& line : tap.refused()) std::fprintf(stderr, "fathom: record: %s\n", line.c_str());
     const TimeNs end_ns = clock.monotonic_ns() + from_seconds(options.duration_s);
-    while (stopped == 0 && (options.duration_s <= 0.0 || clock.monotonic_ns() < end_ns))
+    for (int i = 0; stopped == 0 && (options.duration_s <= 0.0 || clock.monotonic_ns() < end_ns); ++i) {
+      constexpr int kLookEvery = 10;
+      if (i % kLookEvery == 0 && !options.foreign.empty()) {
+        for (const std::string& line : tap.look_around(options.foreign))
+          std::fprintf(stderr, "fathom: record: %s\n", line.c_str());
+      }
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
     std::this_thread::sleep_for(std::chrono::nanoseconds(2 * keep.sync_ns));  // the counts of what came
     counts = recorder.counts();
   }
@@ -117,6 +124,11 @@ void add_record(CLI::App& app, ExitCode& exit_code) {
   auto* mend = command->add_option("--recover", options->recover,
                                    "record nothing: close a file that was cut off, in its place");
   command->add_option("--topic", options->topics, "only this one, e.g. nav_state; may be repeated")
+      ->allow_extra_args(false)
+      ->excludes(mend);
+  command
+      ->add_option("--foreign", options->foreign,
+                   "also topics of others on the domain, e.g. rt/camera or 'rt/*'; may be repeated")
       ->allow_extra_args(false)
       ->excludes(mend);
   command->add_option("--compression", options->compression, "of the chunks")

@@ -194,13 +194,15 @@ std::string to_json(const SolveReport& report) {
   out["alignment"] = std::string(to_string(report.alignment));
   if (!report.smoothed) {
     out["ever_aligned"] = report.result.ever_aligned;
-    out["implausible"] = json::array();
+    out["refused_to_align"] = json::array();
     for (const ImplausibleSpan& one : report.result.implausibles)
-      out["implausible"].push_back({{"name", one.name},
-                                    {"text", one.text},
-                                    {"value", number(one.value)},
-                                    {"first_s", one.first_s},
-                                    {"last_s", one.last_s}});
+      out["refused_to_align"].push_back({{"sensor", one.sensor},
+                                         {"kind", one.blame.kind},
+                                         {"name", one.name},
+                                         {"text", one.text},
+                                         {"value", number(one.value)},
+                                         {"first_s", one.first_s},
+                                         {"last_s", one.last_s}});
   }
   out["wall_time_s"] = report.result.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.result));

@@ -85,13 +85,23 @@ std::optional<estimation::InitialState> start_of(const SolveRun& solve_run) {
   return std::nullopt;
 }
 
-void SolveResult::note(const AlignmentStatus& status, double at_s) {
+/// The name of the first instrument of a kind.
+static std::string sensor_of(const estimation::EngineConfig& config, SourceKind kind) {
+  const auto at = std::find_if(config.sensors.begin(), config.sensors.end(),
+                               [&](const auto& one) { return one.kind == kind; });
+  return at == config.sensors.end() ? std::string(to_string(kind)) : at->sensor;
+}
+
+void SolveResult::note(const AlignmentStatus& status, const estimation::EngineConfig& config, double at_s) {
   const AlignmentCondition* found = implausible(status);
   if (found == nullptr) return;
   auto known = std::find_if(implausibles.begin(), implausibles.end(),
                             [&](const ImplausibleSpan& one) { return one.name == found->name.view(); });
-  if (known == implausibles.end())
-    known = implausibles.insert(known, {std::string(found->name.view()), {}, at_s});
+  if (known == implausibles.end()) {
+    const Blame blame = blame_of(*found);
+    known = implausibles.insert(
+        known, {std::string(found->name.view()), blame, sensor_of(config, blame.source), {}, at_s});
+  }
   known->text.assign(status.advice.data(), strnlen(status.advice.data(), status.advice.size()));
   known->value = found->value;
   known->last_s = at_s;
@@ -104,7 +114,8 @@ estimation::EngineConfig engine_of(const SolveRun& solve_run) {
 }
 
 SolveResult run(const SolveRun& solve_run) {
-  estimation::FusionEngine engine(engine_of(solve_run));
+  const estimation::EngineConfig config = engine_of(solve_run);
+  estimation::FusionEngine engine(config);
   if (const auto start = start_of(solve_run)) engine.start_from(*start);
   SolveResult result;
   Progress progress(solve_run.label, solve_run.arrivals->size());
@@ -129,7 +140,7 @@ SolveResult run(const SolveRun& solve_run) {
         ever_aligned = ever_aligned || engine.nav_state().alignment == AlignmentPhase::aligned;
         if (result.nav_states % kStatusEvery == 0) {
           engine.fill(result.alignment);
-          result.note(result.alignment, to_seconds(sample.header.stamp_ns - first_ns));
+          result.note(result.alignment, config, to_seconds(sample.header.stamp_ns - first_ns));
         }
         if (solve_run.on_state) solve_run.on_state(engine.nav_state(), engine);
       }

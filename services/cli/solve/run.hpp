@@ -13,6 +13,7 @@
 #include "config/fusion/fusion_config.hpp"
 #include "dataset/dataset.hpp"
 #include "estimation/engine_config.hpp"
+#include "samples/alignment/help.hpp"
 #include "samples/alignment_status.hpp"
 #include "samples/forecast.hpp"
 #include "samples/innovation_tally.hpp"
@@ -93,7 +94,9 @@ void for_each_sample(const SolveRun& solve_run, Consumer&& consumer) {
 /// sample.
 struct ImplausibleSpan {
   std::string name;
-  std::string text;  ///< one sentence that says what would make it right
+  Blame blame;
+  std::string sensor;  ///< of the configuration; the word of the kind where none is named there
+  std::string text;    ///< one sentence that says what would make it right
   double first_s = 0.0;
   double last_s = 0.0;
   double value = 0.0;
@@ -112,7 +115,7 @@ struct SolveResult {
   std::vector<ImplausibleSpan> implausibles;
 
   /// Keeps what a status finds implausible.
-  void note(const AlignmentStatus& status, double at_s);
+  void note(const AlignmentStatus& status, const estimation::EngineConfig& config, double at_s);
   /// Counts a final verdict; others change nothing.
   void add(const Verdict& verdict);
 };

@@ -1,7 +1,13 @@
 // A real gpsd reads our sentences, and our bridge reads that gpsd.
 
+#include <array>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
 #include <mutex>
+#include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -11,11 +17,26 @@
 #include "integration/nmea_out/spoken.hpp"
 #include "samples/gps.hpp"
 #include "support/free_port.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fathom::test {
 namespace {
 
 constexpr const char* kGpsd = "/usr/sbin/gpsd";
+
+/// Of a bridge that reads the gpsd at `port`.
+std::vector<std::string> bridge_arguments(int port, const std::string& time_mode) {
+  return {"--config",
+          std::string(FATHOM_SOURCE_DIR) + "/deploy/config/gps_bridge.json",
+          "--set",
+          "bus.domain=" + std::to_string(kDomain),
+          "--set",
+          "clock.anchor_file=",
+          "--set",
+          R"(sensors=[{"name":"gps","protocol":"gpsd","rate_hz":5,"time":{"mode":")" + time_mode +
+              R"("},"source":{"type":"tcp_client","address":"127.0.0.1","port":)" + std::to_string(port) +
+              "}}]"};
+}
 
 /// The vehicle and the service; gpsd is started by the tests.
 class Gpsd : public ::testing::Test {
@@ -80,12 +101,7 @@ TEST_F(Gpsd, FeedsTheBridge) {
     return fixes.size();
   };
   Process gpsd(kGpsd, gpsd_arguments());
-  Process bridge("fathom-gps-bridge",
-                 {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/gps_bridge.json", "--set",
-                  "bus.domain=" + std::to_string(kDomain), "--set", "clock.anchor_file=", "--set",
-                  R"(sensors=[{"name":"gps","protocol":"gpsd","rate_hz":5,"time":{"mode":"device_utc"},)"
-                  R"("source":{"type":"tcp_client","address":"127.0.0.1","port":)" +
-                      std::to_string(port) + "}}]"});
+  Process bridge("fathom-gps-bridge", bridge_arguments(port, "device_utc"));
   ASSERT_TRUE(wait_until([&] { return count() >= 20; }, 30.0)) << bridge.err() << gpsd.err();
   // gpsd is started again, as after an update: the bridge asks it anew.
   gpsd.kill(SIGKILL);
@@ -98,6 +114,75 @@ TEST_F(Gpsd, FeedsTheBridge) {
     EXPECT_NEAR((fix.latitude_rad - Vehicle::latitude_rad(fix.header.stamp_ns)) * 6.36e6, 0.0, 0.016);
     EXPECT_NEAR((fix.longitude_rad - Vehicle::kLongitude_rad) * 6.38e6 * std::cos(0.5), 0.0, 0.016);
     EXPECT_NEAR(fix.velocity_N_m_s[0], 1.9, 0.01);
+  }
+}
+
+std::string nmea(const std::string& body) {
+  unsigned sum = 0;
+  for (const char c : body) sum ^= static_cast<unsigned char>(c);
+  std::array<char, 8> end{};
+  std::snprintf(end.data(), end.size(), "*%02X\r\n", sum & 0xFFU);
+  return "$" + body + end.data();
+}
+
+/// What a receiver said that goes north by 1e-3 minutes a second, from now on for `seconds`.
+std::string log_of_a_receiver(int seconds) {
+  std::string out;
+  const std::time_t now = std::time(nullptr);
+  for (int i = 0; i < seconds; ++i) {
+    const std::time_t at = now + i;
+    std::tm utc{};
+    gmtime_r(&at, &utc);
+    std::array<char, 128> text{};
+    std::strftime(text.data(), text.size(), "%H%M%S.00", &utc);
+    const std::string time(text.data());
+    std::strftime(text.data(), text.size(), "%d%m%y", &utc);
+    const std::string date(text.data());
+    std::snprintf(text.data(), text.size(), "3330.%05d,N,15115.00000,E", 100 * i);
+    const std::string place(text.data());
+    out += nmea("GPRMC," + time + ",A," + place + ",3.60,0.0," + date + ",,,A");
+    out += nmea("GPGGA," + time + "," + place + ",1,09,0.9,25.0,M,20.0,M,,");
+  }
+  return out;
+}
+
+// A receiver that gpsfake plays to a real gpsd, which our bridge reads.
+TEST(Gpsfake, FeedsTheBridge) {
+  constexpr const char* kGpsfake = "/usr/bin/gpsfake";
+  if (!is_installed(kGpsd) || !is_installed(kGpsfake))
+    GTEST_SKIP() << "gpsd or gpsd-clients is not installed";
+  const TemporaryFolder folder;
+  const std::string log = (folder.path() / "log.nmea").string();
+  std::ofstream(log) << log_of_a_receiver(60);
+  std::mutex mutex;
+  std::vector<GpsSample> fixes;
+  bus::Participant participant(presence(kDomain, "monitor"));
+  bus::Reader<GpsSample> reader(participant, [&](const GpsSample& fix, const bus::SampleInfo&) {
+    const std::lock_guard lock(mutex);
+    if (fix.fix >= GpsFix::fix_3d) fixes.push_back(fix);
+  });
+  const int port = free_port(SOCK_STREAM);
+  Process gpsfake(kGpsfake, {"-1", "-c", "0.05", "-P", std::to_string(port), log});  // waits for a client
+  Process bridge("fathom-gps-bridge", bridge_arguments(port, "arrival"));
+  const bool enough = wait_until(
+      [&] {
+        const std::lock_guard lock(mutex);
+        return fixes.size() >= 20;
+      },
+      30.0);
+  gpsfake.kill(SIGINT);  // it ends its gpsd
+  (void)gpsfake.wait();
+  ASSERT_TRUE(enough) << bridge.err() << gpsfake.err();
+  const std::lock_guard lock(mutex);
+  for (const GpsSample& fix : fixes) {
+    const double minutes = (fix.latitude_rad / kDegree - 33.5) * 60.0;
+    EXPECT_NEAR(minutes * 1000.0, std::round(minutes * 1000.0), 1e-3) << "one of the places of the log";
+    EXPECT_GE(minutes, -1e-6);
+    EXPECT_LT(minutes, 0.06);
+    EXPECT_NEAR(fix.longitude_rad / kDegree, 151.25, 1e-9);
+    EXPECT_NEAR(fix.altitude_m, 45.0, 0.01)
+        << "above the ellipsoid: 25 m above the sea, which is 20 m above it";
+    EXPECT_NEAR(fix.velocity_N_m_s[0], 3.6 * 1852.0 / 3600.0, 0.01);
   }
 }
 

@@ -1,13 +1,10 @@
 // The gateway as a service, between fathom's bus and a peer of ROS 2.
 
-#include <atomic>
-#include <chrono>
+#include "integration/ros2/gateway.hpp"
+
 #include <cmath>
-#include <memory>
 #include <mutex>
-#include <numbers>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -15,137 +12,17 @@
 
 #include "base/clock.hpp"
 #include "bus/reader.hpp"
-#include "bus/writer.hpp"
-#include "integration/ros2/peer.hpp"
 #include "samples/depth.hpp"
 #include "samples/dvl.hpp"
 #include "samples/gps.hpp"
 #include "samples/imu.hpp"
-#include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
-#include "support/presence.hpp"
-#include "unit/ros2/state.hpp"
 
 namespace fathom {
 namespace {
 
-using test::Peer;
-using test::said;
-using test::wait_until;
+using namespace test;  // NOLINT(google-build-using-namespace): the gateway and the vehicle
 using ::testing::HasSubstr;
-
-constexpr std::uint32_t kVehicle = 73;
-constexpr std::uint32_t kGraph = 74;
-constexpr double kDegree = std::numbers::pi / 180.0;
-const geo::Geodetic kOrigin{36.4 * kDegree, -121.5 * kDegree, -3.0};
-
-std::vector<std::string> arguments(std::vector<std::string> sets = {}) {
-  std::vector<std::string> out{"--config", FATHOM_SOURCE_DIR "/deploy/config/ros2_gateway.json"};
-  const std::string number = std::to_string(kVehicle);
-  for (const std::string& set :
-       {"bus.domain=" + number, std::string("bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds"),
-        "ros.domain=" + std::to_string(kGraph), std::string("clock.anchor_file=")}) {
-    sets.insert(sets.begin(), set);
-  }
-  for (const std::string& set : sets) {
-    out.push_back("--set");
-    out.push_back(set);
-  }
-  return out;
-}
-
-/// A vehicle that navigates at 100 Hz, 1 m/s to the north; what of it is said can be changed on the way.
-class Navigating {
- public:
-  Navigating() : participant_(test::presence(kVehicle, "navigating")), writer_(participant_, options()) {
-    thread_ = std::thread([this] { run(); });
-  }
-  ~Navigating() {
-    done_ = true;
-    thread_.join();
-  }
-  bus::Participant& participant() { return participant_; }
-  [[nodiscard]] bool heard() const { return writer_.matched_readers() > 0; }
-  /// A step of the position that is not motion.
-  void step(double north_m) {
-    const std::lock_guard lock(mutex_);
-    offset_m_ += north_m;
-    ++resets_;
-  }
-  /// Says what was valid `seconds` ago, as a service that is behind does.
-  void lag(double seconds) {
-    const std::lock_guard lock(mutex_);
-    lag_ns_ = from_seconds(seconds);
-  }
-
- private:
-  static bus::WriterOptions options() {
-    bus::WriterOptions out;
-    out.ownership_strength = 10;
-    return out;
-  }
-  void run() {
-    auto next = std::chrono::steady_clock::now();
-    const TimeNs begin_ns = clock_.utc_ns();
-    for (std::uint64_t number = 1; !done_; ++number) {
-      NavState state;
-      {
-        const std::lock_guard lock(mutex_);
-        const TimeNs stamp_ns = clock_.utc_ns() - lag_ns_;
-        const double north_m = to_seconds(stamp_ns - begin_ns) + offset_m_;
-        state = ros2::test::state_at(geo::moved_by(kOrigin, {north_m, 0.0, 0.0}));
-        state.header.stamp_ns = stamp_ns;
-        state.header.received_ns = stamp_ns;
-        state.reset_counter = resets_;
-      }
-      state.header.sequence = number;
-      state.velocity_N_m_s = {1.0, 0.0, 0.0};
-      state.angular_rate_B_rad_s = {0.0, 0.0, 0.0};
-      writer_.write(state);
-      std::this_thread::sleep_until(next += std::chrono::milliseconds(10));
-    }
-  }
-
-  SystemClock clock_;
-  bus::Participant participant_;
-  bus::Writer<NavState> writer_;
-  std::mutex mutex_;
-  double offset_m_ = 0.0;
-  std::uint32_t resets_ = 0;
-  DurationNs lag_ns_ = 0;
-  std::atomic<bool> done_ = false;
-  std::thread thread_;
-};
-
-double number(const std::vector<std::string>& words, std::size_t index) {
-  return index < words.size() ? std::stod(words[index]) : std::nan("");
-}
-
-/// The instant of a message, s before now.
-double age_s(const std::vector<std::string>& stamp) {
-  return to_seconds(SystemClock().utc_ns()) - number(stamp, 0) - 1e-9 * number(stamp, 1);
-}
-
-class Ros2Gateway : public ::testing::Test {
- protected:
-  void start(std::vector<std::string> sets = {}) {
-    gateway = std::make_unique<test::Process>("fathom-ros2-gateway", arguments(std::move(sets)));
-    ASSERT_TRUE(wait_until([&] { return vehicle.heard() || !gateway->running(); }));
-    ASSERT_TRUE(gateway->running()) << gateway->err();
-  }
-  std::map<std::string, std::vector<std::string>> first(const char* type, const char* topic,
-                                                        const char* how = nullptr) {
-    std::vector<std::string> more{type, topic};
-    if (how != nullptr) more.emplace_back(how);
-    Peer peer("read", kGraph, more);
-    const std::string text = peer.output();
-    EXPECT_NE(text, "") << topic << "\n" << gateway->err();
-    return said(text);
-  }
-
-  Navigating vehicle;
-  std::unique_ptr<test::Process> gateway;
-};
 
 TEST_F(Ros2Gateway, SaysNavigationOnEveryTopic) {
   start();
@@ -176,7 +53,7 @@ TEST_F(Ros2Gateway, SaysNavigationOnEveryTopic) {
   auto origin = first("geopose", "rt/fathom/map_origin", "latched");
   EXPECT_NEAR(number(origin["latitude"], 0), 36.4, 0.001) << "also for those who come late";
   Peer tf("read", kGraph, {"tf", "rt/tf"});
-  const auto transforms = test::lines_of(tf.output());
+  const auto transforms = lines_of(tf.output());
   ASSERT_EQ(transforms.size(), 2U);
   EXPECT_THAT(transforms[0], HasSubstr("transform map odom "));
   EXPECT_THAT(transforms[1], HasSubstr("transform odom base_link "));
@@ -188,7 +65,7 @@ TEST_F(Ros2Gateway, LatchesTheFramesThatStandStill) {
   start(
       {R"(frames.static=[{"parent":"base_link","child":"dvl_link","position_m":[0.5,0.0,-0.25],"rpy_deg":[180,0,0]}])"});
   Peer tf("read", kGraph, {"tf", "rt/tf_static", "latched"});
-  const auto words = test::words_of(tf.output());
+  const auto words = words_of(tf.output());
   ASSERT_EQ(words.size(), 12U);
   EXPECT_EQ(words[1], "base_link");
   EXPECT_EQ(words[2], "dvl_link");
@@ -233,8 +110,8 @@ struct Along {
 std::vector<Along> transforms_of(const std::string& text) {
   std::vector<Along> out;
   double map_y = 0.0;
-  for (const std::string& line : test::lines_of(text.substr(0, text.rfind('\n') + 1))) {
-    const auto words = test::words_of(line);
+  for (const std::string& line : lines_of(text.substr(0, text.rfind('\n') + 1))) {
+    const auto words = words_of(line);
     if (words.size() != 12) continue;
     if (words[1] == "map") map_y = number(words, 6);
     if (words[1] != "odom") continue;
@@ -371,11 +248,11 @@ TEST_F(Ros2Gateway, DiesAndComesBackWithoutHarm) {
     }
     return Presence::never_seen;
   };
-  test::Process watch("fathom-monitor", {"--config", FATHOM_SOURCE_DIR "/deploy/config/monitor.json", "--set",
-                                         "bus.domain=" + std::to_string(kVehicle), "--set",
-                                         "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds", "--set",
-                                         "clock.anchor_file=", "--set", "metrics.enabled=false", "--set",
-                                         "journal.path=", "--set", R"(services=[{"name":"ros2_gateway"}])"});
+  Process watch("fathom-monitor", {"--config", FATHOM_SOURCE_DIR "/deploy/config/monitor.json", "--set",
+                                   "bus.domain=" + std::to_string(kVehicle), "--set",
+                                   "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds", "--set",
+                                   "clock.anchor_file=", "--set", "metrics.enabled=false", "--set",
+                                   "journal.path=", "--set", R"(services=[{"name":"ros2_gateway"}])"});
   ASSERT_TRUE(wait_until([&] { return presence() == Presence::present; }, 20.0)) << watch.err();
   const Peer tf("follow", kGraph, {"tf", "rt/tf"});
   ASSERT_TRUE(wait_until([&] { return transforms_of(tf.so_far()).size() > 20; }, 20.0));

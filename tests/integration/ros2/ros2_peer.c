@@ -2,8 +2,8 @@
  * would be. graph: prints the graph. echo TYPE IN OUT: writes to OUT what it reads from IN until it is
  * killed. read TYPE TOPIC [latched|besteffort]: prints the first message received, one "field values" a line.
  * follow TYPE TOPIC: prints a line for each until it is killed.
- * write TYPE TOPIC: publishes a message of an instrument every 20 ms with the time of the host until it is
- * killed. Exits 1 after 20 s without a message. */
+ * write TYPE TOPIC [TEXT]: publishes a message of an instrument every 20 ms with the time of the host until
+ * it is killed; TEXT is that of a string. Exits 1 after 20 s without a message. */
 #include "ros2_peer.h"
 
 #include <string.h>
@@ -13,6 +13,7 @@
 #include "marine_acoustic_msgs.h"
 #include "nav_msgs.h"
 #include "sensor_msgs.h"
+#include "std_msgs.h"
 #include "tf2_msgs.h"
 
 static void values(const char* name, const double* v, size_t n) {
@@ -158,6 +159,25 @@ static void fill_twist(void* data) {
   m->twist.covariance[0] = m->twist.covariance[7] = m->twist.covariance[14] = 0.04;
 }
 
+static void fill_pose(void* data) {
+  geometry_msgs_msg_dds__PoseWithCovarianceStamped_* m = data;
+  m->header = header_now("map");
+  m->pose.pose.position.x = 300.0;
+  m->pose.pose.position.y = 400.0;
+  m->pose.pose.orientation.w = 1.0;
+  m->pose.covariance[0] = 25.0;
+  m->pose.covariance[7] = 100.0;
+}
+static const char* said = "";
+static void fill_string(void* data) {
+  std_msgs_msg_dds__String_* m = data;
+  m->data = (char*)(uintptr_t)said;
+}
+static void print_string(const void* data) {
+  const std_msgs_msg_dds__String_* m = data;
+  printf("data %s\n", m->data);
+}
+
 struct type {
   const char* name;
   const dds_topic_descriptor_t* descriptor;
@@ -171,9 +191,10 @@ static const struct type kTypes[] = {
     {"pressure", &sensor_msgs_msg_dds__FluidPressure__desc, NULL, fill_pressure},
     {"dvl", &marine_acoustic_msgs_msg_dds__Dvl__desc, NULL, fill_dvl},
     {"twist", &geometry_msgs_msg_dds__TwistWithCovarianceStamped__desc, print_twist, fill_twist},
-    {"pose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, print_pose, NULL},
+    {"pose", &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, print_pose, fill_pose},
     {"geopose", &geographic_msgs_msg_dds__GeoPoseStamped__desc, print_geopose, NULL},
     {"tf", &tf2_msgs_msg_dds__TFMessage__desc, print_tf, NULL},
+    {"string", &std_msgs_msg_dds__String__desc, print_string, fill_string},
     {"diagnostics", &diagnostic_msgs_msg_dds__DiagnosticArray__desc, print_diagnostics, NULL},
 };
 
@@ -248,6 +269,7 @@ int main(int argc, char** argv) {
     return each(reader_of(participant, type, argv[4], qos), 0, NULL, writer);
   }
   if (strcmp(argv[1], "write") != 0 || type->fill == NULL) return 2;
+  if (argc == 6) said = argv[5];
   const dds_entity_t writer = writer_of(participant, type, argv[4], qos);
   void* message = calloc(1, type->descriptor->m_size);
   for (;;) {

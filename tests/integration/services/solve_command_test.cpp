@@ -46,6 +46,22 @@ TEST_F(SolveTest, FollowsTheReferenceFromItsStart) {
   EXPECT_NE(last.find(",dead_reckoning,,"), std::string::npos) << last;
 }
 
+TEST_F(SolveTest, SaysWhichInstrumentRefusedToAlign) {
+  auto data = StraightCourse(false).data;
+  dataset::write(path("data"), data);
+  ASSERT_EQ(solve({"--start", "reference", "--metrics", path("sound.json")}), 0) << err;
+  EXPECT_EQ(nlohmann::json::parse(content("sound.json"))["refused_to_align"], nlohmann::json::array());
+  for (ImuSample& imu : data.of<ImuSample>())
+    for (double& one : imu.specific_force_B_m_s2) one *= -1.0;
+  dataset::write(path("data"), data);
+  (void)solve({"--set", "start.mode=in_motion", "--metrics", path("m.json")});
+  const auto refused = nlohmann::json::parse(content("m.json"))["refused_to_align"];
+  ASSERT_EQ(refused.size(), 1U) << err;
+  EXPECT_EQ(refused[0]["sensor"], "imu");
+  EXPECT_EQ(refused[0]["kind"], "sign");
+  EXPECT_NE(refused[0]["text"].get<std::string>().find("negate accelerometer"), std::string::npos);
+}
+
 TEST_F(SolveTest, WritesTheSameBytesTwiceAndFewerRowsWhereAsked) {
   dataset::write(path("data"), StraightCourse(false).data);
   ASSERT_EQ(solve({"--start", "reference"}), 0) << err;

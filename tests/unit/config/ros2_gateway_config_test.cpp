@@ -114,5 +114,39 @@ TEST(Ros2GatewayConfig, LeavesAProtectedNetworkAlone) {
   EXPECT_EQ(with(1), "");
 }
 
+TEST(Ros2GatewayConfig, TakesPosesOnlyInAMapThatHasAPlace) {
+  const auto with = [](const char* frame_id, bool origin) {
+    return complaint([&](json& file) {
+      file["inputs"] = {{{"kind", "pose"}, {"topic", "/pose"}, {"sensor", "ship"}, {"frame_id", frame_id}}};
+      if (!origin) return;
+      for (const char* key : {"origin_lat_deg", "origin_lon_deg", "origin_altitude_m"})
+        file["frames"][key] = 1.0;
+    });
+  };
+  EXPECT_EQ(with("map", true), "");
+  EXPECT_THAT(with("map", false), HasSubstr("frames.origin_lat_deg"));
+  EXPECT_THAT(with("odom", true), HasSubstr("inputs.0.frame_id"));
+  EXPECT_THAT(with("", true), HasSubstr("inputs.0.frame_id"));
+  EXPECT_THAT(complaint([](json& file) { file["inputs"] = {input("pose", "/pose", "ship")}; }),
+              HasSubstr("rate_hz"))
+      << "a position that is told has no rate";
+}
+
+TEST(Ros2GatewayConfig, TakesNoOrdersOntoAProtectedNetwork) {
+  const auto with = [](const char* topic, bool is_protected) {
+    return complaint([&](json& file) {
+      file["orders"]["topic"] = topic;
+      if (!is_protected) return;
+      file["bus"]["security"] = {{"folder", "/etc/fathom/security"}, {"identity", ""}};
+      file["ros"]["domain"] = 42;
+    });
+  };
+  EXPECT_EQ(with("order", false), "");
+  EXPECT_EQ(with("", true), "");
+  EXPECT_THAT(with("order", true), HasSubstr("orders.topic"));
+  EXPECT_THAT(with("an order", false), HasSubstr("orders.topic"));
+  EXPECT_THAT(with("odometry", false), HasSubstr("orders.topic"));
+}
+
 }  // namespace
 }  // namespace fathom::config

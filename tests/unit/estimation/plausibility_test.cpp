@@ -1,4 +1,8 @@
 // What cannot be right is named and does not stay aligned; what is right is left alone.
+#include "estimation/navigator/plausibility/plausibility.hpp"
+
+#include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -282,6 +286,20 @@ TEST(Alignment, EveryConditionThatAVehicleWaitsForSaysWhatHelps) {
   ASSERT_GT(status.condition_count, 0U);
   for (std::uint32_t i = 0; i < status.condition_count; ++i)
     EXPECT_FALSE(help_of(status.conditions[i]).empty()) << status.conditions[i].name.view();
+}
+
+TEST(Plausibility, BlamesAnInstrumentForEachMistake) {
+  constexpr std::array kKinds{"unit", "sign", "axes", "rate", "mounting"};
+  for (std::size_t i = 1; i < kImplausibles; ++i) {
+    const std::string name(to_string(static_cast<Implausible>(i)));
+    AlignmentCondition condition;
+    condition.name = std::string_view(std::string(kImplausiblePrefix) + name);
+    const Blame blame = blame_of(condition);
+    EXPECT_NE(std::find(kKinds.begin(), kKinds.end(), blame.kind), kKinds.end()) << name;
+    const std::string source(to_string(blame.source));
+    EXPECT_EQ(name.starts_with(source), source != "imu" || name == "imu_rate") << name << " of " << source;
+  }
+  EXPECT_EQ(blame_of(AlignmentCondition{}).kind, "");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Messages of ROS 2 at the door: what becomes a sample, and what is refused with which reason.
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -283,6 +284,55 @@ TEST(DvlSampleOf, TakesATwist) {
   EXPECT_NEAR(entry.sample->sigma_m_s, 0.2, 1e-12);
   message.twist.twist.linear.y = kNaN;
   EXPECT_EQ(dvl_sample(message, kHeader, {Axes::flu, DvlMode::water}).why, Refusal::value);
+}
+
+PoseWithCovarianceStamped pose_at(double x, double y, double xx, double yy, double xy = 0.0) {
+  PoseWithCovarianceStamped out;
+  out.pose.pose.position = {x, y, -40.0};
+  out.pose.covariance[0] = xx;
+  out.pose.covariance[7] = yy;
+  out.pose.covariance[1] = out.pose.covariance[6] = xy;
+  return out;
+}
+
+TEST(FixOfPose, IsWhereThePoseIsInMapWhateverItsAxes) {
+  const geo::Geodetic origin{-33.5 * kDegree, 179.9999 * kDegree, 12.0};
+  for (const Convention convention : {Convention::enu_flu, Convention::ned_frd}) {
+    const auto entry = fix_sample(pose_at(300.0, 400.0, 4.0, 4.0), kHeader, {origin, convention});
+    ASSERT_TRUE(entry.sample) << entry.text;
+    const bool enu = convention == Convention::enu_flu;
+    geo::Geodetic at{entry.sample->latitude_rad, entry.sample->longitude_rad, origin.altitude_m};
+    EXPECT_LE(at.longitude_rad, std::numbers::pi);
+    EXPECT_GE(at.longitude_rad, -std::numbers::pi);
+    const Eigen::Vector3d north_east = geo::difference_N(origin, at);
+    EXPECT_NEAR(north_east.x(), enu ? 400.0 : 300.0, 1e-3);
+    EXPECT_NEAR(north_east.y(), enu ? 300.0 : 400.0, 1e-3);
+    EXPECT_EQ(entry.sample->sigma_m, 2.0);
+    EXPECT_TRUE(std::isnan(entry.sample->depth_m)) << "a height above the ellipsoid is no depth";
+  }
+}
+
+TEST(FixOfPose, CountsByTheLongestAxisOfItsEllipse) {
+  // Axes of 5 m and 1 m, turned by 30 degrees.
+  const double c = std::cos(30 * kDegree);
+  const double s = std::sin(30 * kDegree);
+  const auto entry = fix_sample(pose_at(0, 0, 25 * c * c + s * s, 25 * s * s + c * c, 24 * c * s), kHeader,
+                                {geo::Geodetic{}, Convention::enu_flu});
+  ASSERT_TRUE(entry.sample) << entry.text;
+  EXPECT_NEAR(entry.sample->sigma_m, 5.0, 1e-12);
+}
+
+TEST(FixOfPose, NeedsAPlaceAndACovariance) {
+  const PoseRule rule;
+  EXPECT_EQ(fix_sample(pose_at(kNaN, 0, 1, 1), kHeader, rule).why, Refusal::value);
+  EXPECT_EQ(fix_sample(pose_at(2e6, 0, 1, 1), kHeader, rule).why, Refusal::value);
+  for (const auto& [xx, yy, xy] :
+       {std::array{0.0, 0.0, 0.0}, {-1.0, 1.0, 0.0}, {1.0, kNaN, 0.0}, {1.0, kInf, 0.0}, {1.0, 1.0, 2.0}}) {
+    const auto entry = fix_sample(pose_at(0, 0, xx, yy, xy), kHeader, rule);
+    ASSERT_FALSE(entry.sample) << xx << " " << yy << " " << xy;
+    EXPECT_EQ(entry.why, Refusal::covariance);
+    EXPECT_THAT(entry.text, HasSubstr("expected a positive covariance"));
+  }
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ TEST(Roles, EveryTopicWithOneKindOfWriterHasOnlyThat) {
       {"fathom/v1/airspeed", {"air_data_bridge"}},
       {"fathom/v1/altimeter", {"altimeter_bridge"}},
       {"fathom/v1/range", {"range_bridge"}},
-      {"fathom/v1/fix", {"fix_bridge", "console", "cli"}},
+      {"fathom/v1/fix", {"fix_bridge", "ros2_gateway", "console", "cli"}},
       {"fathom/v1/nav_state", {"fusion"}},
       {"fathom/v1/nav_detail", {"fusion"}},
       {"fathom/v1/verdict", {"fusion"}},

@@ -51,6 +51,12 @@ class PeerBook {
   /// Participants that use this topic with another type than `type`, each as "type 'x' of name".
   [[nodiscard]] std::vector<std::string> type_conflicts(const std::string& topic,
                                                         const std::string& type) const;
+  /// Calls `visit(guid, endpoint)` for each writer of others, in the order of GUIDs; it must not call back.
+  template <class Visit>
+  void for_each_writer(Visit&& visit) const {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [guid, one] : writers_) visit(guid, one);
+  }
   /// The readers and writers of others, and the conflicts between any two of them.
   [[nodiscard]] std::vector<NetworkEndpoint> endpoints() const;
   [[nodiscard]] std::vector<NetworkConflict> conflicts() const;

@@ -1,0 +1,79 @@
+// Real vehicles with the class that is shipped for them, and with mistakes: what fusion says of itself,
+// without anybody's help.
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "solve_fixture.hpp"
+#include "support/data.hpp"
+#include "unit/commission/sabotage.hpp"
+
+namespace fathom::test {
+namespace {
+
+struct Recorded {
+  const char* folder;
+  const char* of_class;
+  /// What is said of each mistake: sensor and kind, any of which says it.
+  std::map<std::string, std::set<std::string>> said;
+};
+
+/// A car and a small aircraft. The car never rolls or pitches: two level axes of its gyro may be exchanged.
+const std::vector<Recorded>& recorded() {
+  static const std::map<std::string, std::set<std::string>> kCar{{"accelerometer negated", {"imu sign"}},
+                                                                 {"gyro negated", {"imu sign"}},
+                                                                 {"gyro in deg/s", {"imu unit"}},
+                                                                 {"accelerometer in g", {"imu unit"}},
+                                                                 {"gps velocity east north up", {"gps axes"}},
+                                                                 {"imu 10 % fast", {"imu rate"}}};
+  static const std::vector<Recorded> kAll = [] {
+    auto aircraft = kCar;
+    aircraft["gyro negated"].insert("imu axes");
+    aircraft["gyro x and y swapped"] = {"imu axes"};
+    return std::vector<Recorded>{{"rtkx_drive", "mems_car", kCar}, {"thor75", "mems_fixed_wing", aircraft}};
+  }();
+  return kAll;
+}
+
+class SolveRecorded : public SolveTest {
+ protected:
+  /// The metrics of a solution of `data` as that class.
+  nlohmann::json solved(const dataset::Dataset& data, const char* of_class) {
+    dataset::write(path("data"), data);
+    fs::copy_file(fs::path(FATHOM_SOURCE_DIR "/deploy/config/solve") / (std::string(of_class) + ".json"),
+                  path("class.json"), fs::copy_options::overwrite_existing);
+    (void)solve({"--rate", "1", "--metrics", path("m.json")}, "class.json");
+    return nlohmann::json::parse(content("m.json"));
+  }
+};
+
+TEST_F(SolveRecorded, GrossMistakesAreNamedAndDoNotStayAligned) {
+  const fs::path datasets = FATHOM_DATASETS;
+  if (!fs::exists(datasets)) FATHOM_DATA_IS_MISSING(datasets << " is not there");
+  for (const Recorded& one : recorded()) {
+    const dataset::Dataset data = dataset::read(datasets / one.folder);
+    EXPECT_EQ(solved(data, one.of_class)["refused_to_align"], nlohmann::json::array()) << one.folder;
+    for (const Sabotage& sabotage : sabotages()) {
+      const auto expected = one.said.find(sabotage.name);
+      if (expected == one.said.end()) continue;
+      dataset::Dataset wrong = data;
+      sabotage.commit(wrong);
+      const auto metrics = solved(wrong, one.of_class);
+      const std::string where = std::string(one.folder) + ", " + sabotage.name;
+      EXPECT_NE(metrics["alignment"], "aligned") << where;
+      ASSERT_GE(metrics["refused_to_align"].size(), 1U) << where;
+      for (const auto& found : metrics["refused_to_align"])
+        EXPECT_TRUE(expected->second.contains(found["sensor"].get<std::string>() + " " +
+                                              found["kind"].get<std::string>()))
+            << where << ": " << found["text"];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fathom::test
