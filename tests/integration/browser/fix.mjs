@@ -4,15 +4,20 @@ import {mkdtempSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {check, field, kBin, kDomain, until, view} from "./stage.mjs";
 
+const kRecordS = "900"; // the recorder ends by itself where a test ends before it
 const kProbeSigmaM = 50000; // of a fix that only finds out whether the recorder listens: it tells navigation nothing
 
 /** Records the fixes on the vehicle network; stop() gives their rows. */
 async function recordFixes(page) {
   const folder = mkdtempSync(tmpdir() + "/fathom-fixes-");
   const file = folder + "/fixes.mcap";
-  const recorder = spawn(kBin + "/fathom", ["record", "--topic", "fix", "--domain", kDomain, "--out", file], {
-    stdio: ["ignore", "pipe", "pipe"],
-  });
+  const recorder = spawn(
+    kBin + "/fathom",
+    ["record", "--topic", "fix", "--duration", kRecordS, "--domain", kDomain, "--out", file],
+    {
+      stdio: ["ignore", "pipe", "pipe"],
+    },
+  );
   let output = "";
   for (const stream of [recorder.stdout, recorder.stderr]) stream.on("data", (bytes) => (output += bytes));
   const ended = new Promise((resolve) => recorder.on("exit", resolve));
