@@ -1,4 +1,5 @@
-# `cpack -G DEB` (deploy/package): two packages, the vehicle's and the one that guidance software is built with.
+# `cpack -G DEB` (deploy/package): three packages, the vehicle's, the one that guidance software is built with, and the one
+# that guidance software in Python imports.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME fathom)
 set(CPACK_PACKAGE_VENDOR fathom)
@@ -7,6 +8,9 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Navigation as services on a vehicle netwo
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL fathom client)
+if(FATHOM_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -24,6 +28,15 @@ set(CPACK_DEBIAN_CLIENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_DEPENDS "libfastrtps-dev, libfastcdr-dev, libssl-dev, libtinyxml2-dev")
 set(CPACK_DEBIAN_CLIENT_DESCRIPTION "What guidance software needs to receive fathom's navigation state
  Library, headers, CMake package and QoS profiles.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-fathom)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${FATHOM_PYTHON_DEPENDS}")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS python3-numpy)
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "fathom's navigation state for guidance software in Python
+ Package fathom: states, health, alarms, routes, with the QoS profiles.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_SOURCE_DIR}/python/postinst ${CMAKE_CURRENT_SOURCE_DIR}/python/prerm)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
 # The configuration is the vehicle's: the package brings an example, which postinst puts in place where nothing is yet. A
 # file of the package would come with an upgrade as well, beneath the files of single services that a vehicle has so far.
