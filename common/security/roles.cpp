@@ -20,13 +20,18 @@ Topics instruments_and(std::initializer_list<std::string_view> others) {
   return topics;
 }
 
-/// The topic of positions that people and modems tell.
-std::string_view told_positions() {
+/// The topic of a bridge that has one.
+std::string_view published_by(std::string_view bridge) {
   std::string_view topic;
   for_each_kind([&](auto kind) {
-    if (kind.kRole == "fix_bridge") topic = kind.kTopic;
+    if (kind.kRole == bridge) topic = kind.kTopic;
   });
   return topic;
+}
+
+/// The topic of positions that people and modems tell.
+std::string_view told_positions() {
+  return published_by("fix_bridge");
 }
 
 struct Entry {
@@ -66,12 +71,12 @@ std::vector<Entry> make_entries() {
                      {"fathom/v1/alarm", "fathom/v1/monitor_status", kLifeSign},
                      instruments_and({"fathom/v1/nav_state", "fathom/v1/alignment", "fathom/v1/verdict",
                                       "fathom/v1/forecast", kLifeSign, "fathom/v1/command"})});
-  entries.push_back(
-      {"console",
-       {"fathom/v1/command", told_positions(), kLifeSign},
-       {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict", "fathom/v1/alignment",
-        "fathom/v1/monitor_status", "fathom/v1/forecast", kLifeSign, "fathom/v1/alarm",
-        KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic, told_positions(), "fathom/v1/route"}});
+  entries.push_back({"console",
+                     {"fathom/v1/command", told_positions(), kLifeSign},
+                     {"fathom/v1/nav_state", "fathom/v1/nav_detail", "fathom/v1/verdict",
+                      "fathom/v1/alignment", "fathom/v1/monitor_status", "fathom/v1/forecast", kLifeSign,
+                      "fathom/v1/alarm", KindOf<GpsSample>::kTopic, KindOf<UsblSample>::kTopic,
+                      published_by("range_bridge"), told_positions(), "fathom/v1/route"}});
   entries.push_back({"guidance", guidance_writes, guidance_reads});
   entries.push_back({"guidance_example", guidance_writes, guidance_reads});
   entries.push_back({"discovery", {kLifeSign}, {}});

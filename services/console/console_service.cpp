@@ -99,6 +99,7 @@ struct ConsoleService::Impl {
     listen_to<GpsSample>();
     listen_to<UsblSample>();
     listen_to<FixSample>();
+    listen_to<RangeSample>();
     readers.push_back(std::make_shared<bus::Reader<Route>>(
         host.participant(), [this](const Route& route, const auto& info) {
           take(route, host.participant().writer_name(info.writer_guid));

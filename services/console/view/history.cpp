@@ -89,7 +89,8 @@ NavRow nav_row(const NavState& state) {
                 state.rpy_sigma_rad[0] * kDegrees,
                 state.rpy_sigma_rad[1] * kDegrees,
                 state.rpy_sigma_rad[2] * kDegrees,
-                state.gps_outage_s};
+                state.gps_outage_s,
+                static_cast<double>(state.mode)};
   return row;
 }
 
@@ -163,7 +164,8 @@ void History::add(const FixRow& fix) {
   if (last_fix_ns_.size() >= kMaxSeries && !last_fix_ns_.contains(fix.sensor)) return;
   TimeNs& last_ns = last_fix_ns_[fix.sensor];
   const bool used = !fix.verdict || *fix.verdict == VerdictKind::used;
-  if (!due(fix.utc_ns, last_ns, used ? kFixSpacingNs : kFixSpacingNs / 4)) return;
+  const bool told = fix.source == SourceKind::fix;
+  if (!told && !due(fix.utc_ns, last_ns, used ? kFixSpacingNs : kFixSpacingNs / 4)) return;
   last_ns = fix.utc_ns;
   if (fresh_.fixes.size() < kMostFresh) fresh_.fixes.push_back(fix);
 }

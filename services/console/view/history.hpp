@@ -23,12 +23,13 @@ inline constexpr DurationNs kDetailSpacingNs = 2 * kNsPerSecond;
 inline constexpr DurationNs kVerdictSpacingNs = 400 * kNsPerMillisecond;
 inline constexpr DurationNs kFixSpacingNs = 900 * kNsPerMillisecond;
 
-/// Columns of the navigation's history, in the order of NavRow::values. Units as in the names.
-inline constexpr std::array<std::string_view, 22> kNavColumns{
+/// Columns of the navigation's history, in the order of NavRow::values. Units as in the names; a mode is a
+/// number of NavMode.
+inline constexpr std::array<std::string_view, 23> kNavColumns{
     "lat_deg",    "lon_deg",     "alt_m",     "depth_m",       "v_north_m_s",  "v_east_m_s",
     "v_down_m_s", "roll_deg",    "pitch_deg", "yaw_deg",       "h95_m",        "v95_m",
     "s_north_m",  "s_east_m",    "s_down_m",  "s_v_north_m_s", "s_v_east_m_s", "s_v_down_m_s",
-    "s_roll_deg", "s_pitch_deg", "s_yaw_deg", "gps_outage_s"};
+    "s_roll_deg", "s_pitch_deg", "s_yaw_deg", "gps_outage_s",  "mode"};
 
 struct NavRow {
   TimeNs utc_ns = 0;
@@ -97,6 +98,8 @@ class History {
   /// Rows nearer to the one before than the spacing are left out, unless one was not used. A later verdict on
   /// the same measurement takes the place of the row of the first one, where that was kept.
   void add(const Verdict& verdict);
+  /// Rows nearer than the spacing are left out here as well, but for positions that somebody told: who told
+  /// one wants to see it.
   void add(const FixRow& fix);
   /// A later verdict on a fix that add() has kept.
   void revise_fix(const Verdict& verdict);

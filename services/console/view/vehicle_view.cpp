@@ -39,6 +39,7 @@ void VehicleView::add(const Verdict& verdict, const health::Instant& at) {
   if (!book_.add(verdict, at.monotonic_ns) || !is_news(verdict)) return;
   history_.add(verdict);
   judge_fix(verdict);
+  beacons_.judge(verdict);
   if (sources_.size() >= kMostNames && !sources_.contains(verdict.header.sensor)) return;
   Source& source = sources_[verdict.header.sensor];
   source.line.sensor = verdict.header.sensor;
@@ -91,6 +92,10 @@ void VehicleView::add(const UsblSample& sample, const health::Instant& at) {
 void VehicleView::add(const FixSample& sample, const health::Instant& at) {
   if (sample.header.vehicle.view() != options_.vehicle) return;
   if (auto fix = place_of(sample)) add_fix(*fix, at);
+}
+
+void VehicleView::add(const RangeSample& sample, const health::Instant& at) {
+  if (sample.header.vehicle.view() == options_.vehicle) beacons_.add(sample, at);
 }
 
 std::optional<std::string> VehicleView::add(const Route& route, const health::Instant& at) {
@@ -158,6 +163,7 @@ Tick VehicleView::tick(const health::Instant& at) {
     for (const auto& [name, line] : services_) out.services.push_back(line);
   }
   if (routes_.take_changed() || ticks_ % kServicesEvery == 1) out.routes = routes_.lines(at);
+  out.beacons = beacons_.lines(at);
   const auto states = std::min<std::size_t>(detail_.count, NavDetail::kMaxStates);
   for (std::size_t i = 0; i < states; ++i) {
     if (detail_.states[i].name.view().starts_with("current_")) out.current.push_back(detail_.states[i]);

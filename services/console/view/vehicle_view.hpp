@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "console/view/beacon_book.hpp"
 #include "console/view/history.hpp"
 #include "console/view/route_book.hpp"
 #include "health/instant.hpp"
@@ -47,7 +48,8 @@ struct Tick {
   std::vector<SourceLine> sources;
   std::vector<ServiceLine> services;             ///< in every tenth tick, else empty
   std::optional<std::vector<RouteLine>> routes;  ///< when one changed, and in every tenth tick
-  std::vector<StateEstimate> current;            ///< water current, as far as it is estimated
+  std::vector<BeaconLine> beacons;
+  std::vector<StateEstimate> current;  ///< water current, as far as it is estimated
   Fresh fresh;
   std::vector<VerdictSeries> fresh_series;  ///< names of the series that fresh rows belong to; no rows
   std::vector<Name> detail_names;           ///< only when they changed
@@ -83,6 +85,7 @@ class VehicleView {
   void add(const GpsSample& sample, const health::Instant& at);
   void add(const UsblSample& sample, const health::Instant& at);
   void add(const FixSample& sample, const health::Instant& at);
+  void add(const RangeSample& sample, const health::Instant& at);
   /// A sentence when it was refused.
   std::optional<std::string> add(const Route& route, const health::Instant& at);
 
@@ -121,6 +124,7 @@ class VehicleView {
   std::vector<WaitingFix> waiting_;
   Ring<Judged> judged_{64};  ///< verdicts that came before their fix
   RouteBook routes_;
+  BeaconBook beacons_;
   NavDetail detail_;
   double nav_latency_s_ = kUnknown;
   TimeNs began_ns_ = 0;

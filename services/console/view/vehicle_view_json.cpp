@@ -1,16 +1,12 @@
 #include "console/view/vehicle_view_json.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <string_view>
-#include <type_traits>
 
-#include <nlohmann/json.hpp>
-
+#include "console/view/rows.hpp"
 #include "status/json.hpp"
 
 namespace fathom::console {
@@ -22,62 +18,6 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 double wrapped_deg(double longitude_rad) {
   return std::remainder(longitude_rad * kDegrees, 360.0);
 }
-
-// Rows of numbers are written by hand: ten minutes are a million of them, and building a tree of JSON values
-// first takes ten times as long as writing the text.
-class Rows {
- public:
-  explicit Rows(std::string& out) : out_(out) {}
-  void number(double value, int digits = 6) {
-    comma();
-    if (!std::isfinite(value)) {
-      out_ += "null";
-      return;
-    }
-    std::array<char, 40> text{};
-    const auto end =
-        std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits);
-    out_.append(text.data(), end.ptr);
-  }
-  void instant(TimeNs utc_ns) {
-    comma();
-    out_ += std::to_string(utc_ns / kNsPerMillisecond);
-  }
-  void whole(std::int64_t value) {
-    comma();
-    out_ += std::to_string(value);
-  }
-  void text(std::string_view words) {
-    comma();
-    out_ += nlohmann::json(words).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-  }
-  void key(std::string_view name) {
-    text(name);
-    out_ += ':';
-    first_ = true;
-  }
-  void open(char bracket) {
-    comma();
-    out_ += bracket;
-    first_ = true;
-  }
-  void close(char bracket) {
-    out_ += bracket;
-    first_ = false;
-  }
-  void raw(std::string_view json) {
-    comma();
-    out_ += json;
-  }
-
- private:
-  void comma() {
-    if (!first_) out_ += ',';
-    first_ = false;
-  }
-  std::string& out_;
-  bool first_ = true;
-};
 
 void write(Rows& out, const NavRow& row) {
   out.open('[');
@@ -262,6 +202,35 @@ void write_routes(Rows& out, const std::vector<RouteLine>& lines) {
   out.close(']');
 }
 
+void write_beacons(Rows& out, const std::vector<BeaconLine>& lines) {
+  out.key("beacons");
+  out.open('[');
+  for (const BeaconLine& line : lines) {
+    const RangeSample& range = line.range;
+    out.open('{');
+    out.key("name");
+    out.text(range.beacon.view());
+    out.key("sensor");
+    out.text(range.header.sensor.view());
+    out.key("lat_deg");
+    out.number(range.beacon_latitude_rad * kDegrees, 10);
+    out.key("lon_deg");
+    out.number(wrapped_deg(range.beacon_longitude_rad), 11);
+    out.key("depth_m");
+    out.number(range.beacon_depth_m);
+    out.key("range_m");
+    out.number(range.range_m);
+    out.key("sigma_m");
+    out.number(range.sigma_m, 4);
+    out.key("age_s");
+    out.number(line.age_s, 5);
+    out.key("verdict");
+    line.verdict ? out.whole(static_cast<int>(*line.verdict)) : out.number(kUnknown);
+    out.close('}');
+  }
+  out.close(']');
+}
+
 /// Two by two of the horizontal covariance: the page draws the ellipse.
 void write_covariance(Rows& out, const Tick& tick) {
   out.key("horizontal_covariance_m2");
@@ -305,6 +274,7 @@ std::string tick_json(const Tick& tick) {
   out.key("nav_latency_s");
   out.number(tick.nav_latency_s, 4);
   write_covariance(out, tick);
+  write_beacons(out, tick.beacons);
   out.key("current");
   out.open('[');
   for (const StateEstimate& state : tick.current) {
@@ -357,6 +327,10 @@ std::string snapshot_json(const Snapshot& snapshot) {
   out.key("verdict_kinds");
   out.open('[');
   for (std::size_t i = 0; i < kVerdictKinds; ++i) out.text(to_string(static_cast<VerdictKind>(i)));
+  out.close(']');
+  out.key("nav_modes");
+  out.open('[');
+  for (int i = 0; i <= static_cast<int>(NavMode::inertial); ++i) out.text(to_string(static_cast<NavMode>(i)));
   out.close(']');
   rows("nav", history.nav());
   rows("fixes", history.fixes());

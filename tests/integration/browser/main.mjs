@@ -1,5 +1,7 @@
 // The operator console as an operator meets it. Each step says what it saw; the first that fails ends the run.
 import {existsSync, readFileSync, statSync} from "node:fs";
+import {fixCanBeChanged, fixIsTwoClicks, viewerHasNoFix} from "./fix.mjs";
+import {kMayBeEmpty, overviewFits} from "./layout.mjs";
 import {
   check,
   ddsStatus,
@@ -9,6 +11,7 @@ import {
   sentence,
   startBrowser,
   startDemo,
+  startEmptyConsole,
   startTlsConsole,
   until,
   view,
@@ -72,6 +75,27 @@ async function valuesEqualDds(page) {
   said(`values: latitude differs from DDS by ${lat} deg, longitude by ${lon} deg`);
 }
 
+/** Before there is anything to show: a sentence in the map, and the same layout. */
+async function nothingIsKnown(stage) {
+  const empty = await startEmptyConsole(18498);
+  try {
+    const page = await stage.open(empty.address);
+    await until("the map to say so", async () => /^No position yet/.test(await field(page, "place")));
+    check(await page.isVisible('[data-field="place"]'), "the sentence is seen");
+    const words = await page.locator('[data-field="place"]').boundingBox();
+    const map = await page.locator(".mapbox").boundingBox();
+    check(
+      words.x >= map.x && words.x + words.width <= map.x + map.width && words.y >= map.y,
+      "the sentence lies in the map",
+    );
+    await overviewFits(page, "nothing", kMayBeEmpty);
+    said(`nothing known: "${await field(page, "place")}"`);
+    await page.context().close();
+  } finally {
+    await empty.stop();
+  }
+}
+
 async function outageAppears(pages) {
   for (const page of pages) {
     await until("the GPS outage", async () => /GPS gone/.test(await sentence(page)));
@@ -122,6 +146,7 @@ async function looksRight(page) {
       const before = await store(page, "(s) => s.tickNumber");
       await until("an update of every part", () => store(page, `(s) => s.tickNumber > ${before} + 12`));
       const theme = await page.evaluate(() => document.documentElement.dataset.theme);
+      await page.waitForSelector("#notices p", {state: "detached"}); // the answer to an order lies over the corner
       await page.screenshot({path: `${kShots}/${name}-${theme}.png`});
       const found = await findings(page);
       check(found.length === 0, `${name} by ${theme}: ${found.join("\n")}`);
@@ -265,22 +290,6 @@ async function farPositionIsHeld(page) {
   said(`a position far away: "${text}"`);
 }
 
-async function fixIsTwoClicks(page) {
-  await view(page, "map");
-  const box = page.locator(".view:not([hidden]) #map");
-  await box.click({button: "right", position: {x: 60, y: 60}});
-  await page.waitForSelector('dialog[open] h2:text("Fix")');
-  await page.fill('dialog[open] input[name="minutes"]', "0.2");
-  await page.click('dialog[open] button:text("Tell")');
-  await until("the verdict on the told position", () =>
-    store(page, '(s) => s.tick.sources.some((one) => one.sensor === "operator" && one.last !== null)'),
-  );
-  const last = await store(page, '(s) => s.tick.sources.find((one) => one.sensor === "operator").last');
-  check(["used", "rejected"].includes(last), `a told position was judged: ${last}`);
-  await view(page, "overview");
-  said(`a position told by two clicks on the map: ${last}`);
-}
-
 async function manyClients(stage, address) {
   stage.connectionMayFail = true;
   const pages = await Promise.all(Array.from({length: 10}, () => stage.open(address)));
@@ -309,11 +318,15 @@ async function killFusion(page) {
   process.kill(pid, "SIGKILL");
   await until("no navigation", async () => (await losses(page)) > before);
   const {since, stamp} = await page.evaluate(() => ({...document.documentElement.dataset}));
+  await until("the map to say that its position is an old one", async () =>
+    /^Last known position/.test(await field(page, "place")),
+  );
   said(`kill -9 of fusion: "${await sentence(page)}", shown ${since - stamp} ms after the last state`);
   await until("a new process", () =>
     store(page, `(s) => s.tick.status.services.find((one) => one.name === "fusion").pid !== ${pid}`),
   );
   await navigates(page);
+  await until("a position on the map again", async () => !(await page.isVisible('[data-field="place"]')));
   await until("the restart to be counted", () =>
     store(page, '(s) => s.services.find((one) => one.name === "fusion").restarts >= 1'),
   );
@@ -337,6 +350,7 @@ async function killConsole(stage, pages) {
       (await page.getAttribute("#link", "class")).includes("live"),
     );
     await navigates(page);
+    await until("the position on the map again", async () => !(await page.isVisible('[data-field="place"]')));
   }
   stage.connectionMayFail = false;
   said("the console was killed; the pages said so and came back with it");
@@ -350,7 +364,9 @@ try {
   const [page, other] = [await stage.open(demo.address), await stage.open(demo.address)];
   check(!page.url().includes("token"), "the token does not stay in the address");
   await valuesEqualDds(page);
+  await overviewFits(page, "gps");
   await outageAppears([page, other]);
+  await overviewFits(page, "outage");
   await acknowledged(page, other);
   await looksRight(page);
   await view(page, "overview");
@@ -359,8 +375,12 @@ try {
   await outageClears([page, other]);
   await routeIsShown(page);
   await sourceIsSwitched(page);
-  await fixIsTwoClicks(page);
+  said(`a fix by two clicks: ${await fixIsTwoClicks(page)}`);
+  await fixCanBeChanged(page);
+  await viewerHasNoFix(stage, demo.plain);
+  said("a fix can be changed before it is sent; those who may only look have none");
   await farPositionIsHeld(page);
+  await nothingIsKnown(stage);
   await worksOverTls(stage);
   await manyClients(stage, demo.plain);
   await killFusion(page);

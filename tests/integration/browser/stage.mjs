@@ -8,8 +8,8 @@ import {setTimeout as pause} from "node:timers/promises";
 const require = createRequire(process.env.FATHOM_NPM_DIR + "/package.json");
 const {chromium} = require("playwright-core");
 const axeSource = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
-const bin = process.env.FATHOM_BIN;
-const domain = process.env.FATHOM_DOMAIN;
+export const kBin = process.env.FATHOM_BIN;
+export const kDomain = process.env.FATHOM_DOMAIN;
 
 /** What is awaited may take this long: the machine may have other things to do on every core. */
 export const kPatienceMs = 240000;
@@ -37,7 +37,7 @@ export async function until(what, ask, patienceMs = kPatienceMs) {
 
 /** The demonstration, started; `address` is what it printed. */
 export async function startDemo() {
-  const demo = spawn(bin + "/fathom-demo", ["--domain", domain, "--duration", "1600"], {
+  const demo = spawn(kBin + "/fathom-demo", ["--domain", kDomain, "--duration", "1600"], {
     stdio: ["ignore", "pipe", "pipe"],
   });
   let output = "";
@@ -55,6 +55,33 @@ export async function startDemo() {
   };
 }
 
+/** A console besides the demonstration's; `address`: what of its output is its address. */
+async function startConsole(sets, address) {
+  const config = process.env.FATHOM_SOURCE + "/deploy/config/console.json";
+  const words = Object.entries({"bus.domain": kDomain, ...sets}).flatMap(([name, value]) => [
+    "--set",
+    `${name}=${value}`,
+  ]);
+  const service = spawn(kBin + "/fathom-console", ["--config", config, ...words], {
+    stdio: ["ignore", "ignore", "pipe"],
+  });
+  let output = "";
+  service.stderr.on("data", (bytes) => (output += bytes));
+  const ended = new Promise((resolve) => service.on("exit", resolve));
+  return {
+    address: await until("the console's address", () => output.match(address)?.[1]),
+    output: () => output,
+    async stop() {
+      service.kill("SIGTERM");
+      await ended;
+    },
+  };
+}
+
+/** The console of a vehicle of which nothing is ever heard. */
+export const startEmptyConsole = (port) =>
+  startConsole({"http.port": port, vehicle: "nobody"}, /console at (http:\S+\/),/);
+
 /** A second console of the same vehicle that speaks https with a certificate of its own; `address` is its page. */
 export async function startTlsConsole(port) {
   const folder = mkdtempSync(tmpdir() + "/fathom-tls-");
@@ -64,27 +91,21 @@ export async function startTlsConsole(port) {
   execFileSync("openssl", ["req", "-x509", ...curve, ...names, "-keyout", key, "-out", certificate], {stdio: "pipe"});
   const token = "operator-0123456789";
   writeFileSync(tokens, JSON.stringify({tokens: [{name: "bridge", role: "operator", token}]}), {mode: 0o600});
-  const sets = {
-    "bus.domain": domain,
-    "http.port": port,
-    "tls.certificate_file": certificate,
-    "tls.key_file": key,
-    "access.orders": true,
-    "access.token_file": tokens,
-  };
-  const config = process.env.FATHOM_SOURCE + "/deploy/config/console.json";
-  const words = Object.entries(sets).flatMap(([name, value]) => ["--set", `${name}=${value}`]);
-  const service = spawn(bin + "/fathom-console", ["--config", config, ...words], {stdio: ["ignore", "ignore", "pipe"]});
-  let output = "";
-  service.stderr.on("data", (bytes) => (output += bytes));
-  const ended = new Promise((resolve) => service.on("exit", resolve));
-  const address = await until("the https address", () => output.match(/console at (https:\S+\/),/)?.[1]);
+  const console = await startConsole(
+    {
+      "http.port": port,
+      "tls.certificate_file": certificate,
+      "tls.key_file": key,
+      "access.orders": true,
+      "access.token_file": tokens,
+    },
+    /console at (https:\S+\/),/,
+  );
   return {
-    address: `${address}#token=${token}`,
-    output: () => output,
+    address: `${console.address}#token=${token}`,
+    output: console.output,
     async stop() {
-      service.kill("SIGTERM");
-      await ended;
+      await console.stop();
       rmSync(folder, {recursive: true});
     },
   };
@@ -93,7 +114,7 @@ export async function startTlsConsole(port) {
 /** What `fathom status --json` says. */
 export const ddsStatus = () =>
   new Promise((resolve, reject) => {
-    execFile(bin + "/fathom", ["status", "--json", "--domain", domain, "--timeout", "60"], (error, out) => {
+    execFile(kBin + "/fathom", ["status", "--json", "--domain", kDomain, "--timeout", "60"], (error, out) => {
       try {
         resolve(JSON.parse(out));
       } catch {

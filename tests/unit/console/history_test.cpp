@@ -1,5 +1,6 @@
 #include "console/view/history.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -93,6 +94,25 @@ TEST(History, RefusalsAreKeptMoreDenselyThanWhatWasUsed) {
   (void)history.commit();
   EXPECT_EQ(history.verdicts()[0].rows.size(), 25U);
   EXPECT_EQ(history.verdicts()[1].rows.size(), 100U);
+}
+
+TEST(History, EveryFixThatIsToldIsKeptAndOfOthersWhatTheSpacingLeaves) {
+  History history;
+  FixRow fix;
+  for (const SourceKind source : {SourceKind::gps, SourceKind::fix}) {
+    fix.source = source;
+    fix.sensor = source == SourceKind::fix ? "operator" : "gps";
+    for (int i = 0; i < 10; ++i) {
+      fix.utc_ns = kBegin + i * 100 * kNsPerMillisecond;
+      history.add(fix);
+    }
+  }
+  const auto fixes = history.commit().fixes;
+  const auto of = [&](SourceKind source) {
+    return std::count_if(fixes.begin(), fixes.end(), [&](const FixRow& row) { return row.source == source; });
+  };
+  EXPECT_EQ(of(SourceKind::gps), 2);
+  EXPECT_EQ(of(SourceKind::fix), 10);
 }
 
 TEST(History, AClockThatWentBackIsNoReasonToStop) {

@@ -231,6 +231,46 @@ TEST(VehicleView, ARelativeFixIsPlacedFromItsStation) {
   EXPECT_NEAR((fix[2].get<double>() - 127.4) * 111195 * std::cos(36.4 * kDegree), 100.0, 0.5);
 }
 
+TEST(VehicleView, ABeaconIsShownWithItsRangeAndVerdict) {
+  Scene scene;
+  EXPECT_TRUE(scene.tick()["beacons"].empty());
+  RangeSample sample;
+  sample.header.stamp_ns = kUtc;
+  sample.beacon = "2";
+  sample.range_m = 80.0;
+  sample.beacon_latitude_rad = 36.4 * kDegree;
+  sample.beacon_longitude_rad = 190.0 * kDegree;
+  sample.beacon_depth_m = 40.0;
+  scene.add(sample, "range", "another");
+  EXPECT_TRUE(scene.tick()["beacons"].empty()) << "another vehicle's";
+  scene.add(sample, "range");
+  Verdict verdict;
+  verdict.header.stamp_ns = kUtc;
+  verdict.source = SourceKind::range;
+  verdict.kind = VerdictKind::rejected;
+  scene.add(verdict, "range");
+  scene.wait(1.5);
+  const auto beacons = scene.tick()["beacons"];
+  ASSERT_EQ(beacons.size(), 1U);
+  EXPECT_EQ(beacons[0]["name"], "2");
+  EXPECT_EQ(beacons[0]["range_m"], 80.0);
+  EXPECT_EQ(beacons[0]["depth_m"], 40.0);
+  EXPECT_NEAR(beacons[0]["lon_deg"].get<double>(), -170.0, 1e-9);
+  EXPECT_NEAR(beacons[0]["age_s"].get<double>(), 1.5, 1e-6);
+  EXPECT_TRUE(beacons[0]["sigma_m"].is_null());
+  EXPECT_EQ(beacons[0]["verdict"], static_cast<int>(VerdictKind::rejected));
+}
+
+TEST(VehicleView, TheTrackSaysInWhichModeItWas) {
+  Scene scene;
+  scene.nav();
+  const auto tick = scene.tick();
+  const auto snapshot = scene.snapshot();
+  ASSERT_EQ(snapshot["nav_columns"].back(), "mode");
+  const auto mode = tick["nav"][0].back().get<std::size_t>();
+  EXPECT_EQ(snapshot["nav_modes"][mode], "gps_aided");
+}
+
 TEST(FanOut, ASlowClientLosesItsOldestAndNobodyElseDoes) {
   FanOut events({3, 2, 2});
   const auto slow = events.join("a").client;

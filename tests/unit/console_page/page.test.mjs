@@ -1,38 +1,12 @@
 // The parts of the console's page that need no browser: what it keeps, and how it writes numbers.
 import assert from "node:assert/strict";
 import test from "node:test";
+import {snapshot, tick, web} from "./page.mjs";
 
-// What the modules ask a browser for.
-globalThis.localStorage = {getItem: () => null, setItem: () => {}};
-globalThis.matchMedia = () => ({matches: false, addEventListener: () => {}});
-globalThis.document = {documentElement: {dataset: {}}};
-globalThis.getComputedStyle = () => ({getPropertyValue: () => ""});
-
-const web = new URL("../../../services/console/web/js/", import.meta.url);
 const {store, takeSnapshot, takeTick, Table} = await import(new URL("store.js", web));
 const {ageOf, isOld, routeText, shapeOf} = await import(new URL("routes.js", web));
 const units = await import(new URL("units.js", web));
 const {setPref} = await import(new URL("prefs.js", web));
-
-const snapshot = (tick = 0) => ({
-  tick,
-  nav_columns: ["lat_deg", "lon_deg"],
-  verdict_kinds: ["used", "rejected"],
-  nav: [],
-  fixes: [],
-  verdicts: [],
-  detail_names: ["gyro_bias_x_rad_s"],
-  detail: [],
-});
-const tick = (number, ms, more = {}) => ({
-  tick: number,
-  nav: [[ms, 36.4, 127.4]],
-  fixes: [[ms, 36.4, 127.4, 1, "gps", "gps", 0]],
-  verdicts: [{index: 0, sensor: "dvl", model: "dvl_velocity", source: "dvl", rows: [[ms, 0, 0.1, 0.2, 1, 2, 3, 4]]}],
-  services: [],
-  detail: [[ms, 1, 2]],
-  ...more,
-});
 
 test("twelve hours take no more memory than ten minutes", () => {
   takeSnapshot(snapshot());

@@ -1,12 +1,5 @@
 // The horizon as pilots know it, and a compass needle. SVG, so that it follows the theme by itself.
-const kSvg = "http://www.w3.org/2000/svg";
-
-function svg(name, properties, ...children) {
-  const node = document.createElementNS(kSvg, name);
-  for (const [key, value] of Object.entries(properties)) node.setAttribute(key, value);
-  node.append(...children);
-  return node;
-}
+import {svg} from "./dom.js";
 
 export function makeAttitude() {
   const marks = [-30, -20, -10, 10, 20, 30].map((deg) =>
@@ -30,7 +23,7 @@ export function makeAttitude() {
   );
   const root = svg(
     "svg",
-    {viewBox: "-75 -75 150 150", role: "img", "aria-label": "Attitude"},
+    {viewBox: "-73 -73 146 146", role: "img", "aria-label": "Attitude"},
     clip,
     svg("g", {"clip-path": "url(#horizon)"}, world),
     svg("circle", {cx: 0, cy: 0, r: 58, fill: "none", stroke: "var(--line)", "stroke-width": 2}),

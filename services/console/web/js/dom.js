@@ -13,6 +13,16 @@ export function el(name, properties = {}, ...children) {
   return node;
 }
 
+const kSvg = "http://www.w3.org/2000/svg";
+
+/** The same for a drawing. */
+export function svg(name, properties, ...children) {
+  const node = document.createElementNS(kSvg, name);
+  for (const [key, value] of Object.entries(properties)) node.setAttribute(key, value);
+  node.append(...children);
+  return node;
+}
+
 /** Writes only what changed: screen readers and selections stay undisturbed ten times a second. */
 export function put(node, text) {
   if (node.textContent !== text) node.textContent = text;

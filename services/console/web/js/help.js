@@ -28,6 +28,11 @@ export function help() {
     el(
       "p",
       {},
+      "On the map: drag to move. An operator clicks where the vehicle was to tell a fix; a second click sends it.",
+    ),
+    el(
+      "p",
+      {},
       "On a plot: drag to zoom, the buttons above it to move, to save as CSV or PNG, and to come back to live.",
     ),
     el("form", {method: "dialog", class: "row"}, el("button", {class: "primary"}, "Close")),

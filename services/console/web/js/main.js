@@ -3,7 +3,8 @@ import {el, put} from "./dom.js";
 import {makeFilter} from "./filter.js";
 import {help} from "./help.js";
 import {openLink} from "./link.js";
-import {makeMap} from "./map.js";
+import {makeMapPanel} from "./map/panel.js";
+import {makeMap} from "./map_view.js";
 import {makeNetwork} from "./network.js";
 import {loadSession, notice, onSession, signIn, takeTokenFromAddress, token} from "./orders.js";
 import {makeOverview} from "./overview.js";
@@ -16,7 +17,8 @@ import * as units from "./units.js";
 const kSilentMs = 800; // no message from the console for this long is no navigation
 const kLooks = {good: ["✔", "GOOD"], caution: ["▲", "CAUTION"], bad: ["✖", "NO TRUST"]};
 const get = (id) => document.getElementById(id);
-const views = [makeOverview(), makeMap(), makeSensors(), makeFilter(), makeNetwork()];
+const panel = makeMapPanel();
+const views = [makeOverview(panel), makeMap(panel), makeSensors(), makeFilter(), makeNetwork()];
 let current = null;
 
 function show(index) {

@@ -1,90 +1,125 @@
-// What one reads first: numbers, alarms, alignment, the GPS clock, and when each source was last used.
+// What one looks at for hours: the map, and around it what says whether to believe it.
+import {makeAlarms} from "./alarms.js";
+import {isAligned, makeAlignment, phaseWords} from "./alignment.js";
 import {makeAttitude} from "./attitude.js";
-import {card, el, field, put, reconcile, scroller, tableOf, verdictLook} from "./dom.js";
-import {ForecastCurve} from "./forecast.js";
-import {tellFix} from "./fix.js";
+import {card, el, put} from "./dom.js";
 import {ask, mayOrder, onSession, order} from "./orders.js";
 import {store} from "./store.js";
+import {makeStrip} from "./strip.js";
+import {isPassed, limitWords, nextLimit, UncertaintyPlot} from "./uncertainty.js";
 import * as units from "./units.js";
 
-const kMarks = {critical: "✖ critical", warning: "▲ warning", notice: "● notice"};
-const kLooks = {critical: "bad-text", warning: "caution-text", notice: "soft"};
+/** Values with their names above them; scripts find each by data-field. */
+function readouts(kind, fields, into) {
+  const list = el("dl", {class: "readouts " + kind});
+  for (const [name, label] of fields) {
+    into[name] = el("dd", {"data-field": name}, "–");
+    list.append(el("div", {}, el("dt", {}, label), into[name]));
+  }
+  return list;
+}
 
-export function makeOverview() {
-  const numbers = el("dl", {class: "numbers"});
+const kMapMs = 180; // the map is drawn five times a second
+
+export function makeOverview(panel) {
   const f = {};
-  for (const [name, label] of [
-    ["lat", "Latitude"],
-    ["lon", "Longitude"],
-    ["h95", "95 % horizontal"],
-    ["v95", "95 % vertical"],
-    ["depth", "Depth"],
-    ["alt", "Altitude"],
-    ["bottom", "Above bottom"],
-    ["speed", "Speed"],
-    ["course", "Course"],
-    ["current", "Current"],
-  ])
-    f[name] = field(numbers, label, name);
-  const attitude = makeAttitude();
-  const angles = el("dl", {class: "numbers"});
-  for (const [name, label] of [
-    ["heading", "Heading"],
-    ["roll", "Roll"],
-    ["pitch", "Pitch"],
-    ["yaw_sigma", "Heading ±1σ"],
-    ["mode", "Mode"],
-    ["rate", "Rate"],
-    ["age", "Age"],
-  ])
-    f[name] = field(angles, label, name);
-  const setPosition = el("button", {type: "button", onclick: orderPosition}, "Set position …");
-  const fix = el("button", {type: "button", onclick: orderFix}, "Fix …");
+  let mapAt = 0;
+  const state = el(
+    "section",
+    {class: "card state", "aria-label": "State"},
+    readouts(
+      "three",
+      [
+        ["mode", "Mode"],
+        ["phase", "Alignment"],
+        ["rate", "Navigation"],
+      ],
+      f,
+    ),
+  );
+  const setPosition = el("button", {type: "button", class: "push", onclick: orderPosition}, "Set position …");
   const realign = el("button", {type: "button", onclick: orderRealign}, "Realign …");
+  const reach = el("progress", {max: 1, value: 0, "aria-label": "95 % radius as a share of its next limit"});
   const place = card(
     "place",
     "Position",
-    [],
-    scroller("Position", numbers),
-    el("div", {class: "actions"}, fix, setPosition, realign),
+    [setPosition, realign],
+    readouts(
+      "two",
+      [
+        ["lat", "Latitude"],
+        ["lon", "Longitude"],
+      ],
+      f,
+    ),
+    readouts(
+      "three",
+      [
+        ["h95", "95 % horizontal"],
+        ["v95", "95 % vertical"],
+        ["limit", "Limit"],
+      ],
+      f,
+    ),
+    reach,
   );
-  const motion = card("motioncard", "Attitude", [], el("div", {class: "motion"}, attitude.root, angles));
-
-  const list = el("div", {class: "scroll", "data-field": "alarms", tabindex: 0, role: "group", "aria-label": "Alarms"});
-  const all = el(
-    "button",
-    {type: "button", class: "push", onclick: () => order({kind: "acknowledge_alarm", target: "*"})},
-    "Acknowledge all",
+  const limitLabel = f.limit.previousElementSibling;
+  const attitude = makeAttitude();
+  const numbers = [
+    ["heading", "Heading"],
+    ["course", "Course"],
+    ["speed", "Speed"],
+    ["roll", "Roll"],
+    ["pitch", "Pitch"],
+    ["yaw_sigma", "Heading ±1σ"],
+    ["depth", "Depth"],
+    ["bottom", "Above bottom"],
+    ["alt", "Altitude"],
+  ];
+  const current = readouts("inline", [["current", "Current"]], f);
+  const motion = el(
+    "section",
+    {class: "card motion", "aria-label": "Motion"},
+    el("div", {class: "with"}, attitude.root, readouts("three", numbers, f)),
+    current,
   );
-  const alarms = card("alarms", "Alarms", [all], list);
-
-  const clock = el("span", {class: "big", "data-field": "outage"}, "–");
-  const clockNote = el("span", {"data-field": "outage_note"});
-  const totals = el("span", {class: "soft num"});
-  const curve = new ForecastCurve();
+  const clock = el("span", {class: "big num", "data-field": "outage"}, "–");
+  const clockNote = el("span", {class: "num", "data-field": "outage_note"});
+  const totals = el("span", {class: "soft num totals"});
+  const curve = new UncertaintyPlot();
+  const key = (ink, mark, words) =>
+    el("span", {}, el("span", {class: "ink-" + ink, "aria-hidden": "true"}, mark), " " + words);
   const gps = card(
     "gps",
-    "GPS outage and forecast",
-    [],
-    el("div", {class: "outage"}, clock, clockNote, totals),
-    curve.root,
+    "GPS",
+    [clock, clockNote, totals],
+    curve.note,
+    curve.host,
+    el(
+      "p",
+      {class: "keys soft"},
+      key("s1", "━", "95 % so far"),
+      key("s2", "╍", "as things are"),
+      key("s4", "┅", "without aiding"),
+      key("bad", "━ ━", "limit"),
+    ),
   );
-
-  const phase = el("strong", {"data-field": "phase"}, "–");
-  const conditions = el("div", {class: "conditions"});
-  const advice = el("p", {class: "soft"});
-  const alignment = card("alignment", "Alignment", [], scroller("Alignment", el("p", {}, phase), conditions, advice));
-  const ages = el("tbody");
-  const sources = card(
-    "sources",
-    "Sources",
-    [],
-    scroller("Sources", tableOf(["Source", "Last verdict", "Used#", "Rate#"], ages)),
+  const alarms = makeAlarms();
+  const alignment = makeAlignment();
+  const strip = makeStrip();
+  const side = el(
+    "div",
+    {class: "side", tabindex: 0, role: "group", "aria-label": "State and position"},
+    state,
+    place,
+    motion,
+    alignment.root,
+    gps,
   );
-  const root = el("div", {class: "view overview"}, place, gps, alarms, motion, alignment, sources);
+  const root = el("div", {class: "view overview"}, alarms.root, strip.root, side);
 
   function allowed() {
-    for (const button of [fix, setPosition, realign, all]) {
+    for (const button of [setPosition, realign]) {
       button.disabled = !mayOrder();
       button.title = mayOrder() ? "" : "Needs the role operator";
     }
@@ -92,114 +127,78 @@ export function makeOverview() {
   onSession(allowed);
   allowed();
 
-  function showNumbers(tick) {
-    const nav = tick.status.navigation ?? {};
-    const [north, east, down] = nav.velocity_N_m_s ?? [];
-    const [roll, pitch, yaw] = nav.rpy_deg ?? [];
-    const course = Math.hypot(north, east) > 0.05 ? units.bearing((Math.atan2(east, north) * 180) / Math.PI) : "–";
-    const current = Object.fromEntries(tick.current.map(([name, value]) => [name, value]));
-    const drift = Math.hypot(current.current_north_m_s, current.current_east_m_s);
-    const set = (Math.atan2(current.current_east_m_s, current.current_north_m_s) * 180) / Math.PI;
+  function showState(nav, alignment) {
+    put(f.mode, units.words(nav.mode ?? "none"));
+    put(f.phase, phaseWords(alignment));
+    f.phase.className = isAligned(alignment) ? "good-text" : "caution-text";
+    const rate = Number.isFinite(nav.rate_hz) ? `${nav.rate_hz.toFixed(0)} Hz` : "–";
+    put(f.rate, Number.isFinite(nav.age_s) ? `${rate} · ${units.duration(nav.age_s)}` : "not heard");
+    f.rate.title = "States a second, and the age of the newest";
+  }
+
+  function showPlace(nav, forecast) {
     put(f.lat, units.latitude(nav.lat_deg));
     put(f.lon, units.longitude(nav.lon_deg));
     put(f.h95, units.length(nav.horizontal_95_m, 2));
     put(f.v95, units.length(nav.vertical_95_m, 2));
-    put(f.depth, units.length(nav.depth_m));
-    put(f.alt, units.length(nav.alt_m));
-    put(f.bottom, units.length(nav.altitude_above_bottom_m));
-    put(f.speed, units.speed(Math.hypot(north, east, down)));
-    put(f.course, course);
-    const doubt = Math.max(...tick.current.map(([, , sigma]) => sigma));
-    put(
-      f.current,
-      Number.isFinite(drift)
-        ? `${units.speed(drift)} ± ${units.fixed(units.toSpeed(doubt), 2)} to ${units.bearing(set)}`
-        : "not estimated",
-    );
+    const next = nextLimit(forecast);
+    const ahead = next && !next.never && !isPassed(next);
+    put(limitLabel, next ? `${ahead ? "Passes" : "Limit"} ${units.length(next.limit, 0)}` : "Limit");
+    put(f.limit, next ? limitWords(next) : "no forecast");
+    f.limit.className = ahead ? "caution-text" : next && !next.never ? "bad-text" : "";
+    const share = next && nav.horizontal_95_m > 0 ? Math.min(1, nav.horizontal_95_m / next.limit) : 0;
+    if (reach.value !== share) reach.value = share;
+  }
+
+  function showMotion(nav, states) {
+    const [north, east, down] = nav.velocity_N_m_s ?? [];
+    const [roll, pitch, yaw] = nav.rpy_deg ?? [];
+    const moves = [north, east, down].every(Number.isFinite);
+    const course =
+      moves && Math.hypot(north, east) > 0.05 ? units.bearing((Math.atan2(east, north) * 180) / Math.PI) : "–";
     put(f.heading, units.bearing(yaw));
+    put(f.course, course);
+    put(f.speed, moves ? units.speed(Math.hypot(north, east, down)) : "–");
     put(f.roll, units.degrees(roll));
     put(f.pitch, units.degrees(pitch));
     put(f.yaw_sigma, units.degrees(nav.rpy_sigma_deg?.[2], 2));
-    put(f.mode, units.words(nav.mode ?? "none"));
-    put(f.rate, nav.rate_hz === null || nav.rate_hz === undefined ? "–" : `${nav.rate_hz.toFixed(0)} Hz`);
-    put(f.age, units.duration(nav.age_s));
+    put(f.depth, units.length(nav.depth_m));
+    put(f.bottom, units.length(nav.altitude_above_bottom_m));
+    put(f.alt, units.length(nav.alt_m));
+    const of = Object.fromEntries(states.map(([name, value]) => [name, value]));
+    const drift = Math.hypot(of.current_north_m_s, of.current_east_m_s);
+    const set = (Math.atan2(of.current_east_m_s, of.current_north_m_s) * 180) / Math.PI;
+    const doubt = units.fixed(units.toSpeed(Math.max(...states.map(([, , sigma]) => sigma))), 2);
+    put(
+      f.current,
+      Number.isFinite(drift) ? `${units.speed(drift)} ± ${doubt} to ${units.bearing(set)}` : "not estimated",
+    );
     attitude.show(roll, pitch, yaw);
-  }
-
-  function showAlarms(tick) {
-    const present = tick.status.alarms;
-    all.hidden = !present.some((alarm) => !alarm.acknowledged);
-    if (present.length === 0) {
-      if (list.firstChild?.dataset?.key !== "none")
-        list.replaceChildren(el("p", {class: "good-text", "data-key": "none"}, "✔ No alarm"));
-      return;
-    }
-    reconcile(list, present, (alarm) => alarm.alarm, makeAlarm, updateAlarm);
   }
 
   function showGps(tick) {
     const gps = tick.status.gps;
-    if (!gps) put(clock, "no monitor");
-    else if (gps.outage_s === null) put(clock, "no fix yet");
-    else put(clock, gps.outage ? units.duration(gps.outage_s) : "✔ fix");
-    clock.className =
-      "big " +
-      (!gps || gps.outage_s === null
-        ? "caution-text"
-        : !gps.outage
-          ? "good-text"
-          : gps.severity === "notice"
-            ? "caution-text"
-            : "bad-text");
-    put(clockNote, gps?.outage ? `▲ without GPS, ${gps.severity}` : "");
+    const never = !gps || gps.outage_s === null;
+    put(clock, !gps ? "no monitor" : never ? "no fix yet" : gps.outage ? units.duration(gps.outage_s) : "✔ fix");
+    const look = never
+      ? "caution-text"
+      : !gps.outage
+        ? "good-text"
+        : gps.severity === "notice"
+          ? "caution-text"
+          : "bad-text";
+    clock.className = "big num " + look;
+    put(clockNote, !never && gps.outage ? `▲ without GPS, ${gps.severity}` : "");
+    const count = gps ? `${gps.count} outage${gps.count === 1 ? "" : "s"}` : "";
     put(
       totals,
-      gps
-        ? `${gps.count} outage${gps.count === 1 ? "" : "s"}, longest ${units.duration(gps.longest_s)}, in all ${units.duration(gps.total_s)}`
-        : "",
+      !gps
+        ? ""
+        : gps.count === 0
+          ? count
+          : `${count}, longest ${units.duration(gps.longest_s)}, in all ${units.duration(gps.total_s)}`,
     );
-    curve.show(tick.status.forecast, tick.status.navigation?.horizontal_95_m);
-  }
-
-  function showAlignment(tick) {
-    const status = tick.status.alignment;
-    put(
-      phase,
-      status
-        ? `${status.phase === "aligned" ? "✔" : "▲"} ${units.words(status.phase)} for ${units.duration(status.in_phase_s)}` +
-            (status.time_to_aligned_s > 0 ? `, done in about ${units.duration(status.time_to_aligned_s)}` : "")
-        : "not heard",
-    );
-    phase.className = status?.phase === "aligned" ? "good-text" : "caution-text";
-    put(advice, status?.advice ?? "");
-    reconcile(conditions, status?.conditions ?? [], (one) => one.name, makeCondition, updateCondition);
-  }
-
-  function showSources(tick) {
-    const rates = new Map(tick.status.sensors.map((sensor) => [sensor.name, sensor]));
-    reconcile(
-      ages,
-      tick.sources,
-      (line) => line.sensor,
-      (line) =>
-        el(
-          "tr",
-          {"data-source": line.sensor},
-          el("td", {}, line.sensor),
-          el("td"),
-          el("td", {class: "n"}),
-          el("td", {class: "n"}),
-        ),
-      (row, line) => {
-        const [, verdict, used, rate] = row.children;
-        const [text, look] = verdictLook(line.last, line.kind);
-        put(verdict, text);
-        verdict.className = look;
-        put(used, line.kind === "imu" ? "–" : line.since_used_s === null ? "never" : units.duration(line.since_used_s));
-        const heard = rates.get(line.sensor)?.rate_hz;
-        put(rate, Number.isFinite(heard) ? `${heard.toFixed(1)} Hz` : "–");
-      },
-    );
+    curve.show(tick);
   }
 
   return {
@@ -207,64 +206,24 @@ export function makeOverview() {
     name: "Overview",
     key: "overview",
     everyMs: 100,
+    shown: () => panel.showIn(root),
+    keys: {f: panel.follow},
     update(tick) {
-      showNumbers(tick);
-      showAlarms(tick);
+      const {status} = tick;
+      const nav = status.navigation ?? {};
+      root.classList.toggle("aligning", Boolean(status.alignment) && !isAligned(status.alignment));
+      showState(nav, status.alignment);
+      showPlace(nav, status.forecast);
+      showMotion(nav, tick.current);
+      alignment.update(status.alignment);
       showGps(tick);
-      showAlignment(tick);
-      showSources(tick);
+      alarms.update(tick);
+      strip.update(tick);
+      if (performance.now() - mapAt < kMapMs) return;
+      mapAt = performance.now();
+      panel.update();
     },
   };
-}
-
-function makeAlarm(alarm) {
-  return el(
-    "div",
-    {class: "alarm", "data-alarm": alarm.alarm},
-    el("span", {class: "severity"}),
-    el("div", {}, el("p"), el("p", {class: "kind"})),
-    el(
-      "button",
-      {
-        type: "button",
-        "aria-label": "Acknowledge " + alarm.alarm,
-        onclick: () => order({kind: "acknowledge_alarm", target: alarm.alarm}),
-      },
-      "Acknowledge",
-    ),
-  );
-}
-
-function updateAlarm(node, alarm) {
-  const [severity, what, button] = node.children;
-  node.classList.toggle("over", !alarm.active);
-  put(severity, alarm.active ? kMarks[alarm.severity] : "○ over");
-  severity.className = "severity " + (alarm.active ? kLooks[alarm.severity] : "soft");
-  put(what.children[0], alarm.text);
-  put(
-    what.children[1],
-    `${alarm.alarm} · since ${alarm.since_utc?.slice(11, 19) ?? "–"}` + (alarm.acknowledged ? " · seen" : ""),
-  );
-  button.hidden = alarm.acknowledged;
-  button.disabled = !mayOrder();
-}
-
-function makeCondition() {
-  return el("div", {class: "condition"}, el("span"), el("span"), el("progress", {max: 1}), el("small", {class: "soft"}));
-}
-
-function updateCondition(node, one) {
-  const {group, name, unit, scale} = units.stateName(one.name);
-  const label = group === name ? group : `${group} ${name}`;
-  const [state, text, bar, help] = node.children;
-  put(state, one.met ? "✔ met" : "… waiting");
-  state.className = one.met ? "good-text" : "caution-text";
-  const shown = unit === "‰" ? ["", 1] : [unit, scale];
-  const limit = one.limit === null ? "" : ` of ${units.fixed(one.limit * shown[1], 2)}`;
-  put(text, `${label} ${units.fixed(one.value * shown[1], 2)}${limit} ${shown[0]}`);
-  bar.setAttribute("aria-label", label);
-  put(help, one.help ?? "");
-  bar.value = one.needed_s > 0 ? Math.min(1, one.held_s / one.needed_s) : one.met ? 1 : 0;
 }
 
 async function orderPosition() {
@@ -281,11 +240,6 @@ async function orderPosition() {
     ],
   );
   if (values) order({kind: "set_position", ...values});
-}
-
-function orderFix() {
-  const nav = store.tick?.status.navigation ?? {};
-  tellFix(nav.lat_deg ?? 0, nav.lon_deg ?? 0);
 }
 
 async function orderRealign() {

@@ -50,7 +50,8 @@ export const store = {
   services: [],
   routes: [], // of guidance, by publisher
   routesAt: 0, // performance.now() of their arrival
-  kinds: [],
+  kinds: [], // of verdicts
+  modes: [], // of navigation
   nav: new Table(["t"]),
   fixes: [],
   series: new Map(), // "sensor model" -> {sensor, model, source, table, dimensions}
@@ -114,6 +115,7 @@ function nameDetail(names) {
 /** The history: all that was there before is replaced by it. */
 export function takeSnapshot(event) {
   store.kinds = event.verdict_kinds;
+  store.modes = event.nav_modes ?? [];
   store.nav = new Table(["t", ...event.nav_columns]);
   for (const row of event.nav) store.nav.push(row);
   store.fixes = [];

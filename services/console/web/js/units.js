@@ -51,7 +51,21 @@ export function duration(seconds) {
 }
 
 export const clockText = (ms) => new Date(ms).toISOString().slice(11, 19);
-export const words = (name) => String(name).replaceAll("_", " ");
+
+/** Seconds from a time of day like "09:05:00" to now, UTC; null where that is none of the last two hours. */
+export function secondsSince(text, nowMs) {
+  const [, hours, minutes, seconds] = text.trim().match(/^(\d{1,2}):(\d{2}):(\d{2})$/) ?? [];
+  if (hours === undefined || hours > 23 || minutes > 59 || seconds > 59) return null;
+  const day = 86400;
+  const ago = nowMs / 1000 - (hours * 3600 + minutes * 60 + Number(seconds));
+  const age = ((ago % day) + day) % day;
+  if (age > day - 60) return 0; // clocks of people go a little ahead
+  return age <= 7200 ? age : null;
+}
+export const words = (name) =>
+  String(name)
+    .replaceAll("_", " ")
+    .replace(/\b(gps|dvl|imu|usbl)\b/g, (short) => short.toUpperCase());
 
 /** "gyro_bias_x_rad_s" → {group: "gyro bias", name: "x", unit: "deg/h", scale} : the units that people know. */
 export function stateName(raw) {

@@ -1,5 +1,5 @@
 // Map tiles, fetched with the token: an <img> of its own accord would ask without.
-import {authorization} from "./orders.js";
+import {authorization} from "../orders.js";
 
 async function load(image, address, signal) {
   const response = await fetch(address, {headers: authorization(), signal});
