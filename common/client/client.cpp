@@ -8,6 +8,7 @@
 
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
+#include "client/order_giver.hpp"
 #include "client/route_publisher.hpp"
 
 namespace fathom {
@@ -59,10 +60,12 @@ struct Client::Impl {
         clock(client_options.clock != nullptr ? *client_options.clock : system_clock),
         vehicle(client_options.vehicle),
         participant(participant_options(client_options)),
-        route_publisher(participant, clock, client_options.name, [this] {
-          const std::lock_guard lock(mutex);
-          return vehicle;
-        }) {
+        route_publisher(participant, clock, client_options.name,
+                        [this] {
+                          const std::lock_guard lock(mutex);
+                          return vehicle;
+                        }),
+        order_giver(participant, client_options.name, [this] { return header_now(); }) {
     nav_reader.emplace(participant, [this](const NavState& state, const bus::SampleInfo&) { take(state); });
     alignment_reader.emplace(participant, [this](const AlignmentStatus& status, const bus::SampleInfo&) {
       const std::lock_guard lock(mutex);
@@ -111,6 +114,17 @@ struct Client::Impl {
     on_nav_state.call(state);
   }
 
+  /// By the vehicle's own clock, as far as it has been heard.
+  [[nodiscard]] std::optional<SampleHeader> header_now() const {
+    const std::lock_guard lock(mutex);
+    if (vehicle.empty()) return std::nullopt;
+    SampleHeader out;
+    out.vehicle = vehicle;
+    out.received_ns = latest ? latest->header.stamp_ns + (clock.monotonic_ns() - arrived_ns) : clock.utc_ns();
+    out.stamp_ns = out.received_ns;
+    return out;
+  }
+
   [[nodiscard]] double age_locked() const {
     return latest ? to_seconds(clock.monotonic_ns() - arrived_ns) : kUnknown;
   }
@@ -134,6 +148,7 @@ struct Client::Impl {
 
   bus::Participant participant;
   RoutePublisher route_publisher;
+  OrderGiver order_giver;
   // Last: their handlers use all of the above.
   std::optional<bus::Reader<NavState>> nav_reader;
   std::optional<bus::Reader<AlignmentStatus>> alignment_reader;
@@ -174,6 +189,14 @@ std::optional<NavState> Client::wait_next(double timeout_s) {
 
 void Client::publish_route(Route route) {
   impl_->route_publisher.publish(std::move(route));
+}
+
+void Client::order(const Command& command, double timeout_s) {
+  impl_->order_giver.order(command, timeout_s);
+}
+
+void Client::tell(const FixSample& fix, double timeout_s) {
+  impl_->order_giver.tell(fix, timeout_s);
 }
 
 NavHealth Client::health() const {

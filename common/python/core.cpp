@@ -204,6 +204,34 @@ std::optional<NavState> Core::wait_next(double timeout_s) {
   }
 }
 
+/// Looks for somebody who takes it, and up for Ctrl-C in between.
+template <class Give>
+void Core::give(const char* what, double timeout_s, Give give) {
+  if (!(timeout_s >= 0.0))
+    wrong_value(std::string(what) + ": timeout_s", "seconds, 0 or more", py::float_(timeout_s));
+  const auto began = std::chrono::steady_clock::now();
+  for (;;) {
+    const double left_s =
+        timeout_s - std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    try {
+      const Use client(*this);
+      without_lock([&] { give(*client.operator->(), std::clamp(left_s, 0.0, kSlice_s)); });
+      return;
+    } catch (const NobodyListens&) {
+      if (left_s <= kSlice_s) throw;
+    }
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  }
+}
+
+void Core::order(const Command& command, double timeout_s) {
+  give("Client.order", timeout_s, [&](Client& client, double slice_s) { client.order(command, slice_s); });
+}
+
+void Core::tell(const FixSample& fix, double timeout_s) {
+  give("Client.tell_fix", timeout_s, [&](Client& client, double slice_s) { client.tell(fix, slice_s); });
+}
+
 void Core::hear_states(bool wanted) {
   const Use client(*this);
   Client::NavStateHandler handler;
@@ -251,6 +279,51 @@ void Core::close(bool at_exit) {
   });
 }
 
+namespace {
+
+CommandKind kind_from(const std::string& word) {
+  for (const CommandKind kind : {CommandKind::set_position, CommandKind::realign, CommandKind::enable_source,
+                                 CommandKind::disable_source, CommandKind::acknowledge_alarm}) {
+    if (to_string(kind) == word) return kind;
+  }
+  wrong_value("Client.order: kind", "an order that the client knows", text_of(word));
+}
+
+/// Of numbers that may be left out.
+double maybe_from(py::handle value, const std::string& where) {
+  return value.is_none() ? kUnknown : number_from(value, where);
+}
+
+void order(Core& core, const std::string& kind, py::handle target, py::handle latitude_rad,
+           py::handle longitude_rad, py::handle depth_m, py::handle sigma_m, bool confirmed,
+           py::handle timeout_s) {
+  Command command;
+  command.kind = kind_from(kind);
+  const std::string where = "Client." + kind + ": ";
+  if (!target.is_none()) command.target = Name(text_from(target, where + "name", Name::kCapacity));
+  command.latitude_rad = maybe_from(latitude_rad, where + "latitude_rad");
+  command.longitude_rad = maybe_from(longitude_rad, where + "longitude_rad");
+  command.depth_m = maybe_from(depth_m, where + "depth_m");
+  command.sigma_m = maybe_from(sigma_m, where + "sigma_m");
+  command.confirmed = confirmed;
+  core.order(command, number_from(timeout_s, where + "timeout_s"));
+}
+
+void tell_fix(Core& core, py::handle latitude_rad, py::handle longitude_rad, py::handle sigma_m,
+              py::handle depth_m, py::handle stamp_ns, py::handle source, py::handle timeout_s) {
+  const std::string where = "Client.tell_fix: ";
+  FixSample fix;
+  fix.latitude_rad = number_from(latitude_rad, where + "latitude_rad");
+  fix.longitude_rad = number_from(longitude_rad, where + "longitude_rad");
+  fix.sigma_m = number_from(sigma_m, where + "sigma_m");
+  fix.depth_m = maybe_from(depth_m, where + "depth_m");
+  if (!stamp_ns.is_none()) fix.header.stamp_ns = signed_from(stamp_ns, where + "stamp_ns");
+  fix.header.sensor = Name(text_from(source, where + "source", Name::kCapacity));
+  core.tell(fix, number_from(timeout_s, where + "timeout_s"));
+}
+
+}  // namespace
+
 void add_core(py::module_& module) {
   py::class_<ScaledClock, std::shared_ptr<ScaledClock>>(
       module, "ScaledClock",
@@ -290,6 +363,8 @@ void add_core(py::module_& module) {
            [](Core& core, py::handle timeout_s) {
              return or_none(core.wait_next(number_from(timeout_s, "Client.wait_next: timeout_s")));
            })
+      .def("order", &order)
+      .def("tell_fix", &tell_fix)
       .def("hear_states", &Core::hear_states)
       .def("hear_alarms", &Core::hear_alarms)
       .def("next_event", &Core::next_event)

@@ -26,6 +26,8 @@ class Core {
   [[nodiscard]] std::optional<MonitorStatus> monitor() const;
   void publish_route(const Route& route);
   [[nodiscard]] std::optional<NavState> wait_next(double timeout_s);
+  void order(const Command& command, double timeout_s);
+  void tell(const FixSample& fix, double timeout_s);
 
   /// Whether states, and alarms, are kept for next_event().
   void hear_states(bool wanted);
@@ -41,6 +43,8 @@ class Core {
 
  private:
   struct Impl;
+  template <class Give>
+  void give(const char* what, double timeout_s, Give give);
   class Use;
   void close(bool at_exit);
   [[nodiscard]] bool of_another_process() const;

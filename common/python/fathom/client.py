@@ -100,6 +100,42 @@ class Client:
         """
         self._core.publish_route(route)
 
+    def set_position(self, latitude_rad: float, longitude_rad: float, depth_m: float, sigma_m: float, *,
+                     confirmed: bool = False, timeout_s: float = 5.0) -> None:
+        """Orders navigation to be at a position, with one sigma of north and of east.
+
+        One that is further away than navigation can believe is held for 60 s, until it is ordered once more with
+        `confirmed`. Here and below: waits at most `timeout_s` of the host for somebody who takes orders, and raises
+        RuntimeError when there is nobody, or on a protected network when this identity may not order.
+        """
+        self._core.order("set_position", None, latitude_rad, longitude_rad, depth_m, sigma_m, confirmed, timeout_s)
+
+    def realign(self, *, timeout_s: float = 5.0) -> None:
+        """Orders a new alignment."""
+        self._core.order("realign", None, None, None, None, None, False, timeout_s)
+
+    def enable_source(self, name: str, *, timeout_s: float = 5.0) -> None:
+        """Orders that a sensor is used."""
+        self._core.order("enable_source", name, None, None, None, None, False, timeout_s)
+
+    def disable_source(self, name: str, *, timeout_s: float = 5.0) -> None:
+        """Orders that a sensor is not used."""
+        self._core.order("disable_source", name, None, None, None, None, False, timeout_s)
+
+    def acknowledge_alarm(self, name: str = "*", *, timeout_s: float = 5.0) -> None:
+        """Acknowledges an alarm; "*": all."""
+        self._core.order("acknowledge_alarm", name, None, None, None, None, False, timeout_s)
+
+    def tell_fix(self, latitude_rad: float, longitude_rad: float, sigma_m: float, *, depth_m: float | None = None,
+                 stamp_ns: int | None = None, source: str = "", timeout_s: float = 5.0) -> None:
+        """Tells a position, which navigation judges like any other measurement.
+
+        stamp_ns: when the vehicle was there, up to two hours ago, by its own clock; none: now.
+        sigma_m: one sigma of north, and of east.
+        source: who says so; empty: the client's name.
+        """
+        self._core.tell_fix(latitude_rad, longitude_rad, sigma_m, depth_m, stamp_ns, source, timeout_s)
+
     def close(self) -> None:
         """Leaves the vehicle network. No handler runs any more when it returns, unless it is called from one."""
         self._finalizer.detach()

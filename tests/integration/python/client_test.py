@@ -194,6 +194,35 @@ class ClientTest(unittest.TestCase):
             finally:
                 self.vehicle.say("states on")
 
+    def test_orders_are_heard_by_the_vehicle(self):
+        with client(name="planner") as navigation:
+            self.assertIsNotNone(navigation.wait_next(PATIENCE_S))
+            navigation.set_position(0.63, 2.25, 5.0, 10.0, confirmed=True, timeout_s=PATIENCE_S)
+            self.assertEqual(self.vehicle.told.get(timeout=PATIENCE_S),
+                             ["order", "auv", "planner", "set_position", "-", "0.63", "2.25", "5", "10", "1"])
+            for name in ("enable_source", "disable_source", "acknowledge_alarm"):
+                getattr(navigation, name)("gps", timeout_s=PATIENCE_S)
+                self.assertEqual(self.vehicle.told.get(timeout=PATIENCE_S)[3:5], [name, "gps"])
+            navigation.realign()
+            self.assertEqual(self.vehicle.told.get(timeout=PATIENCE_S)[3:5], ["realign", "-"])
+            then_ns = navigation.latest().header.stamp_ns - 600 * 10**9
+            navigation.tell_fix(0.63, 2.25, 20.0, stamp_ns=then_ns, source="ship", timeout_s=PATIENCE_S)
+            told = self.vehicle.told.get(timeout=PATIENCE_S)
+            self.assertEqual(told[:7], ["fix", "auv", "ship", "0.63", "2.25", "20", "nan"])
+            self.assertAlmostEqual(float(told[7]), 600.0, delta=PATIENCE_S)
+            for wrong, words in (((36.4, 2.25, 5.0, 10.0), "latitude_rad is 36.4"), ((0.63, 2.25, 5.0, 0.0), "sigma_m is 0")):
+                with self.assertRaisesRegex(ValueError, words):
+                    navigation.set_position(*wrong)
+            with self.assertRaisesRegex(TypeError, "Client.disable_source: name"):
+                navigation.disable_source(5)
+            with self.assertRaisesRegex(ValueError, "target is empty"):
+                navigation.disable_source("")
+
+    def test_an_order_that_nobody_takes_is_an_error(self):
+        with fathom.Client(domain=DOMAIN + 5, vehicle="auv") as navigation:
+            with self.assertRaisesRegex(RuntimeError, "nobody takes orders"):
+                navigation.realign(timeout_s=0.3)
+
     def test_a_route_is_seen_by_the_vehicle(self):
         with client(name="python_guidance") as navigation:
             self.assertIsNotNone(navigation.wait_next(PATIENCE_S))  # whose route it is, is known then

@@ -1,6 +1,7 @@
 // A vehicle whose every value is known, for programs in Python. Usage: python_vehicle DOMAIN PROFILES_DIR
-// Tells on its output the routes that it hears, and does what the lines of its input say until they end:
-// `states on`, `states off` (at 50 Hz), `statuses` (of alignment and monitor, and an alarm, once).
+// Tells on its output the routes, orders and positions that it hears, and does what the lines of its input
+// say until they end: `states on`, `states off` (at 50 Hz), `statuses` (of alignment and monitor, and an
+// alarm, once).
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -13,7 +14,9 @@
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "samples/alignment_status.hpp"
+#include "samples/command.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/position/fix.hpp"
 #include "samples/status/health.hpp"
 #include "samples/status/route.hpp"
 
@@ -110,6 +113,21 @@ void tell(const Route& route, const bus::SampleInfo&) {
   std::fflush(stdout);
 }
 
+void tell_order(const Command& order, const bus::SampleInfo&) {
+  std::printf("order %s %s %s %s %.17g %.17g %g %g %d\n", order.header.vehicle.c_str(),
+              order.header.sensor.c_str(), std::string(to_string(order.kind)).c_str(),
+              order.target.empty() ? "-" : order.target.c_str(), order.latitude_rad, order.longitude_rad,
+              order.depth_m, order.sigma_m, order.confirmed ? 1 : 0);
+  std::fflush(stdout);
+}
+
+void tell_fix(const FixSample& fix, const bus::SampleInfo&) {
+  std::printf("fix %s %s %.17g %.17g %g %g %.0f\n", fix.header.vehicle.c_str(), fix.header.sensor.c_str(),
+              fix.latitude_rad, fix.longitude_rad, fix.sigma_m, fix.depth_m,
+              to_seconds(fix.header.received_ns - fix.header.stamp_ns));
+  std::fflush(stdout);
+}
+
 }  // namespace
 }  // namespace fathom
 
@@ -126,6 +144,8 @@ int main(int argc, char** argv) {
   bus::Writer<MonitorStatus> monitors(participant);
   bus::Writer<Alarm> alarms(participant);
   const bus::Reader<Route> routes(participant, tell);
+  const bus::Reader<Command> orders(participant, tell_order);
+  const bus::Reader<FixSample> fixes(participant, tell_fix);
   const SystemClock clock;
 
   std::atomic<bool> speaking{false};

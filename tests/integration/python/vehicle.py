@@ -21,12 +21,14 @@ class Vehicle:
         self._process = subprocess.Popen([os.environ["FATHOM_TEST_VEHICLE"], str(DOMAIN), f"{SOURCE}/deploy/dds"],
                                          stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         self.routes = queue.Queue()
+        self.told = queue.Queue()  # orders and positions
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
 
     def _read(self):
         for line in self._process.stdout:
-            self.routes.put(line.split())
+            words = line.split()
+            (self.routes if words[0] == "route" else self.told).put(words)
 
     def say(self, line):
         self._process.stdin.write(line + "\n")

@@ -23,13 +23,16 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "base/clock.hpp"
 #include "base/time.hpp"
 #include "samples/alignment_status.hpp"
+#include "samples/command.hpp"
 #include "samples/nav_state.hpp"
+#include "samples/position/fix.hpp"
 #include "samples/status/health.hpp"
 #include "samples/status/route.hpp"
 
@@ -92,6 +95,11 @@ struct NavHealth {
 /// Judges a state by the limits; `age_s` since its arrival, NaN when there is none. Pure.
 [[nodiscard]] NavHealth judge(const std::optional<NavState>& state, double age_s, const HealthLimits& limits);
 
+/// There is nobody on the network who takes orders, or positions.
+struct NobodyListens : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// Receives the navigation state of one vehicle, and says what guidance makes of it. All functions may be
 /// called from any thread, also from a callback.
 class Client {
@@ -131,6 +139,17 @@ class Client {
   /// could draw, naming what is wrong and what was expected, and std::runtime_error when the network did not
   /// take the one before.
   void publish_route(Route route);
+
+  /// Gives navigation an order as operators do: a position, a new alignment, a source on or off, an alarm
+  /// acknowledged. The header is filled in here: by the vehicle's time, with options.name as who orders.
+  /// Waits at most so long (host time) for somebody who takes orders. A position further away than navigation
+  /// can believe is held by fusion until it is ordered once more with `confirmed`. Throws
+  /// std::invalid_argument naming what was expected, NobodyListens, and std::runtime_error, also where this
+  /// identity may not order on a protected network. Not from a callback.
+  void order(const Command& command, double timeout_s = 5.0);
+  /// Tells a position: navigation judges it like any other measurement. header.stamp_ns says when the vehicle
+  /// was there, up to two hours ago, 0: now; header.sensor who says so, empty: options.name. As of order().
+  void tell(const FixSample& fix, double timeout_s = 5.0);
 
   [[nodiscard]] NavHealth health() const;
   /// What alignment waits for and what would help; nothing before the first status.
