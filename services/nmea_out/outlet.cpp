@@ -43,7 +43,7 @@ std::string describe(const NmeaOutputConfig& config) {
   return "serial " + config.path;
 }
 
-/// One way out. Everything but status() runs on the outlets' thread.
+/// One way out. Everything but send() and status() runs on the outlets' thread.
 class Outlet {
  public:
   Outlet(asio::io_context& io_in, NmeaOutputConfig config_in, const Outlets::Say& say)
@@ -61,7 +61,10 @@ class Outlet {
       fail(error.what());
     }
   }
-  virtual void send(const Text& text) = 0;
+  /// Returns at once. Any thread, one at a time.
+  virtual void send(Text text) {
+    asio::post(io, [this, text = std::move(text)] { say(text); });
+  }
   virtual void stop() { port.stop(); }
 
   [[nodiscard]] OutletStatus status() const {
@@ -73,6 +76,7 @@ class Outlet {
   }
 
  protected:
+  virtual void say(const Text& text) = 0;
   virtual void open() = 0;
   virtual void close() = 0;
 
@@ -97,19 +101,23 @@ class Outlet {
   OutletStatus shown;
 };
 
-/// A datagram for each text. A socket that cannot send now loses it.
+/// A datagram for each text, by whoever says it: nobody has to wake up for that, and nobody waits. A socket
+/// that cannot send now loses it.
 class UdpOutlet final : public Outlet {
  public:
   using Outlet::Outlet;
 
-  void send(const Text& text) override {
-    if (!socket.is_open()) return;
+  void send(Text text) override {
+    const std::shared_ptr<udp::socket> socket = shared();
+    if (!socket) return;
     asio::error_code error;
-    socket.send_to(asio::buffer(*text), target, 0, error);
+    socket->send_to(asio::buffer(*text), target, 0, error);
     if (error == asio::error::would_block || error == asio::error::no_buffer_space) {
       flow.dropped += text->size();
     } else if (error) {
-      fail(error.message());
+      asio::post(io, [this, socket, why = error.message()] {
+        if (shared() == socket) fail(why);
+      });
     } else {
       flow.bytes += text->size();
     }
@@ -117,26 +125,38 @@ class UdpOutlet final : public Outlet {
   }
 
  private:
+  void say(const Text& /*text*/) override {}
+  /// Nothing while it is closed. Whoever sends keeps the socket open for as long.
+  [[nodiscard]] std::shared_ptr<udp::socket> shared() const {
+    const std::lock_guard lock(socket_mutex);
+    return current;
+  }
   void open() override {
     const auto address = asio::ip::make_address(config.address);
-    target = udp::endpoint(address, static_cast<asio::ip::port_type>(config.port));
+    if (target.port() == 0) target = udp::endpoint(address, static_cast<asio::ip::port_type>(config.port));
+    auto opened = std::make_shared<udp::socket>(io);
+    udp::socket& socket = *opened;
     socket.open(target.protocol());
     socket.non_blocking(true);
     if (address.is_v4()) socket.set_option(asio::socket_base::broadcast(true));
-    if (config.interface.empty()) return;
-    const auto from = asio::ip::make_address(config.interface);
-    if (address.is_multicast() && from.is_v4())
-      socket.set_option(asio::ip::multicast::outbound_interface(from.to_v4()));
-    socket.bind(udp::endpoint(from, 0));
+    if (!config.interface.empty()) {
+      const auto from = asio::ip::make_address(config.interface);
+      if (address.is_multicast() && from.is_v4())
+        socket.set_option(asio::ip::multicast::outbound_interface(from.to_v4()));
+      socket.bind(udp::endpoint(from, 0));
+    }
+    const std::lock_guard lock(socket_mutex);
+    current = std::move(opened);
   }
   void close() override {
-    asio::error_code ignored;
-    socket.close(ignored);
+    const std::lock_guard lock(socket_mutex);
+    current.reset();
   }
 
-  udp::socket socket{io};
-  udp::endpoint target;
-  runtime::Flow flow;
+  mutable std::mutex socket_mutex;  // of the pointer
+  std::shared_ptr<udp::socket> current;
+  udp::endpoint target;  // set before the first socket is there
+  runtime::Flow flow;    // of whoever says
 };
 
 /// Every client gets everything; what clients say is read and thrown away.
@@ -144,7 +164,7 @@ class TcpOutlet final : public Outlet {
  public:
   using Outlet::Outlet;
 
-  void send(const Text& text) override {
+  void say(const Text& text) override {
     // A client may end while it is sent to.
     for (auto next = clients.begin(); next != clients.end();) {
       const auto client = *next++;
@@ -216,7 +236,7 @@ class SerialOutlet final : public Outlet {
  public:
   using Outlet::Outlet;
 
-  void send(const Text& text) override {
+  void say(const Text& text) override {
     if (lane) lane->send(text);
     show(flow);
   }
@@ -283,9 +303,7 @@ Outlets::Outlets(const std::vector<NmeaOutputConfig>& outputs, Say say)
 Outlets::~Outlets() = default;
 
 void Outlets::send(std::size_t index, std::string text) {
-  asio::post(impl_->io,
-             [outlet = impl_->outlets.at(index).get(),
-              text = std::make_shared<const std::string>(std::move(text))] { outlet->send(text); });
+  impl_->outlets.at(index)->send(std::make_shared<const std::string>(std::move(text)));
 }
 
 std::vector<OutletStatus> Outlets::status() const {

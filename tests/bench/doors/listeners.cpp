@@ -1,7 +1,9 @@
 #include "bench/doors/listeners.hpp"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cstring>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -10,6 +12,7 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -19,6 +22,7 @@
 #include "mavlink/frame.hpp"
 #include "mavlink/messages.hpp"
 #include "ros2/messages/geometry.hpp"
+#include "support/free_port.hpp"
 #include "support/presence.hpp"
 
 namespace fathom::test {
@@ -26,24 +30,35 @@ namespace {
 
 using Datagram = std::span<const std::uint8_t>;
 
-/// Hands over each datagram with its arrival.
-class UdpListener final : public Listener {
+sockaddr_in here(int port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  return address;
+}
+
+/// Hands over each datagram, or piece of a stream, with its arrival.
+class SocketListener final : public Listener {
  public:
-  UdpListener(int port, std::function<void(Datagram, TimeNs)> with)
-      : socket_(socket(AF_INET, SOCK_DGRAM, 0)), with_(std::move(with)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    bound_ = bind(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  SocketListener(int socket, bool is_open, std::function<void(Datagram, TimeNs)> with)
+      : socket_(socket), open_(is_open), with_(std::move(with)) {
     thread_ = std::thread([this] { run(); });
   }
-  ~UdpListener() override {
+  ~SocketListener() override {
     stop_ = true;
     thread_.join();
     close(socket_);
   }
-  [[nodiscard]] bool connected() const override { return bound_; }
+  [[nodiscard]] bool connected() const override { return open_; }
+
+  /// Of datagrams to a port of this host.
+  static std::unique_ptr<Listener> of_port(int port, std::function<void(Datagram, TimeNs)> with) {
+    const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
+    const sockaddr_in address = here(port);
+    const bool bound = bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    return std::make_unique<SocketListener>(descriptor, bound, std::move(with));
+  }
 
  private:
   void run() {
@@ -58,7 +73,7 @@ class UdpListener final : public Listener {
 
   SystemClock clock_;
   int socket_;
-  bool bound_ = false;
+  bool open_;
   std::function<void(Datagram, TimeNs)> with_;
   std::atomic<bool> stop_ = false;
   std::thread thread_;
@@ -92,6 +107,45 @@ class Ros2Listener final : public Listener {
 
 }  // namespace
 
+SocketHop::SocketHop(Kind kind, std::size_t bytes)
+    : bytes_(std::max(bytes, sizeof key_)),
+      socket_(socket(AF_INET, kind == Kind::tcp ? SOCK_STREAM : SOCK_DGRAM, 0)) {
+  const auto with = [this](Datagram heard, TimeNs now_ns) {
+    std::int64_t key = 0;
+    if (heard.size() < sizeof key) return;
+    std::memcpy(&key, heard.data(), sizeof key);
+    arrivals_.heard(key, now_ns);
+  };
+  const int type = kind == Kind::tcp ? SOCK_STREAM : SOCK_DGRAM;
+  const sockaddr_in to = here(free_port(type));
+  const auto* address = reinterpret_cast<const sockaddr*>(&to);
+  int receiving = socket(AF_INET, type, 0);
+  bool met = bind(receiving, address, sizeof to) == 0;
+  if (kind == Kind::tcp) {
+    const int listening = receiving;
+    met = met && listen(listening, 1) == 0 && connect(socket_, address, sizeof to) == 0;
+    receiving = met ? accept(listening, nullptr, nullptr) : -1;
+    close(listening);
+    const int on = 1;
+    (void)setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  } else {
+    met = met && connect(socket_, address, sizeof to) == 0;
+  }
+  listener_ = std::make_unique<SocketListener>(receiving, met && receiving >= 0, with);
+}
+
+SocketHop::~SocketHop() {
+  listener_.reset();
+  close(socket_);
+}
+
+void SocketHop::send() {
+  ++key_;
+  std::memcpy(bytes_.data(), &key_, sizeof key_);
+  arrivals_.said(key_ * kNsPerMillisecond, SystemClock().utc_ns());
+  (void)::send(socket_, bytes_.data(), bytes_.size(), MSG_NOSIGNAL);
+}
+
 void Arrivals::said(TimeNs stamp_ns, TimeNs now_ns) {
   const std::lock_guard lock(mutex_);
   said_ns_[key(stamp_ns)] = now_ns;
@@ -111,7 +165,7 @@ std::vector<double> Arrivals::take_us() {
 }
 
 std::unique_ptr<Listener> hear_nmea(int port, Arrivals& arrivals) {
-  return std::make_unique<UdpListener>(port, [&arrivals](Datagram bytes, TimeNs now_ns) {
+  return SocketListener::of_port(port, [&arrivals](Datagram bytes, TimeNs now_ns) {
     // $GPGGA,hhmmss.sss,
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     constexpr std::size_t kTime = 7;
@@ -124,7 +178,7 @@ std::unique_ptr<Listener> hear_nmea(int port, Arrivals& arrivals) {
 }
 
 std::unique_ptr<Listener> hear_mavlink(int port, Arrivals& arrivals) {
-  return std::make_unique<UdpListener>(port, [&arrivals](Datagram bytes, TimeNs now_ns) {
+  return SocketListener::of_port(port, [&arrivals](Datagram bytes, TimeNs now_ns) {
     const auto look = mavlink::look_at(bytes);
     if (look.kind != mavlink::Look::Kind::frame || look.frame.id != mavlink::Odometry::kId) return;
     const auto odometry = mavlink::message_of<mavlink::Odometry>(look.frame.payload);
