@@ -1,8 +1,10 @@
 #include "client/order_giver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <thread>
@@ -10,13 +12,14 @@
 
 #include <fathom/client.hpp>
 
+#include "samples/position/limits.hpp"
+
 namespace fathom {
 namespace {
 
 // Whoever was found has found us as well by then.
 constexpr std::chrono::milliseconds kToBeMet{200};
 constexpr std::chrono::milliseconds kLook{20};
-constexpr DurationNs kOldest_ns = 7200 * kNsPerSecond;
 
 void expect(bool holds, const char* what, double is, const char* expected) {
   if (!holds) {
@@ -24,19 +27,26 @@ void expect(bool holds, const char* what, double is, const char* expected) {
   }
 }
 
-void expect_place(double latitude_rad, double longitude_rad, double sigma_m) {
+void expect_within(const char* what, double is, double least, double most) {
+  if (is >= least && is <= most) return;
+  std::array<char, 64> expected{};
+  std::snprintf(expected.data(), expected.size(), "from %g to %.8g m", least, most);
+  expect(false, what, is, expected.data());
+}
+
+void expect_place(double latitude_rad, double longitude_rad, double sigma_m, const PositionLimits& limits) {
   constexpr double kHalfTurn = std::numbers::pi;
   expect(std::abs(latitude_rad) <= 0.5 * kHalfTurn, "latitude_rad", latitude_rad, "from -pi/2 to pi/2");
   expect(std::abs(longitude_rad) <= kHalfTurn, "longitude_rad", longitude_rad, "from -pi to pi");
-  expect(sigma_m >= 0.01 && sigma_m <= 1e5, "sigma_m", sigma_m, "from 0.01 to 100000 m");
+  expect_within("sigma_m", sigma_m, limits.least_sigma_m, limits.most_sigma_m);
 }
 
 void check(const Command& command) {
   switch (command.kind) {
     case CommandKind::set_position:
-      expect_place(command.latitude_rad, command.longitude_rad, command.sigma_m);
-      expect(command.depth_m >= -100.0 && command.depth_m <= 11'000.0, "depth_m", command.depth_m,
-             "from -100 to 11000 m");
+      expect_place(command.latitude_rad, command.longitude_rad, command.sigma_m, kOrderedPosition);
+      expect_within("depth_m", command.depth_m, kOrderedPosition.least_depth_m,
+                    kOrderedPosition.most_depth_m);
       return;
     case CommandKind::enable_source:
     case CommandKind::disable_source:
@@ -89,16 +99,16 @@ void OrderGiver::order(Command command, double timeout_s) {
 }
 
 void OrderGiver::tell(FixSample fix, double timeout_s) {
-  expect_place(fix.latitude_rad, fix.longitude_rad, fix.sigma_m);
+  expect_place(fix.latitude_rad, fix.longitude_rad, fix.sigma_m, kToldPosition);
   if (known(fix.depth_m))
-    expect(fix.depth_m >= -50.0 && fix.depth_m <= 12'000.0, "depth_m", fix.depth_m, "from -50 to 12000 m");
+    expect_within("depth_m", fix.depth_m, kToldPosition.least_depth_m, kToldPosition.most_depth_m);
   const std::lock_guard lock(mutex_);
   SampleHeader header = meet(fixes_, "positions", timeout_s);
   if (!fix.header.sensor.empty()) header.sensor = fix.header.sensor;
   if (fix.header.stamp_ns != 0) {
     const DurationNs ago_ns = header.received_ns - fix.header.stamp_ns;
-    expect(ago_ns >= 0 && ago_ns <= kOldest_ns, "header.stamp_ns: the vehicle was there", to_seconds(ago_ns),
-           "0 to 7200 s ago");
+    expect(ago_ns >= 0 && ago_ns <= kOldestTold_ns, "header.stamp_ns: the vehicle was there",
+           to_seconds(ago_ns), "0 to 7200 s ago");
     header.stamp_ns = fix.header.stamp_ns;
   }
   // Nobody else in this name has the same number.

@@ -11,6 +11,7 @@
 
 #include "config/json/strict_json.hpp"
 #include "health/text.hpp"
+#include "samples/position/limits.hpp"
 
 namespace fathom::orders {
 namespace {
@@ -82,9 +83,11 @@ std::string fill_fix(const json& order, FixSample& fix, double& age_s) {
   std::string fault;
   fix.latitude_rad = number_of(order, {"lat_deg", -90, 90}, false, fault) * kDegree;
   fix.longitude_rad = number_of(order, {"lon_deg", -180, 180}, false, fault) * kDegree;
-  fix.sigma_m = number_of(order, {"sigma_m", 0.01, 100000}, false, fault);
-  fix.depth_m = number_of(order, {"depth_m", -50, 12000}, true, fault);
-  const double age = number_of(order, {"age_s", 0, 7200}, true, fault);
+  fix.sigma_m =
+      number_of(order, {"sigma_m", kToldPosition.least_sigma_m, kToldPosition.most_sigma_m}, false, fault);
+  fix.depth_m =
+      number_of(order, {"depth_m", kToldPosition.least_depth_m, kToldPosition.most_depth_m}, true, fault);
+  const double age = number_of(order, {"age_s", 0, to_seconds(kOldestTold_ns)}, true, fault);
   age_s = known(age) ? age : 0.0;
   fix.header.sensor = "operator";
   if (fault.empty() && order.contains("from"))
@@ -94,7 +97,10 @@ std::string fill_fix(const json& order, FixSample& fix, double& age_s) {
 
 std::string fill_position(const json& order, Command& command) {
   static constexpr std::array<Bounds, 4> kBounds{
-      {{"lat_deg", -90, 90}, {"lon_deg", -180, 180}, {"depth_m", -100, 11000}, {"sigma_m", 0.1, 100000}}};
+      {{"lat_deg", -90, 90},
+       {"lon_deg", -180, 180},
+       {"depth_m", kOrderedPosition.least_depth_m, kOrderedPosition.most_depth_m},
+       {"sigma_m", kOrderedPosition.least_sigma_m, kOrderedPosition.most_sigma_m}}};
   std::array<double, 4> values{};
   for (std::size_t i = 0; i < kBounds.size(); ++i) {
     const auto& [key, low, high] = kBounds[i];

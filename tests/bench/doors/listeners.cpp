@@ -30,14 +30,6 @@ namespace {
 
 using Datagram = std::span<const std::uint8_t>;
 
-sockaddr_in here(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  return address;
-}
-
 /// Hands over each datagram, or piece of a stream, with its arrival.
 class SocketListener final : public Listener {
  public:
@@ -55,7 +47,7 @@ class SocketListener final : public Listener {
   /// Of datagrams to a port of this host.
   static std::unique_ptr<Listener> of_port(int port, std::function<void(Datagram, TimeNs)> with) {
     const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
-    const sockaddr_in address = here(port);
+    const sockaddr_in address = loopback(port);
     const bool bound = bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
     return std::make_unique<SocketListener>(descriptor, bound, std::move(with));
   }
@@ -117,7 +109,7 @@ SocketHop::SocketHop(Kind kind, std::size_t bytes)
     arrivals_.heard(key, now_ns);
   };
   const int type = kind == Kind::tcp ? SOCK_STREAM : SOCK_DGRAM;
-  const sockaddr_in to = here(free_port(type));
+  const sockaddr_in to = loopback(free_port(type));
   const auto* address = reinterpret_cast<const sockaddr*>(&to);
   int receiving = socket(AF_INET, type, 0);
   bool met = bind(receiving, address, sizeof to) == 0;

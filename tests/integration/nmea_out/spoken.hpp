@@ -22,6 +22,7 @@
 #include "base/clock.hpp"
 #include "bus/writer.hpp"
 #include "samples/nav_state.hpp"
+#include "support/free_port.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 
@@ -88,14 +89,6 @@ class Vehicle {
   std::thread thread_;
 };
 
-inline sockaddr_in here(int port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  return address;
-}
-
 /// A descriptor, read as lines.
 class Lines {
  public:
@@ -106,7 +99,7 @@ class Lines {
 
   /// A connection to a port of this host; waits until somebody listens there.
   [[nodiscard]] static int connected(int port) {
-    const sockaddr_in address = here(port);
+    const sockaddr_in address = loopback(port);
     int descriptor = -1;
     (void)wait_until([&] {
       descriptor = socket(AF_INET, SOCK_STREAM, 0);
@@ -119,7 +112,7 @@ class Lines {
   }
   [[nodiscard]] static int bound(int port) {
     const int descriptor = socket(AF_INET, SOCK_DGRAM, 0);
-    const sockaddr_in address = here(port);
+    const sockaddr_in address = loopback(port);
     EXPECT_EQ(bind(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
     return descriptor;
   }

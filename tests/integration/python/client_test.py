@@ -7,7 +7,7 @@ import time
 import unittest
 import weakref
 
-from vehicle import DOMAIN, PATIENCE_S, WITH_NUMPY, Vehicle, wait_until
+from vehicle import DOMAIN, PATIENCE_S, WITH_NUMPY, WithVehicle, wait_until
 
 import fathom
 
@@ -47,16 +47,7 @@ def client(**options):
     return fathom.Client(domain=DOMAIN, **({"vehicle": "auv"} | options))
 
 
-class ClientTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.vehicle = Vehicle()
-        cls.vehicle.say("states on")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.vehicle.end()
-
+class ClientTest(WithVehicle):
     def assert_says(self, value, expected, where=""):
         if isinstance(expected, dict):
             self.assertEqual(set(type(value).__annotations__) - {"header"}, set(expected), where)

@@ -6,7 +6,7 @@ import sys
 import textwrap
 import unittest
 
-from vehicle import DOMAIN, PATIENCE_S, SOURCE, WITH_NUMPY, Vehicle
+from vehicle import DOMAIN, PATIENCE_S, SOURCE, WITH_NUMPY, WithVehicle
 
 BEGIN = "" if WITH_NUMPY else "import sys; sys.modules['numpy'] = None\n"
 HEARING = f"""
@@ -27,16 +27,7 @@ def run(program, hearing=True):
     return done.returncode, done.stdout, done.stderr
 
 
-class EndingsTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.vehicle = Vehicle()
-        cls.vehicle.say("states on")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.vehicle.end()
-
+class EndingsTest(WithVehicle):
     def test_by_running_out_of_lines(self):
         self.assertEqual(run("print('end')"), (0, "end\n", ""))
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 import threading
 import time
+import unittest
 
 DOMAIN = 226
 PATIENCE_S = 60.0  # what counts as never
@@ -39,6 +40,19 @@ class Vehicle:
         assert self._process.wait(PATIENCE_S) == 0
         self._reader.join()
         self._process.stdout.close()
+
+
+class WithVehicle(unittest.TestCase):
+    """Tests beside a vehicle that tells its states."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.vehicle = Vehicle()
+        cls.vehicle.say("states on")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.vehicle.end()
 
 
 def wait_until(condition):
