@@ -29,6 +29,7 @@
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
 #include "support/free_port.hpp"
+#include "support/navigating.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -44,21 +45,7 @@ class Vehicle {
   Vehicle() : participant_(presence(kDomain, "fusion")), states_(participant_) {
     thread_ = std::thread([this] {
       while (!stop_) {
-        NavState out;
-        const TimeNs now_ns = SystemClock().utc_ns();
-        out.header = {"auv", "fusion", now_ns, now_ns, ++sequence_};
-        out.mode = NavMode::dead_reckoning;
-        out.alignment = AlignmentPhase::aligned;
-        out.latitude_rad = -0.5;
-        out.longitude_rad = 2.0;
-        out.altitude_m = -5.0;
-        out.velocity_N_m_s = {1.5, 0.0, 0.0};
-        out.q_NB = {1.0, 0.0, 0.0, 0.0};
-        out.rpy_rad = {0.0, 0.0, 0.0};
-        out.angular_rate_B_rad_s = {0.0, 0.0, 0.0};
-        out.position_covariance_N_m2 = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-        out.velocity_covariance_N_m2_s2 = out.position_covariance_N_m2;
-        out.rpy_sigma_rad = {0.001, 0.001, 0.01};
+        NavState out = navigating(SystemClock().utc_ns(), ++sequence_);
         out.reset_counter = resets_;
         states_.write(out);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));

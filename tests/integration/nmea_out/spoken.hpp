@@ -23,6 +23,7 @@
 #include "bus/writer.hpp"
 #include "samples/nav_state.hpp"
 #include "support/free_port.hpp"
+#include "support/navigating.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 
@@ -59,23 +60,14 @@ class Vehicle {
 
  private:
   NavState state() {
-    NavState out;
     const TimeNs now_ns = clock_.utc_ns();
-    out.header = {"auv", "fusion", now_ns, now_ns, ++sequence_};
+    NavState out = navigating(now_ns, ++sequence_);
     out.mode = mode_;
-    out.alignment = AlignmentPhase::aligned;
     out.latitude_rad = latitude_rad(now_ns);
     out.longitude_rad = kLongitude_rad;
-    out.altitude_m = -5.0;
     out.depth_m = 5.0;
     out.altitude_above_bottom_m = 12.0;
     out.velocity_N_m_s = {1.9, 0.0, 0.0};
-    out.q_NB = {1.0, 0.0, 0.0, 0.0};
-    out.rpy_rad = {0.0, 0.0, 0.0};
-    out.angular_rate_B_rad_s = {0.0, 0.0, 0.0};
-    out.position_covariance_N_m2 = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-    out.velocity_covariance_N_m2_s2 = out.position_covariance_N_m2;
-    out.rpy_sigma_rad = {0.001, 0.001, 0.01};
     return out;
   }
 
