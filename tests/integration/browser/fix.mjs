@@ -7,6 +7,9 @@ import {check, field, kBin, kDomain, until, view} from "./stage.mjs";
 const kRecordS = "900"; // the recorder ends by itself where a test ends before it
 const kProbeSigmaM = 50000; // of a fix that only finds out whether the recorder listens: it tells navigation nothing
 
+/** Seconds from what a fix tells of to its arrival: a table without a time of arrival says that every row came at its own. */
+const ageOf = ({t_s, t_received_s = t_s}) => t_received_s - t_s;
+
 /** Records the fixes on the vehicle network; stop() gives their rows. */
 async function recordFixes(page) {
   const folder = mkdtempSync(tmpdir() + "/fathom-fixes-");
@@ -77,7 +80,7 @@ export async function fixIsTwoClicks(page) {
     Math.max(...off) < 1e-7 && told[0].sigma_m === sigma,
     `the fix on the network is that of the form: ${JSON.stringify(told)}`,
   );
-  const age = told[0].t_received_s - told[0].t_s;
+  const age = ageOf(told[0]);
   check(age >= 0 && age < 240, `its time is that of the click, ${age} s before`);
   return `${await field(page, "fix_verdict")}; on the network ${age.toFixed(1)} s after the click`;
 }
@@ -109,7 +112,7 @@ export async function fixCanBeChanged(page) {
   await form.waitFor({state: "hidden"});
   const told = await recording.stop();
   check(told.length === 1, `one fix on the network: ${JSON.stringify(told)}`);
-  const age = told[0].t_received_s - told[0].t_s;
+  const age = ageOf(told[0]);
   check(told[0].sigma_m === 35 && age > 58 && age < 300, `as it was changed: ${JSON.stringify(told)}`);
 }
 

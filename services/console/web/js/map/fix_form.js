@@ -12,7 +12,7 @@ const kSame = {deg: 1e-6, ms: 30000}; // its time is that of its arrival less it
 
 /** `changed()`: the place or its sigma is another one. */
 export function makeFixForm(changed) {
-  let opened = null; // {ms: the vehicle's time of the click, text: the same in words}
+  let opened = null; // {at: performance.now() of the click, text: the vehicle's time of it in words}
   let told = null; // the fix that was sent: {lat, lng, ms, at: performance.now()}
   let sigma = "20"; // kept: who told one fix well tells the next one as well
   const input = (name, properties) => {
@@ -53,7 +53,7 @@ export function makeFixForm(changed) {
   /** Seconds since the time in the box; exact where nobody has changed it. */
   const age = () =>
     time.value === opened.text
-      ? Math.max(0, (store.tick.utc_ms - opened.ms) / 1000)
+      ? (performance.now() - opened.at) / 1000
       : units.secondsSince(time.value, store.tick.utc_ms);
 
   function refresh() {
@@ -69,7 +69,7 @@ export function makeFixForm(changed) {
   function open(at, aside = false) {
     if (!store.tick) return;
     root.classList.toggle("aside", aside);
-    opened = {ms: store.tick.utc_ms, text: units.clockText(store.tick.utc_ms)};
+    opened = {at: performance.now(), text: units.clockText(store.tick.utc_ms)};
     lat.value = at ? at.lat.toFixed(kDigits) : "";
     lon.value = at ? at.lng.toFixed(kDigits) : "";
     sigmaBox.value = sigma;
