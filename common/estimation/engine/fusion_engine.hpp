@@ -40,8 +40,8 @@ namespace fathom::estimation {
 /// once and judged with the next inertial sample at or after their stamp.
 ///
 /// The promise holds with the next inertial sample after which catching_up() is false: at once for a
-/// measurement that asks for no more than `replay_steps_per_sample` repeated steps, and never later than
-/// 32 inertial samples after the first one that asks for more; finish() waits for neither. It is made of the
+/// measurement that lies no more than `replay_steps_per_sample` steps back, and never later than 32 inertial
+/// samples after the first one that lies further back; finish() waits for neither. It is made of the
 /// measurements that were taken in: more than `measurement_capacity` of them within the horizon shorten it,
 /// what is older gets the verdict late. Orders act at their stamps, like measurements. Of two samples of
 /// one sensor (of a DVL, of one layer) with the same stamp the one with the lower sequence number counts, and
@@ -52,8 +52,8 @@ namespace fathom::estimation {
 /// remembered for late_fix_memory_s, where a sensor of that kind is configured; a fix of before is late.
 ///
 /// Bounded work. An inertial sample costs one step, and when older measurements came in since the last one,
-/// at most twice `replay_steps_per_sample` repeated steps; the last of 32 as above, at most horizon_s +
-/// snapshot_interval_s of steps and measurements.
+/// at most twice `replay_steps_per_sample` repeated steps and those of snapshot_interval_s; the last of 32 as
+/// above, at most horizon_s + snapshot_interval_s of steps and measurements.
 ///
 /// Verdicts. The first one of an aiding sample is given with the inertial sample with which it is judged, or
 /// at once when it is refused. When a late neighbour changes the judgement, the state follows, and another
@@ -115,7 +115,7 @@ class FusionEngine {
 
   /// Inertial steps done again for the sake of late measurements, since construction.
   [[nodiscard]] std::uint64_t repeated_steps() const;
-  /// A late measurement that asks for more than `replay_steps_per_sample` steps has not acted in nav_state()
+  /// A late measurement that lies more than `replay_steps_per_sample` steps back has not acted in nav_state()
   /// yet.
   [[nodiscard]] bool catching_up() const;
 

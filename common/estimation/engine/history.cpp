@@ -10,6 +10,10 @@ namespace {
 /// Room for young snapshots, and the steps between the youngest.
 constexpr std::size_t kYoung = 48;
 constexpr std::uint64_t kFineSteps = 3;
+/// A snapshot that stands no further before what is expected serves it as well.
+constexpr std::uint64_t kNearSteps = 2;
+/// So much room is left to snapshots that nothing is expected behind.
+constexpr std::size_t kUnexpected = 16;
 /// An eighth of the age between snapshots, a quarter where one between two is given up.
 constexpr DurationNs kSaveShare = 8;
 constexpr DurationNs kThinShare = 4;
@@ -85,6 +89,7 @@ History::Placing History::insert(const Measurement& measurement, VerdictSink& si
   std::move_backward(place, end, end + 1);
   *place = slot;
   ++event_count_;
+  anticipation_.heard(measurement, newest);
   if (stamp <= newest && (dirty_ns_ == 0 || stamp < dirty_ns_)) dirty_ns_ = stamp;
   return Placing::taken;
 }
@@ -109,6 +114,11 @@ std::size_t History::snapshot_before(TimeNs stamp_ns) const {
   return at;
 }
 
+std::uint64_t History::steps_since(TimeNs stamp_ns, std::uint64_t first) const {
+  while (first < steps_done_ && steps_[first % steps_.size()].to_ns < stamp_ns) ++first;
+  return steps_done_ - first;
+}
+
 TimeNs History::oldest_ns() const {
   const TimeNs oldest = marks_[0].now_ns;
   return catching_up_ ? std::min(oldest, catching_.now_ns()) : oldest;
@@ -120,9 +130,11 @@ void History::go_back() {
   const TimeNs late_ns = dirty_ns_;
   dirty_ns_ = 0;
   const std::size_t at = snapshot_before(late_ns);
-  const std::uint64_t repeated = steps_done_ - marks_[at].after_step;
-  const bool dear = repeated > setup_->config.replay_steps_per_sample;
-  fine_until_step_ = steps_done_ + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
+  // Asked of the steps behind it and not of those behind the snapshot: equal events make equal states,
+  // wherever snapshots stand.
+  const bool dear = steps_since(late_ns, marks_[at].after_step) > setup_->config.replay_steps_per_sample;
+  if (to_seconds(late_ns - marks_[at].now_ns) * setup_->config.imu.nominal_rate_hz > kFineSteps)
+    fine_until_step_ = steps_done_ + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
   if (catching_up_ && late_ns > catching_.now_ns()) {
     // The second will meet it on its way; the first takes it in meanwhile where that is cheap.
     if (dear || marks_[at].after_step <= caught_up_step_) return;
@@ -134,7 +146,7 @@ void History::go_back() {
     caught_up_step_ = marks_[at].after_step;
     return;
   }
-  repeated_steps_ += repeated;
+  repeated_steps_ += steps_done_ - marks_[at].after_step;
   snapshot_count_ = at + 1;
   navigator_ = snapshot(at);
   if (past_.on()) leg_ = legs_[marks_[at].place];
@@ -189,11 +201,16 @@ void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
       target == steps_done_ ? navigator_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
   bool saved = false;
   while (steps_done_ < target) {
-    run(navigator_, leg_, steps_[steps_done_ % steps_.size()], sink);
+    const ImuStep& step = steps_[steps_done_ % steps_.size()];
+    run(navigator_, leg_, step, sink);
     ++steps_done_;
-    if (save_due(newest_ns)) {
-      save(sink);
+    const TimeNs expected_until_ns = anticipation_.expected_until_ns(step.to_ns, step.to_ns - step.from_ns);
+    if (save_due(newest_ns, expected_until_ns)) {
+      save(sink, expected_until_ns);
       saved = true;
+    } else {
+      TimeNs& kept_until_ns = marks_[snapshot_count_ - 1].kept_until_ns;
+      kept_until_ns = std::max(kept_until_ns, expected_until_ns);
     }
     // A snapshot from which some step since is no longer held is of no use.
     while (snapshot_count_ > 1 && steps_done_ - marks_[0].after_step >= steps_.size()) {
@@ -234,21 +251,23 @@ void History::run(Navigator& navigator, Leg& leg, const ImuStep& step, VerdictSi
   navigator.record_to(nullptr);  // whoever copies it tells nothing
 }
 
-bool History::save_due(TimeNs newest_ns) const {
+bool History::save_due(TimeNs newest_ns, TimeNs expected_until_ns) const {
   const Mark& last = marks_[snapshot_count_ - 1];
   const std::uint64_t steps = steps_done_ - last.after_step;
   if (steps >= steps_.size() / 4) return true;
+  if (expected_until_ns > newest_ns && steps >= kNearSteps) return true;
   const DurationNs since = navigator_.now_ns() - last.now_ns;
   if (since >= from_seconds(setup_->config.snapshot_interval_s)) return true;
   return steps_done_ < fine_until_step_ && steps >= kFineSteps &&
          since >= (newest_ns - navigator_.now_ns()) / kSaveShare;
 }
 
-void History::save(VerdictSink& sink) {
+void History::save(VerdictSink& sink, TimeNs kept_until_ns) {
   if (snapshot_count_ == snapshots_.size()) drop_snapshot(0);
   Mark& mark = marks_[snapshot_count_];
   mark.after_step = steps_done_;
   mark.now_ns = navigator_.now_ns();
+  mark.kept_until_ns = kept_until_ns;
   snapshots_[mark.place] = navigator_;
   if (past_.on()) legs_[mark.place] = leg_;
   ++snapshot_count_;
@@ -260,6 +279,8 @@ void History::thin_snapshots(TimeNs newest_ns) {
   while (snapshot_count_ > 1 && marks_[1].now_ns < horizon) drop_snapshot(0);
   const DurationNs widest = from_seconds(setup_->config.snapshot_interval_s);
   for (std::size_t i = snapshot_count_; i-- > 2;) {
+    const bool is_kept = marks_[i - 1].kept_until_ns >= newest_ns;
+    if (is_kept && snapshot_count_ + kUnexpected < snapshots_.size()) continue;
     const TimeNs before = marks_[i - 2].now_ns;
     const DurationNs gap = marks_[i].now_ns - before;
     if (gap <= std::min(widest, (newest_ns - before) / kThinShare)) drop_snapshot(i - 1);
@@ -324,6 +345,7 @@ void History::forget() {
   snapshot_count_ = 0;
   steps_done_ = 0;
   fine_until_step_ = 0;
+  anticipation_.forget();
   dirty_ns_ = 0;
   catching_up_ = false;
 }

@@ -7,6 +7,7 @@
 #include "archive/layout.hpp"
 #include "archive/reader.hpp"
 #include "archive/writer.hpp"
+#include "estimation/engine/anticipation.hpp"
 #include "estimation/engine/past/past.hpp"
 #include "estimation/navigator/navigator.hpp"
 
@@ -28,11 +29,12 @@ class VerdictSink {
 /// back to the newest snapshot before it, and everything since is applied again in the one order of
 /// Measurement::key(). All storage is made by the constructor.
 ///
-/// Snapshots stand snapshot_interval_s apart; while late events come, the younger ones closer, by an eighth
-/// of their age: most measurements are late by tens of milliseconds, and then little more than that is
-/// repeated. Where snapshots stand changes the work and never the result.
+/// Snapshots stand snapshot_interval_s apart, and just before the stamps at which late measurements are
+/// expected. While those come that were not expected there, the younger ones stand closer, by an eighth of
+/// their age: most measurements are late by tens of milliseconds, and then little more than that is repeated.
+/// Where snapshots stand changes the work and never the result.
 ///
-/// An event that asks for more than replay_steps_per_sample steps is not made up for within one inertial
+/// An event that lies more than replay_steps_per_sample steps back is not made up for within one inertial
 /// sample: a second navigator starts from the snapshot and takes that many steps with each sample, while the
 /// first goes on without the event. As soon as the second has caught up it takes the first one's place. Then
 /// the state is that function of the sorted events again.
@@ -87,7 +89,8 @@ class History {
   struct Mark {
     std::uint64_t after_step = 0;  ///< number of steps applied
     TimeNs now_ns = 0;
-    std::uint16_t place = 0;  ///< in snapshots_
+    TimeNs kept_until_ns = 0;  ///< an instrument is expected to be stamped just behind it until then
+    std::uint16_t place = 0;   ///< in snapshots_
   };
 
   // history_archive.cpp
@@ -120,11 +123,14 @@ class History {
   void catch_up(std::uint64_t steps, VerdictSink& sink);
   /// The newest snapshot before an instant.
   [[nodiscard]] std::size_t snapshot_before(TimeNs stamp_ns) const;
+  /// How many steps end at an instant or behind it; those before step `first` do not.
+  [[nodiscard]] std::uint64_t steps_since(TimeNs stamp_ns, std::uint64_t first) const;
   /// The oldest instant from which steps may still be repeated.
   [[nodiscard]] TimeNs oldest_ns() const;
-  /// Whether a snapshot is due, `newest_ns` being the end of the newest step.
-  [[nodiscard]] bool save_due(TimeNs newest_ns) const;
-  void save(VerdictSink& sink);
+  /// Whether a snapshot is due, `newest_ns` being the end of the newest step and `expected_until_ns` what the
+  /// anticipation says.
+  [[nodiscard]] bool save_due(TimeNs newest_ns, TimeNs expected_until_ns) const;
+  void save(VerdictSink& sink, TimeNs kept_until_ns = 0);
   void thin_snapshots(TimeNs newest_ns);
   void drop_snapshot(std::size_t age_order);
   void drop_before(TimeNs stamp_ns, VerdictSink& sink);
@@ -153,7 +159,9 @@ class History {
   std::size_t settled_count_ = 0;      ///< so many of the oldest have their final verdict
   std::vector<Judgement> judgements_;  ///< the newest of each place in the pool
   std::uint64_t repeated_steps_ = 0;
-  std::uint64_t fine_until_step_ = 0;  ///< snapshots stand close as long as late events keep coming
+  std::uint64_t fine_until_step_ =
+      0;  ///< snapshots stand close as long as unexpected late events keep coming
+  Anticipation anticipation_;
   // The second navigator. Snapshots up to caught_up_step_ are its own, those behind it the first one's.
   bool catching_up_ = false;
   Navigator catching_;
