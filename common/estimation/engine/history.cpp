@@ -132,8 +132,10 @@ void History::go_back() {
   const std::size_t at = snapshot_before(late_ns);
   // Asked of the steps behind it and not of those behind the snapshot: equal events make equal states,
   // wherever snapshots stand.
-  const bool dear = steps_since(late_ns, marks_[at].after_step) > setup_->config.replay_steps_per_sample;
-  if (to_seconds(late_ns - marks_[at].now_ns) * setup_->config.imu.nominal_rate_hz > kFineSteps)
+  const std::uint64_t needed = steps_since(late_ns, marks_[at].after_step);
+  const std::uint64_t wasted = steps_done_ - marks_[at].after_step - needed;
+  const bool dear = needed > setup_->config.replay_steps_per_sample;
+  if (wasted > kFineSteps && wasted > needed / kSaveShare)
     fine_until_step_ = steps_done_ + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
   if (catching_up_ && late_ns > catching_.now_ns()) {
     // The second will meet it on its way; the first takes it in meanwhile where that is cheap.
