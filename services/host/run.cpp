@@ -9,6 +9,7 @@
 #include "config/vehicle/folder.hpp"
 #include "config/vehicle/vehicle_config.hpp"
 #include "runtime/build_info.hpp"
+#include "runtime/leave.hpp"
 #include "runtime/signals.hpp"
 
 namespace fathom::host {
@@ -22,11 +23,10 @@ int fail(const std::string& executable, ExitCode code, std::string message) {
   return static_cast<int>(code);
 }
 
-}  // namespace
-
-int run_service(int argc, char** argv, const ServiceInfo& info, const std::function<std::string()>& explain,
-                const std::function<Prepared(const config::LoadRequest&, bool check)>& load,
-                const std::function<ExitCode(ServiceHost&)>& body) {
+/// The exit code of run_service(), everything of the service having ended.
+int serve(int argc, char** argv, const ServiceInfo& info, const std::function<std::string()>& explain,
+          const std::function<Prepared(const config::LoadRequest&, bool check)>& load,
+          const std::function<ExitCode(ServiceHost&)>& body) {
   runtime::block_stop_signals();
   std::string executable = "fathom-" + info.name;
   for (char& c : executable) {
@@ -90,6 +90,14 @@ int run_service(int argc, char** argv, const ServiceInfo& info, const std::funct
   } catch (const std::exception& error) {
     return fail(executable, ExitCode::runtime_failure, error.what());
   }
+}
+
+}  // namespace
+
+int run_service(int argc, char** argv, const ServiceInfo& info, const std::function<std::string()>& explain,
+                const std::function<Prepared(const config::LoadRequest&, bool check)>& load,
+                const std::function<ExitCode(ServiceHost&)>& body) {
+  return runtime::leave(serve(argc, argv, info, explain, load, body));
 }
 
 }  // namespace fathom::host
