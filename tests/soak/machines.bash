@@ -56,11 +56,10 @@ set_clock +0
 declare -A pid_of machine_of
 start() {  # start MACHINE SERVICE: as commands.txt says, bound to that machine's address, with a clock of its own
   local command clock=()
-  command=$(sed -nE "s/^$2\t//p" "$state/commands.txt" |
-    sed -E "s/bus.interfaces=\[\"${address[hull]}\"\]/bus.interfaces=[\"${address[$1]}\"]/
-            s|(clock.anchor_file=[^ ']*)|\1.$1|")
-  if [ "${realtime:-}" ] && [[ $2 =~ fusion|imu_bridge ]]; then command+=" --set realtime.policy=fifo"; fi
+  command=$(sed -nE "s/^$2\t//p" "$state/commands.txt" | sed -E "s|(clock.anchor_file=[^ ']*)|\1.$1|")
   [ -n "$command" ] || { echo "$0: no service $2 in $state/commands.txt" >&2; exit 4; }
+  command+=" --set 'bus.interfaces=[\"${address[$1]}\"]'"
+  if [ "${realtime:-}" ] && [[ $2 =~ fusion|imu_bridge ]]; then command+=" --set realtime.policy=fifo"; fi
   if [ "${faked_clock:-}" ] && [ "$1" != guide ]; then
     clock=("LD_PRELOAD=$(ls /usr/lib/*/faketime/libfaketimeMT.so.1)" "FAKETIME_TIMESTAMP_FILE=$run/utc"
       FAKETIME_CACHE_DURATION=1 FAKETIME_DONT_FAKE_MONOTONIC=1)
