@@ -7,10 +7,12 @@
 #include <unistd.h>
 
 #include "bus/writer.hpp"
+#include "host/deafness.hpp"
 #include "host/realtime.hpp"
 #include "host/supervisor.hpp"
 #include "runtime/build_info.hpp"
 #include "runtime/clock_anchor.hpp"
+#include "runtime/leave.hpp"
 #include "runtime/signals.hpp"
 
 namespace fathom::host {
@@ -81,6 +83,7 @@ struct ServiceHost::Impl {
         clock(make_clock(start.common.clock, anchor)),
         participant(participant_options(start)),
         status_writer(participant),
+        deafness(start.common.bus.domain),
         started_ns(clock->utc_ns()) {}
 
   [[nodiscard]] SampleHeader header() const;
@@ -89,6 +92,8 @@ struct ServiceHost::Impl {
   /// True when this process stood still for so long that nobody on a protected network will speak to it
   /// again.
   bool given_up();
+  /// Ends the process when it hears nothing any more. What is locked stays so: nothing is taken down.
+  void leave_if_deaf();
 
   Start start;
   runtime::Log log;
@@ -98,6 +103,7 @@ struct ServiceHost::Impl {
   runtime::StopSignal stop_signal;
   bus::Participant participant;
   bus::Writer<ServiceStatus> status_writer;
+  Deafness deafness;
   TimeNs started_ns;
   std::uint64_t sequence = 0;
   bool counters_left_out = false;
@@ -139,6 +145,15 @@ bool ServiceHost::Impl::given_up() {
   log.error("stood still for " + std::to_string(stood_still_ns / kNsPerSecond) +
             " s: the others have given this service up and it has to be started again");
   return true;
+}
+
+void ServiceHost::Impl::leave_if_deaf() {
+  if (!deafness.look(SystemClock().monotonic_ns())) return;
+  log.error(
+      "what arrives from the vehicle network has waited for 10 s and nothing takes it: a thread of Fast DDS "
+      "stands still, and this service has to be started again");
+  stop_requested = true;
+  exit_code = runtime::leave(static_cast<int>(ExitCode::runtime_failure));
 }
 
 void ServiceHost::Impl::publish(ServiceState state) {
@@ -244,6 +259,7 @@ ExitCode ServiceHost::run() {
   try {
     while (!impl.stop_requested) {
       if (impl.given_up()) stop(ExitCode::runtime_failure);
+      impl.leave_if_deaf();
       const TimeNs now = impl.clock->monotonic_ns();
       if (impl.tick && now >= next_tick) {
         impl.tick();
