@@ -6,12 +6,16 @@
 namespace fathom::runtime {
 
 int leave(int exit_code) {
-  std::fflush(nullptr);
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   return exit_code;
 #else
-  std::_Exit(exit_code);
+  abandon(exit_code);
 #endif
+}
+
+void abandon(int exit_code) {
+  std::fflush(nullptr);
+  std::_Exit(exit_code);
 }
 
 }  // namespace fathom::runtime

@@ -9,4 +9,7 @@ namespace fathom::runtime {
 /// the end.
 int leave(int exit_code);
 
+/// The same in every build, and whatever is still running or locked.
+[[noreturn]] void abandon(int exit_code);
+
 }  // namespace fathom::runtime

@@ -152,8 +152,7 @@ void ServiceHost::Impl::leave_if_deaf() {
   log.error(
       "what arrives from the vehicle network has waited for 10 s and nothing takes it: a thread of Fast DDS "
       "stands still, and this service has to be started again");
-  stop_requested = true;
-  exit_code = runtime::leave(static_cast<int>(ExitCode::runtime_failure));
+  runtime::abandon(static_cast<int>(ExitCode::runtime_failure));
 }
 
 void ServiceHost::Impl::publish(ServiceState state) {

@@ -210,7 +210,8 @@ bool AlarmJournal::write_line(const std::string& line) {
   if (written != static_cast<ssize_t>(line.size())) {
     if (written >= 0) errno = ENOSPC;
     fail("cannot be written");
-    if (begin >= 0) (void)ftruncate(file_, begin);  // half a line would swallow the next one
+    // Half a line would swallow the next one.
+    if (begin >= 0 && ftruncate(file_, begin) != 0) fail("ends with half a line");
     ++counters_.failures;
     return false;
   }
