@@ -178,9 +178,9 @@ TEST(DepthBridge, AFloodOfGarbageIsCountedAndSurvived) {
     talk();
     return depth.count() > 20 && is_in_state(status, ServiceState::healthy);
   })) << bridge.output();
-  EXPECT_NEAR(depth.all().back().depth_m, 42.0, 0.02);
-  EXPECT_EQ(depth.all().back().header.stamp_ns,
-            depth.all().back().header.received_ns - 50 * kNsPerMillisecond);
+  const DepthSample last = depth.all().back();  // more may be on their way
+  EXPECT_NEAR(last.depth_m, 42.0, 0.02);
+  EXPECT_EQ(last.header.stamp_ns, last.header.received_ns - 50 * kNsPerMillisecond);
 
   std::uint32_t noise = 1;
   std::string garbage(1000, '\0');

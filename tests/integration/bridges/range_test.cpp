@@ -37,7 +37,8 @@ TEST(RangeBridge, TravelTimesBecomeRangesToPlacesAndTooFarIsRefused) {
   })) << bridge.output();
   int placed = 0;
   int elsewhere = 0;
-  for (const RangeSample& sample : ranges.all()) {
+  const auto heard = ranges.all();  // more may be on their way
+  for (const RangeSample& sample : heard) {
     EXPECT_EQ(sample.header.sensor, Name("modem"));
     EXPECT_LT(sample.range_m, 1000.0);
     if (sample.beacon == Name("12") && sample.range_m == 370.0 && sample.beacon_depth_m == 20.0) ++placed;
@@ -45,7 +46,7 @@ TEST(RangeBridge, TravelTimesBecomeRangesToPlacesAndTooFarIsRefused) {
   }
   EXPECT_GT(placed, 0);
   EXPECT_GT(elsewhere, 0);
-  EXPECT_EQ(static_cast<std::size_t>(placed + elsewhere), ranges.all().size());
+  EXPECT_EQ(static_cast<std::size_t>(placed + elsewhere), heard.size());
 }
 
 }  // namespace
