@@ -1,14 +1,21 @@
 #include "host/deafness.hpp"
 
+#include <array>
 #include <charconv>
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <system_error>
 
+#include <linux/sock_diag.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 
 namespace fathom::host {
@@ -21,31 +28,32 @@ constexpr DurationNs kPeriodNs = kNsPerSecond;
 /// Less may be a stray datagram to a socket that only sends.
 constexpr std::uint32_t kLeastBytes = 64 * 1024;
 
-/// Inodes of the sockets of this process.
-std::set<std::uint64_t> own_sockets() {
-  std::set<std::uint64_t> inodes;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
-    const std::string name = entry.path().filename().string();
-    int fd = -1;
-    struct stat about {};
-    if (std::from_chars(name.data(), name.data() + name.size(), fd).ec == std::errc{} &&
-        fstat(fd, &about) == 0 && S_ISSOCK(about.st_mode))
-      inodes.insert(about.st_ino);
-  }
-  return inodes;
+/// The port that a UDP socket is bound to; none for anything else.
+std::optional<std::uint32_t> udp_port(int fd) {
+  int type = 0;
+  socklen_t size = sizeof type;
+  if (getsockopt(fd, SOL_SOCKET, SO_TYPE, &type, &size) != 0 || type != SOCK_DGRAM) return {};
+  sockaddr_in address{};
+  size = sizeof address;
+  if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0 || address.sin_family != AF_INET)
+    return {};
+  return ntohs(address.sin_port);
 }
 
-/// A line of /proc/net/udp (proc(5)): hexadecimal but for the inode.
-struct UdpLine {
-  std::uint32_t port = 0;
-  std::uint32_t waiting_bytes = 0;
-  std::uint64_t inode = 0;
-};
-bool parse(const std::string& line, UdpLine& out) {
-  return std::sscanf(line.c_str(),
-                     " %*u: %*[0-9A-Fa-f]:%x %*[0-9A-Fa-f:] %*x %*x:%x %*x:%*x %*x %*u %*u %" SCNu64,
-                     &out.port, &out.waiting_bytes, &out.inode) == 3;
+/// What waits in a socket, as its memory counts it.
+std::uint32_t waiting_bytes(int fd) {
+  std::array<std::uint32_t, SK_MEMINFO_VARS> memory{};
+  socklen_t size = sizeof memory;
+  if (getsockopt(fd, SOL_SOCKET, SO_MEMINFO, memory.data(), &size) != 0) return 0;
+  return memory[SK_MEMINFO_RMEM_ALLOC];
+}
+
+/// A hash of the datagram that is read next, which stays where it is. RTPS datagrams have counts and instants
+/// in them: two of them do not begin alike.
+std::size_t first_of(int fd) {
+  std::array<char, 512> begin{};
+  const ssize_t size = recv(fd, begin.data(), begin.size(), MSG_PEEK | MSG_DONTWAIT);
+  return size <= 0 ? 0 : std::hash<std::string_view>()({begin.data(), static_cast<std::size_t>(size)});
 }
 
 }  // namespace
@@ -57,17 +65,19 @@ bool Deafness::look(TimeNs monotonic_ns) {
   looked_ns_ = monotonic_ns;
   bool deaf = false;
   for (auto& [inode, waiting] : sockets_) waiting.seen = false;
-  const std::set<std::uint64_t> own = own_sockets();
-  std::ifstream file("/proc/self/net/udp");
-  std::string line;
-  for (UdpLine udp; std::getline(file, line);) {
-    if (!parse(line, udp) || udp.port < first_port_ || udp.port >= first_port_ + kPortsOfADomain ||
-        !own.contains(udp.inode))
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
+    const std::string name = entry.path().filename().string();
+    int fd = -1;
+    if (std::from_chars(name.data(), name.data() + name.size(), fd).ec != std::errc{}) continue;
+    const auto port = udp_port(fd);
+    struct stat about {};
+    if (!port || *port < first_port_ || *port >= first_port_ + kPortsOfADomain || fstat(fd, &about) != 0)
       continue;
-    Waiting& waiting = sockets_[udp.inode];
-    if (udp.waiting_bytes < kLeastBytes || udp.waiting_bytes < waiting.bytes || waiting.since_ns == 0)
-      waiting.since_ns = monotonic_ns;
-    waiting.bytes = udp.waiting_bytes;
+    Waiting& waiting = sockets_[about.st_ino];
+    const std::size_t first = waiting_bytes(fd) < kLeastBytes ? 0 : first_of(fd);
+    if (first == 0 || first != waiting.first) waiting.since_ns = monotonic_ns;
+    waiting.first = first;
     waiting.seen = true;
     deaf = deaf || monotonic_ns - waiting.since_ns >= kPatienceNs;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 
@@ -10,7 +11,8 @@ namespace fathom::host {
 /// Notices that nothing takes what arrives from the vehicle network any more: what waits in a socket of this
 /// process for being read grows for 10 s and never shrinks. Then a thread of Fast DDS holds what the others
 /// wait for, for ever (2.9.1: a reader that leaves while samples are sent to it once more), and the process
-/// is there, gives life signs and hears nobody. A receiver that is only too slow takes something at times.
+/// is there, gives life signs and hears nobody. A receiver that is only too slow takes the
+/// first one at some time.
 class Deafness {
  public:
   /// Of the sockets that Fast DDS opens for this domain (RTPS 9.6.2.3).
@@ -21,9 +23,9 @@ class Deafness {
 
  private:
   struct Waiting {
-    std::uint32_t bytes = 0;
-    TimeNs since_ns = 0;  ///< it has not shrunk since
-    bool seen = false;    ///< in this look
+    std::size_t first = 0;  ///< a hash of the datagram that is read next
+    TimeNs since_ns = 0;    ///< it has been that one since
+    bool seen = false;      ///< in this look
   };
   std::uint32_t first_port_;
   TimeNs looked_ns_ = 0;
