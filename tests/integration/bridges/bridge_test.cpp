@@ -247,8 +247,8 @@ TEST(HeadingBridge, TheInstrumentConnectsToTheBridge) {
                        {R"(sensors.0.source={"type":"tcp_server","port":)" + std::to_string(port) + "}"}),
       folder / "log");
   ASSERT_TRUE(eventually([&] { return heading.matched(); })) << bridge.output();
-  const int device = connect_to(port);
-  ASSERT_GE(device, 0);
+  int device = -1;  // the bridge is on the network a little before it listens
+  ASSERT_TRUE(eventually([&] { return (device = connect_to(port)) >= 0; })) << bridge.output();
   HeadingSample sent;
   sent.heading_rad = 271.3 * kDegree;
   const std::string sentence = encode::nmea_heading(sent);
