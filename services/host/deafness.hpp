@@ -8,11 +8,11 @@
 
 namespace fathom::host {
 
-/// Notices that nothing takes what arrives from the vehicle network any more: what waits in a socket of this
-/// process for being read grows for 10 s and never shrinks. Then a thread of Fast DDS holds what the others
-/// wait for, for ever (2.9.1: a reader that leaves while samples are sent to it once more), and the process
-/// is there, gives life signs and hears nobody. A receiver that is only too slow takes the
-/// first one at some time.
+/// Notices that nothing takes what arrives from the vehicle network any more: in a socket of this process the
+/// same datagram is the next one to be read for 10 s, with many behind it. Then a thread of Fast DDS holds
+/// what the others wait for, for ever (2.9.1: a reader that leaves while samples are sent to it once more),
+/// and the process is there, gives life signs and hears nobody. A receiver that is only too slow takes that
+/// datagram at some time.
 class Deafness {
  public:
   /// Of the sockets that Fast DDS opens for this domain (RTPS 9.6.2.3).

@@ -58,7 +58,7 @@ bool deaf_within(Deafness& deafness, int looks, Between&& between) {
   return false;
 }
 
-TEST(Deafness, WhatWaitsForTenSecondsAndGrowsIsTakenByNobody) {
+TEST(Deafness, WhatWaitsForTenSecondsIsTakenByNobody) {
   Socket socket(kPort);
   socket.send(15);
   Deafness deafness(kDomain);
