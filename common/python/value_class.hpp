@@ -13,8 +13,8 @@
 
 namespace fathom::python {
 
-/// How a type crosses over: `out` to Python, `in` from it, `type` as a stub says it, `same` with NaN equal to
-/// NaN. This one is for types that are a ValueClass themselves.
+/// How a type crosses over: `out` to Python, `in` from it, `type` as type hints say it, `same` with NaN equal
+/// to NaN. This one is for types that are a ValueClass themselves.
 template <class M>
 struct Crossing {
   static std::string type() { return py::str(py::type::of<M>().attr("__name__")); }
@@ -160,7 +160,7 @@ struct Crossing<E> : PlainCrossing<E> {
 };
 
 /// A plain value as an immutable Python class. Each field is named once; its property, its place in the
-/// constructor, repr, comparison, pickling and the stub follow.
+/// constructor, repr, comparison, pickling and the type hints follow.
 template <class T>
 class ValueClass {
  public:

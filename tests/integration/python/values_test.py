@@ -121,7 +121,7 @@ class TypesTest(unittest.TestCase):
                     if not member.startswith("_"):
                         self.assertTrue(value.__doc__, f"{name}.{member}")
 
-    def test_the_stub_is_there_for_type_checkers_and_says_what_the_module_has(self):
+    def test_the_type_hints_are_there_and_says_what_the_module_has(self):
         folder = os.path.dirname(fathom.__file__)
         self.assertTrue(os.path.exists(f"{folder}/py.typed"))
         with open(f"{folder}/_native.pyi", encoding="utf-8") as file:

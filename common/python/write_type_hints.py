@@ -1,12 +1,12 @@
 """Writes _native.pyi: the types of what is compiled, as the compiled module itself names them.
 
-Usage: write_stub.py FOLDER-OF-THE-MODULE OUT
+Usage: write_type_hints.py FOLDER-OF-THE-MODULE OUT
 """
 import enum
 import inspect
 import sys
 
-HEAD = '''"""Written by write_stub.py of the compiled module."""
+HEAD = '''"""Written by write_type_hints.py of the compiled module."""
 import enum
 from collections.abc import Sequence
 from typing import Any
@@ -69,11 +69,11 @@ def doc(text, indent):
     return "\n".join([f'{pad}"""{lines[0]}'] + [(pad + line).rstrip() for line in lines[1:]] + [f'{pad}"""'])
 
 
-def stub_of_enum(kind):
+def hints_of_enum(kind):
     return [f"\n\nclass {kind.__name__}(enum.Enum):", doc(kind.__doc__, 4)] + [f"    {one.name} = {one.value}" for one in kind]
 
 
-def stub_of_value(kind):
+def hints_of_value(kind):
     out = [f"\n\nclass {kind.__name__}:", doc(kind.__doc__, 4)]
     fields = kind.__annotations__
     words = ", ".join(f"{name}: {given(what)} = ..." for name, what in fields.items())
@@ -90,9 +90,9 @@ def main():
     lines = [HEAD.rstrip("\n")]
     for kind in kinds:
         if issubclass(kind, enum.Enum):
-            lines += stub_of_enum(kind)
+            lines += hints_of_enum(kind)
         elif kind.__dict__.get("__annotations__"):
-            lines += stub_of_value(kind)
+            lines += hints_of_value(kind)
     tail = TAIL.format(scaled_clock=doc(_native.ScaledClock.__doc__, 4), utc_ns=_native.ScaledClock.utc_ns.__doc__,
                        judge=doc(_native.judge.__doc__, 4))
     with open(sys.argv[2], "w", encoding="utf-8") as file:
