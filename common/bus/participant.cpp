@@ -368,7 +368,9 @@ std::optional<TimeNs> Participant::credentials_until_ns() const {
 }
 std::optional<DurationNs> Participant::longest_silence_ns() const {
   if (!impl_->credentials) return std::nullopt;
-  return detail::kProtectedLease_s * kNsPerSecond;
+  // The others count from the last that they heard, which may be two signs of life ago.
+  constexpr int kHeardBefore_s = 2;
+  return (detail::kProtectedLease_s - kHeardBefore_s) * kNsPerSecond;
 }
 std::string Participant::credentials_warning(TimeNs now) const {
   if (!impl_->credentials) return {};

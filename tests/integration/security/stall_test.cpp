@@ -26,6 +26,7 @@ TEST(Stall, AServiceThatWasGivenUpEndsAndIsMetAgainWhenStartedAnew) {
   bridge.kill(SIGSTOP);
   ASSERT_TRUE(eventually([&] { return !met(); }, 2 * kPatience));
   bridge.kill(SIGCONT);
+  ASSERT_TRUE(eventually([&] { return !bridge.running(); }, kPatience)) << bridge.err();
   EXPECT_EQ(bridge.wait(), 4) << bridge.err();
   EXPECT_NE(bridge.err().find("the others have given this service up"), std::string::npos) << bridge.err();
   Process again("fathom-gps-bridge", arguments);
