@@ -114,7 +114,8 @@ class EndingsTest(WithVehicle):
 
     def test_with_processes_that_were_forked(self):
         code, out, err = run(f"""
-            import multiprocessing
+            import multiprocessing, warnings
+            warnings.simplefilter("ignore", DeprecationWarning)  # Python 3.12 on advises against what is done here
             def work(queue):
                 try: navigation.health()
                 except RuntimeError as error: queue.put(str(error))
