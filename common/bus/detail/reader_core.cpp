@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <map>
@@ -28,12 +29,14 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::chrono::seconds kRest(30);  // from one renewal of a reader to the next
+constexpr std::chrono::seconds kRest(30);              // from one renewal of a reader to the next
+constexpr DurationNs kSlowest_ns = 10 * kNsPerSecond;  // the longest deadline that a reader follows
 
 // WorkQueue.
 constexpr int kRenew = 0;
 constexpr int kHandOver = 1;
 constexpr int kHandOverAtLast = 2;
+constexpr int kFollow = 3;
 
 Arrival arrival_of(const WriterGuid& guid, const dds::SampleInfo& info) {
   const auto number = [](const rtps::SampleIdentity& identity) {
@@ -50,15 +53,17 @@ Arrival arrival_of(const WriterGuid& guid, const dds::SampleInfo& info) {
 }  // namespace
 
 struct ReaderCore::Impl final : dds::DataReaderListener {
-  Impl(Participant::Impl& bus_in, const TopicOps& ops_in, Handler handler_in, const ReaderOptions& options,
+  Impl(Participant::Impl& bus_in, const TopicOps& ops_in, Handler handler_in, const ReaderOptions& options_in,
        bool raw_in)
       : bus(bus_in),
         ops(ops_in),
         raw(raw_in),
+        follows(!options_in.deadline_ns),
+        options(options_in),
         qos(reader_qos(*bus.subscriber, ops.topic, options)),
+        handler(std::move(handler_in)),
         requested(summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(),
-                            qos.liveliness())),
-        handler(std::move(handler_in)) {
+                            qos.liveliness())) {
     slot.sample = create();
     slot.raw = raw;
     open();
@@ -128,6 +133,17 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     const auto now = std::chrono::steady_clock::now();
     if (renewed && now - *renewed < kRest) return;
     renewed = now;
+    replace();
+    bus.events.report(
+        BusEventKind::sample_lost, ops.topic, "deaf",
+        reader == nullptr
+            ? "samples came in and were not handed over, and no other reader could be made" + last_dds_error()
+            : "samples came in and were not handed over: another reader was made");
+    bus.events.recovered(BusEventKind::sample_lost, ops.topic, "deaf");
+  }
+
+  /// Precondition: on the thread of the work queue. `reader` is null where no other one could be made.
+  void replace() {
     bus.delivery_watch->leave(this);
     close();
     {
@@ -142,12 +158,37 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
       while (const auto held = next_held()) hand_over(*held, held->sample.get());
     }
     open();
-    bus.events.report(
-        BusEventKind::sample_lost, ops.topic, "deaf",
-        reader == nullptr
-            ? "samples came in and were not handed over, and no other reader could be made" + last_dds_error()
-            : "samples came in and were not handed over: another reader was made");
-    bus.events.recovered(BusEventKind::sample_lost, ops.topic, "deaf");
+  }
+
+  /// Where nobody asked for a deadline, a reader requests no more than the topic's slowest writer promises:
+  /// a fusion whose inertial unit is slow publishes less often than the profile presumes, and would have no
+  /// reader at all. False: there is no such writer. The deadline doubles at least, so that nobody can make a
+  /// reader begin anew without end.
+  bool follow_slowest() {
+    if (!follows) return false;
+    const QosSummary now = wants();
+    const DurationNs offered = bus.peers.longest_deadline(ops.topic, kSlowest_ns);
+    if (offered <= now.deadline_ns) return false;
+    const auto follow = [this, deadline_ns = std::max(offered, 2 * now.deadline_ns)] {
+      {
+        const std::lock_guard lock(mutex);
+        requested.deadline_ns = deadline_ns;
+      }
+      options.deadline_ns = deadline_ns;
+      qos = reader_qos(*bus.subscriber, ops.topic, options);
+      replace();
+      if (reader == nullptr) {
+        bus.events.report(BusEventKind::incompatible_qos, ops.topic, "deadline",
+                          "no reader could be made that requests no more than is offered" + last_dds_error());
+      }
+    };
+    bus.work_queue.run(this, follow, kFollow);
+    return true;
+  }
+
+  QosSummary wants() {
+    const std::lock_guard lock(mutex);
+    return requested;
   }
 
   void on_data_available(dds::DataReader* from) override {
@@ -196,7 +237,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   /// Precondition: handler_mutex held.
   void hand_over(const Held& held, const void* sample) {
     handler(sample, held.info);
-    if (requested.deadline_ns != kForever) track_deadline(held.instance, held.info.writer_guid, sample);
+    if (wants().deadline_ns != kForever) track_deadline(held.instance, held.info.writer_guid, sample);
   }
 
   /// Those kept for later whose turn has come. Precondition: handler_mutex held, and all that has arrived was
@@ -256,8 +297,10 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
                                     const dds::RequestedDeadlineMissedStatus& status) override {
     std::string key;
     WriterGuid guid{};
+    DurationNs deadline_ns = 0;
     {
       const std::lock_guard lock(mutex);
+      deadline_ns = requested.deadline_ns;
       const auto found = instances.find(status.last_instance_handle);
       // A writer that left owes nothing any more; that it was lost is reported as such.
       if (found == instances.end() || !writers.contains(found->second.writer)) return;
@@ -267,20 +310,22 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     }
     bus.events.report(
         BusEventKind::deadline_missed, ops.topic, key,
-        bus.peers.name(guid) + " sent nothing about " + key + " for " + duration_text(requested.deadline_ns),
+        bus.peers.name(guid) + " sent nothing about " + key + " for " + duration_text(deadline_ns),
         status.total_count_change);
   }
 
   void on_requested_incompatible_qos(dds::DataReader*,
                                      const dds::RequestedIncompatibleQosStatus& status) override {
     const Policy policy = policy_of(status.last_policy_id);
-    std::set<std::string> writers_in_conflict = bus.peers.writers_in_conflict(ops.topic, policy, requested);
+    if (closed || (policy == Policy::deadline && follow_slowest())) return;
+    const QosSummary now = wants();
+    std::set<std::string> writers_in_conflict = bus.peers.writers_in_conflict(ops.topic, policy, now);
     if (writers_in_conflict.empty()) writers_in_conflict.insert("another participant");
     auto occurrences = static_cast<std::uint64_t>(status.total_count_change);
     for (const std::string& name : writers_in_conflict) {
       bus.events.report(BusEventKind::incompatible_qos, ops.topic, name + " writes, " + to_string(policy),
                         "the writer of " + name + " offers another " + to_string(policy) +
-                            " than this reader requests (" + value_text(policy, requested) + ")",
+                            " than this reader requests (" + value_text(policy, now) + ")",
                         std::exchange(occurrences, 0));
     }
   }
@@ -322,8 +367,10 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   const TopicOps& ops;
   const bool raw;
   const SystemClock clock;
-  const dds::DataReaderQos qos;
-  const QosSummary requested;
+  const bool follows;  // the deadline is the topic's slowest writer's
+  // Of the thread that makes readers.
+  ReaderOptions options;
+  dds::DataReaderQos qos;
   std::atomic<bool> closed = false;
   std::atomic<int> matched = 0;
 
@@ -332,6 +379,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   SampleSlot slot;
 
   std::mutex mutex;  // of what follows
+  QosSummary requested;
   std::set<WriterGuid> writers;
   std::map<InstanceHandle_t, Instance> instances;
   InOrder<Held> order;

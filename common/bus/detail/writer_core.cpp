@@ -52,6 +52,12 @@ constexpr milliseconds kPatience(60'000);
 // How long the news that a writer left takes to a reader, where nothing is lost.
 constexpr milliseconds kToBeGone(3);
 
+// How long a reader that requests a shorter deadline than is offered has, to follow.
+constexpr milliseconds kToFollow(2000);
+
+// WorkQueue, beside what is done about a successor.
+constexpr int kConflict = 1;
+
 // How long the old one is kept: until all it wrote has arrived, or is too old to be had (the profiles'
 // depth), and at least until the successor is heard.
 constexpr milliseconds kDepth(5000);
@@ -235,9 +241,17 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   void on_offered_incompatible_qos(dds::DataWriter*,
                                    const dds::OfferedIncompatibleQosStatus& status) override {
     const Policy policy = policy_of(status.last_policy_id);
+    const auto occurrences = static_cast<std::uint64_t>(status.total_count_change);
+    if (policy != Policy::deadline) return report_conflict(policy, occurrences, "another participant");
+    // Our readers follow a longer deadline than they presumed, which is no conflict.
+    const auto work = [this, occurrences] { report_conflict(Policy::deadline, occurrences); };
+    if (!closing) bus.work_queue.run(this, work, kConflict, kToFollow);
+  }
+
+  /// `whoever`: who is named where discovery knows nobody; empty: nobody, the conflict is over.
+  void report_conflict(Policy policy, std::uint64_t occurrences, const std::string& whoever = {}) {
     std::set<std::string> readers = bus.peers.readers_in_conflict(ops.topic, policy, offered);
-    if (readers.empty()) readers.insert("another participant");
-    auto occurrences = static_cast<std::uint64_t>(status.total_count_change);
+    if (readers.empty() && !whoever.empty()) readers.insert(whoever);
     for (const std::string& name : readers) {
       bus.events.report(BusEventKind::incompatible_qos, ops.topic, name + " reads, " + to_string(policy),
                         "the reader of " + name + " requests another " + to_string(policy) +

@@ -48,6 +48,41 @@ TEST(Trouble, IncompatibleQosNamesTopicPolicyAndPeerOnBothSides) {
   EXPECT_EQ(reader.matched_writers(), 0);
 }
 
+// The profile presumes an inertial unit of 100 Hz.
+TEST(Trouble, AReaderWithoutADeadlineOfItsOwnFollowsAFusionThatPublishesLessOften) {
+  for (const DurationNs offered_ns : {60 * kNsPerMillisecond, 300 * kNsPerMillisecond}) {
+    bus::Participant a(options(110, "fusion"));
+    bus::Participant b(options(110, "guidance"));
+    const Events at_a(a);
+    const Events at_b(b);
+    bus::WriterOptions slow;
+    slow.deadline_ns = offered_ns;
+    bus::Writer<NavState> writer(a, slow);
+    Inbox<NavState> inbox;
+    bus::Reader<NavState> reader(b, inbox.handler());
+    ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+    EXPECT_TRUE(eventually([&] { return writer.write(NavState{}) && inbox.size() > 5; }));
+    // Longer than a conflict waits to be reported.
+    std::this_thread::sleep_for(milliseconds(2500));
+    EXPECT_TRUE(at_a.of(BusEventKind::incompatible_qos).empty());
+    EXPECT_TRUE(at_b.of(BusEventKind::incompatible_qos).empty());
+  }
+}
+
+TEST(Trouble, AWriterThatPromisesNothingIsNotFollowed) {
+  bus::Participant a(options(110, "stranger"));
+  bus::Participant b(options(110, "guidance"));
+  const Events at_b(b);
+  bus::WriterOptions never;
+  never.deadline_ns = 3600 * kNsPerSecond;
+  bus::Writer<NavState> writer(a, never);
+  bus::Reader<NavState> reader(b, [](const NavState&, const bus::SampleInfo&) {});
+  ASSERT_TRUE(eventually([&] { return !at_b.of(BusEventKind::incompatible_qos).empty(); }));
+  EXPECT_EQ(at_b.of(BusEventKind::incompatible_qos)[0].detail,
+            "the writer of stranger offers another deadline than this reader requests (30 ms)");
+  EXPECT_EQ(reader.matched_writers(), 0);
+}
+
 TEST(Trouble, AnotherTypeOnATopicIsReported) {
   bus::Participant a(options(111, "stranger"));
   bus::Participant b(options(111, "fusion"));

@@ -147,6 +147,9 @@ TEST(PeerBook, NamesWhoIsInConflict) {
   EXPECT_EQ(book.writers_in_conflict("t", Policy::deadline, requested), (std::set<std::string>{"two"}));
   EXPECT_EQ(book.writers_in_conflict("t", Policy::reliability, requested), (std::set<std::string>{}));
   EXPECT_EQ(book.writers_in_conflict("u", Policy::deadline, requested), (std::set<std::string>{}));
+  EXPECT_EQ(book.longest_deadline("t", 10 * kNsPerSecond), kNsPerSecond);
+  EXPECT_EQ(book.longest_deadline("t", 100 * kNsPerMillisecond), 10 * kNsPerMillisecond);
+  EXPECT_EQ(book.longest_deadline("u", 10 * kNsPerSecond), 0);
   book.reader_seen(guid(1, 2), {"t", "Other", fast});
   EXPECT_EQ(book.readers_in_conflict("t", Policy::deadline, requested), (std::set<std::string>{"one"}));
   EXPECT_EQ(book.type_conflicts("t", "T"), (std::vector<std::string>{"type 'Other' of one"}));

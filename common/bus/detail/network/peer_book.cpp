@@ -109,6 +109,16 @@ std::set<std::string> PeerBook::readers_in_conflict(const std::string& topic, Po
   return names;
 }
 
+DurationNs PeerBook::longest_deadline(const std::string& topic, DurationNs most_ns) const {
+  const std::lock_guard lock(mutex_);
+  DurationNs longest = 0;
+  for (const auto& [guid, writer] : writers_) {
+    if (writer.topic == topic && writer.qos.deadline_ns <= most_ns)
+      longest = std::max(longest, writer.qos.deadline_ns);
+  }
+  return longest;
+}
+
 std::vector<std::string> PeerBook::type_conflicts(const std::string& topic, const std::string& type) const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> conflicts;

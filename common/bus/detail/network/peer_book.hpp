@@ -48,6 +48,8 @@ class PeerBook {
                                                           const QosSummary& requested) const;
   [[nodiscard]] std::set<std::string> readers_in_conflict(const std::string& topic, Policy policy,
                                                           const QosSummary& offered) const;
+  /// The longest deadline that a writer of this topic offers, of those up to `most_ns`; 0 without any.
+  [[nodiscard]] DurationNs longest_deadline(const std::string& topic, DurationNs most_ns) const;
   /// Participants that use this topic with another type than `type`, each as "type 'x' of name".
   [[nodiscard]] std::vector<std::string> type_conflicts(const std::string& topic,
                                                         const std::string& type) const;
