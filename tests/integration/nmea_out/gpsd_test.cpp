@@ -162,7 +162,10 @@ TEST(Gpsfake, FeedsTheBridge) {
     if (fix.fix >= GpsFix::fix_3d) fixes.push_back(fix);
   });
   const int port = free_port(SOCK_STREAM);
-  Process gpsfake(kGpsfake, {"-1", "-c", "0.05", "-P", std::to_string(port), log});  // waits for a client
+  // It waits for a client. A signal that comes while it asks whether its gpsd lives makes it ask without end:
+  // `timeout` ends both of them 5 s after the signal.
+  Process gpsfake("/usr/bin/timeout",
+                  {"--kill-after=5", "120", kGpsfake, "-1", "-c", "0.05", "-P", std::to_string(port), log});
   Process bridge("fathom-gps-bridge", bridge_arguments(port, "arrival"));
   const bool enough = wait_until(
       [&] {
