@@ -199,6 +199,7 @@ void Navigator::fields(Archive& archive, Self& self) {
     Starter::later_fields(archive, self.starter_);
   }
   if (archive.since(6)) archive("plausibility", self.plausibility_);
+  if (archive.since(8)) Plausibility::later_fields(archive, self.plausibility_);
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

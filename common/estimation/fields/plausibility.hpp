@@ -28,6 +28,23 @@ void AxesFit::fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+void TiltFit::fields(Archive& archive, Self& self) {
+  archive("has_velocity", self.has_velocity_);
+  archive("has_down", self.has_down_);
+  archive("v_N_m_s", self.v_N_m_s_, fathom::archive::finite());
+  archive("dv_m_s", self.dv_m_s_, fathom::archive::finite());
+  archive("turn_rad", self.turn_rad_, fathom::archive::finite());
+  archive("lasted_s", self.lasted_s_, fathom::archive::at_least_zero());
+  archive("turn_before_rad", self.turn_before_rad_, fathom::archive::finite());
+  archive("down_B", self.down_B_, fathom::archive::finite());
+  archive("variance", self.variance_, fathom::archive::at_least_zero());
+  archive("count", self.count_, fathom::archive::at_least_zero());
+  archive("left", self.left_, fathom::archive::at_least_zero());
+  archive("over_configured", self.over_configured_, fathom::archive::finite());
+  archive("over_nothing", self.over_nothing_, fathom::archive::finite());
+}
+
+template <class Archive, class Self>
 requires std::is_same_v<std::remove_const_t<Self>, PlausibilityFinding>
 void fields(Archive& archive, Self& self) {
   archive("kind", self.kind, Implausible::depth_upwards);
@@ -83,6 +100,11 @@ void Plausibility::fields(Archive& archive, Self& self) {
   archive("speed", self.speed_);
   archive("ground", self.ground_);
   archive("mirror", self.mirror_);
+}
+
+template <class Archive, class Self>
+void Plausibility::later_fields(Archive& archive, Self& self) {
+  archive("tilts", self.tilts_);
 }
 
 }  // namespace fathom::estimation

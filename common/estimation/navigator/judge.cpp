@@ -91,6 +91,14 @@ Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
   return trial.judgement;
 }
 
+const geo::Quaternion* Navigator::attitude_to_trust(const Measurement& measurement) const {
+  constexpr double kHeading_rad = 0.2;
+  const bool asked = std::holds_alternative<GpsSample>(measurement.sample);
+  if (!asked || !estimate_.navigating || descent_.aligning() || !(rpy_sigma_rad().z() < kHeading_rad))
+    return nullptr;
+  return &estimate_.state.nav.q_NB;
+}
+
 bool Navigator::admit(Trial& trial) {
   const Measurement& measurement = trial.measurement;
   Instrument& instrument = trial.instrument;
@@ -102,7 +110,7 @@ bool Navigator::admit(Trial& trial) {
   if (trial.config.use_sample_sigma && !sound_sigmas(measurement.sample))
     return trial.end(VerdictKind::out_of_range);
   starter_.collect(*setup_, estimate_, measurement);
-  plausibility_.measured(*setup_, measurement, estimate_.now_ns);
+  plausibility_.measured(*setup_, measurement, attitude_to_trust(measurement), estimate_.now_ns);
   trial.drive = model_.drive(*setup_, estimate_, measurement);
   if (!estimate_.navigating) return trial.end(VerdictKind::not_aligned);
   if (descent_.aligning()) {

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "estimation/navigator/plausibility/pair_fit.hpp"
-#include "geo/so3.hpp"
 
 namespace fathom::estimation {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kG_m_s2 = 9.80665;
@@ -19,51 +17,7 @@ constexpr double kShare = 0.3;  // of a turn: blocks are not instants
 constexpr double kMost_rad = 1.5;
 constexpr double kLongest_s = 8.0;
 
-struct Hypothesis {
-  Matrix3d M;  // the gyro's axes as they should be, by those as they are
-  const char* remedy;
-};
-
-Matrix3d rows(const Vector3d& x, const Vector3d& y, const Vector3d& z) {
-  Matrix3d out;
-  out << x.transpose(), y.transpose(), z.transpose();
-  return out;
-}
-
-const std::array<Hypothesis, AxesFit::kHypotheses>& hypotheses() {
-  static const auto kAll = [] {
-    const Vector3d x = Vector3d::UnitX();
-    const Vector3d y = Vector3d::UnitY();
-    const Vector3d z = Vector3d::UnitZ();
-    // An exchange of accelerometer axes mirrors: it looks like the negated exchange of the gyro's.
-    return std::array<Hypothesis, AxesFit::kHypotheses>{
-        {{rows(x, y, z), ""},
-         {rows(y, x, z), "exchange gyro x and y"},
-         {rows(z, y, x), "exchange gyro x and z"},
-         {rows(x, z, y), "exchange gyro y and z"},
-         {rows(-x, -y, -z), "negate gyro x, y and z"},
-         {rows(-x, y, z), "negate gyro x"},
-         {rows(x, -y, z), "negate gyro y"},
-         {rows(x, y, -z), "negate gyro z"},
-         {rows(-x, -y, z), "negate gyro x and y, or accelerometer z"},
-         {rows(-y, -x, -z), "exchange accelerometer x and y"},
-         {rows(-z, -y, -x), "exchange accelerometer x and z"},
-         {rows(x, -y, -z), "negate accelerometer x, or gyro y and z"},
-         {rows(-x, y, -z), "negate accelerometer y, or gyro x and z"}}};
-  }();
-  return kAll;
-}
-
-/// Where down comes to lie in a body that turns.
-Vector3d turned(const Vector3d& turn_rad, const Vector3d& down) {
-  return geo::to_matrix(geo::exp(-turn_rad)) * down;
-}
-
 }  // namespace
-
-const char* AxesFit::remedy(std::size_t number) {
-  return hypotheses()[std::min(number, kHypotheses - 1)].remedy;
-}
 
 void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double lasted_s, double speed_m_s) {
   const double length = down_B.norm();
@@ -76,7 +30,7 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
     // From the middle of one block to that of another.
     const Vector3d turn = turn_rad_ + 0.5 * turn_rad;
     lasted_s_ += lasted_s;
-    const Vector3d as_configured = turned(turn, down_before_);
+    const Vector3d as_configured = turned_down(turn, down_before_);
     const double gained_m_s = std::abs(speed_m_s - speed_before_m_s_);
     const double noise =
         std::hypot(kShaken_rad, (speed_m_s * turn.norm() + gained_m_s) / (lasted_s_ * kG_m_s2));
@@ -86,8 +40,8 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
       turn_rad_ += turn_rad;
       return;
     }
-    for (std::size_t i = 1; i < kHypotheses && turn.norm() < kMost_rad; ++i) {
-      const Vector3d expected = turned(hypotheses()[i].M * turn, down_before_);
+    for (std::size_t i = 1; i < kAxesHypotheses && turn.norm() < kMost_rad; ++i) {
+      const Vector3d expected = turned_down(axes_hypothesis(i).M * turn, down_before_);
       const double apart = (expected - as_configured).norm();
       if (apart < kPairStandsOut * noise) continue;  // these two say the same
       const double variance = noise * noise + std::pow(kShare * std::min(moved, apart), 2);
@@ -103,9 +57,9 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
   speed_before_m_s_ = speed_m_s >= 0.0 ? speed_m_s : -1.0;
 }
 
-AxesFit::Other AxesFit::other() const {
-  Other out;
-  for (std::size_t i = 1; i < kHypotheses; ++i) {
+OtherAxes AxesFit::other() const {
+  OtherAxes out;
+  for (std::size_t i = 1; i < kAxesHypotheses; ++i) {
     if (count_[i] < kFewestPairs) continue;
     // Squares are in units of their variances, and two of the three components are free.
     const double components = 2.0 * count_[i];

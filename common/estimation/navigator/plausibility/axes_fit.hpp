@@ -1,9 +1,10 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 
 #include <Eigen/Core>
+
+#include "estimation/navigator/plausibility/axes_hypotheses.hpp"
 
 namespace fathom::estimation {
 
@@ -11,21 +12,13 @@ namespace fathom::estimation {
 /// better. A value of fixed size.
 class AxesFit {
  public:
-  static constexpr std::size_t kHypotheses = 13;
-  struct Other {
-    std::size_t number = 0;
-    double evidence = 0.0;  ///< log likelihood ratio against "as configured"
-  };
-
   /// One block of some `lasted_s`: where down is on average (any length), and the sum of the gyro's
   /// increments. `speed_m_s` and its change bound what turning, braking and gaining speed add to gravity;
   /// without it the block says nothing.
   void add(const Eigen::Vector3d& down_B, const Eigen::Vector3d& turn_rad, double lasted_s, double speed_m_s);
   void interrupt() { has_before_ = false; }
   /// The best explanation besides "as configured"; no evidence where that is not refuted.
-  [[nodiscard]] Other other() const;
-  /// What makes it right: "exchange gyro x and y".
-  [[nodiscard]] static const char* remedy(std::size_t number);
+  [[nodiscard]] OtherAxes other() const;
 
   /// For archives: see fields/plausibility.hpp.
   template <class Archive, class Self>
@@ -38,9 +31,9 @@ class AxesFit {
   double lasted_s_ = 0.0;
   double speed_before_m_s_ = -1.0;  ///< negative: unknown
   // Of each hypothesis, over the pairs in which it differs from "as configured": squares in sigma.
-  std::array<double, kHypotheses> count_{};
-  std::array<double, kHypotheses> configured_{};
-  std::array<double, kHypotheses> left_{};
+  std::array<double, kAxesHypotheses> count_{};
+  std::array<double, kAxesHypotheses> configured_{};
+  std::array<double, kAxesHypotheses> left_{};
 };
 
 }  // namespace fathom::estimation

@@ -16,7 +16,7 @@ constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr double kFoot_m = 0.3048;
 /// A likelihood ratio above c is seen once in c times where all is as configured, however often one looks
 /// (Ville); of all explanations together once in ten thousand.
-constexpr double kExplanations = 42.0;
+constexpr double kExplanations = 54.0;
 constexpr double kFalseAlarms = 1e-4;
 const double kClaim = std::log(kExplanations / kFalseAlarms);
 constexpr double kHeld_s = 4.5;
@@ -125,8 +125,8 @@ void Plausibility::judge(const Setup& setup) {
   sound_ = sound_ || (upwards_s_ > 0.0 && by_intervals < kRateShare);
   judge_turns(compass_.fit, best);
   judge_turns(course_.fit, best);
-  if (const auto other = axes_.other(); other.evidence > best.evidence)
-    best.hear(Implausible::gyro_axes, other.number, other.evidence);
+  for (const OtherAxes other : {axes_.other(), tilts_.other()})
+    best.hear(Implausible::gyro_axes, static_cast<double>(other.number), other.evidence);
   judge_track(track_.fit, best);
   // Only a GPS velocity that goes along its positions can speak against a DVL.
   if (!best.finding && track_.fit.agrees()) {
@@ -171,7 +171,7 @@ void write_sentence(const PlausibilityFinding& finding, double nominal_rate_hz, 
                  "mounting roll.");
     case Implausible::gyro_axes:
       return say("Not plausible: the gyro turns otherwise than gravity: %s.",
-                 AxesFit::remedy(static_cast<std::size_t>(v)));
+                 axes_hypothesis(static_cast<std::size_t>(v)).remedy);
     case Implausible::imu_rate:
       return say(
           "Not plausible: the IMU gives %.1f Hz, configured are %.1f Hz: check its clock, or set the rate.",

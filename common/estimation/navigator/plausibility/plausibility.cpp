@@ -29,6 +29,7 @@ constexpr double kCompassTurn = 0.2;  // of a turn, that tilt and deviation take
 constexpr double kCourseTurn = 0.4;   // and slip and bank
 constexpr double kShare = 0.15;       // of a way or a speed: scale, lever, the curve between two readings
 constexpr double kLever_m_s = 0.1;    // that a lever adds in a turn
+constexpr double kAntenna_m = 0.5;    // and one that is not where it is said to be
 constexpr double kStandsOut = 5.0;
 constexpr double kLongestTrack_s = 30.0;
 constexpr double kSilent_s = 1.5;   // longer, nobody knows the way between two velocities
@@ -47,6 +48,7 @@ void Plausibility::interrupt() {
   felt_m_s_.setZero();
   felt_turn_rad_.setZero();
   axes_.interrupt();
+  tilts_.interrupt();
   in_g_s_ = downwards_s_ = upwards_s_ = along_x_s_ = along_y_s_ = 0.0;
 }
 
@@ -54,6 +56,7 @@ void Plausibility::add(const Setup& setup, const ImuStep& step, TimeNs now_ns) {
   const double dt_s = step.increments.dt_s;
   if (step.gap_s > 0.0 || step.fault != ImuFault::none || !(dt_s > 0.0)) {
     if (step.gap_s > 0.0) interrupt();
+    if (step.fault != ImuFault::none) tilts_.interrupt();
     return;
   }
   interval_s_ += dt_s;
@@ -80,6 +83,7 @@ void Plausibility::add(const Setup& setup, const ImuStep& step, TimeNs now_ns) {
     }
   }
   felt_turn_rad_ += step.increments.dtheta_rad;
+  tilts_.add(step.increments.dv_m_s, step.increments.dtheta_rad, dt_s);
   feel(setup, dt_s, force, step.increments.dtheta_rad.norm() / dt_s, now_ns);
 }
 
@@ -113,10 +117,11 @@ void Plausibility::feel(const Setup& setup, double dt_s, const Vector3d& force_B
   judge(setup);
 }
 
-void Plausibility::measured(const Setup& setup, const Measurement& measurement, TimeNs now_ns) {
+void Plausibility::measured(const Setup& setup, const Measurement& measurement, const geo::Quaternion* q_NB,
+                            TimeNs now_ns) {
   if (measurement.command) return;
   const SensorConfig& config = setup.sensor(measurement.sensor);
-  if (const auto* gps = std::get_if<GpsSample>(&measurement.sample)) take(setup, config, *gps, now_ns);
+  if (const auto* gps = std::get_if<GpsSample>(&measurement.sample)) take(setup, config, *gps, q_NB, now_ns);
   if (const auto* heading = std::get_if<HeadingSample>(&measurement.sample))
     take(setup, config, *heading, now_ns);
   if (const auto* dvl = std::get_if<DvlSample>(&measurement.sample)) take(config, *dvl, now_ns);
@@ -197,7 +202,8 @@ void Plausibility::follow(const SensorConfig& config, const GpsSample& gps, cons
   track_.way_m.setZero();
 }
 
-void Plausibility::take(const Setup& setup, const SensorConfig& config, const GpsSample& gps, TimeNs now_ns) {
+void Plausibility::take(const Setup& setup, const SensorConfig& config, const GpsSample& gps,
+                        const geo::Quaternion* q_NB, TimeNs now_ns) {
   const Vector2d v(gps.velocity_N_m_s[0], gps.velocity_N_m_s[1]);
   if (!is_fixed(config, gps) || !v.allFinite() || !(v.norm() < 1000.0)) return;
   if (!(std::abs(gps.latitude_rad) < 1.57) || !(std::abs(gps.longitude_rad) < 6.2832)) return;
@@ -209,6 +215,13 @@ void Plausibility::take(const Setup& setup, const SensorConfig& config, const Gp
   speed_ns_ = now_ns;
 
   if (config.use_velocity) follow(config, gps, v, noise_m_s, now_ns);
+  if (config.use_velocity && q_NB != nullptr) {
+    const double down_m_s = std::abs(gps.velocity_N_m_s[2]) < 1000.0 ? gps.velocity_N_m_s[2] : 0.0;
+    tilts_.measured({.v_N_m_s = {v.x(), v.y(), down_m_s},
+                     .noise_m_s = noise_m_s,
+                     .lever_m = kAntenna_m + geo::vec(config.lever_B_m).norm(),
+                     .q_NB = *q_NB});
+  }
   if (speed > std::max(kSlowest_m_s, 10.0 * noise_m_s)) {
     const double sigma = std::hypot(1.4 * noise_m_s / speed, setup.config.alignment.compass_sigma_rad);
     turn(course_, std::atan2(v.y(), v.x()), sigma, kCourseTurn, now_ns);

@@ -10,6 +10,7 @@
 #include "estimation/navigator/measurement.hpp"
 #include "estimation/navigator/plausibility/axes_fit.hpp"
 #include "estimation/navigator/plausibility/pair_fit.hpp"
+#include "estimation/navigator/plausibility/tilt_fit.hpp"
 #include "estimation/navigator/setup.hpp"
 
 namespace fathom::estimation {
@@ -23,7 +24,7 @@ enum class Implausible : std::uint8_t {
   force_along_y,
   imu_rate,      ///< another rate than was said
   gyro_negated,  ///< turns against compass or course
-  gyro_axes,     ///< turns otherwise than gravity; `value` is the number of the exchange, see AxesFit
+  gyro_axes,     ///< turns otherwise than gravity; `value` is the number of the exchange, see AxesHypothesis
   gyro_in_degrees,
   gyro_too_slow,  ///< rad/s taken for deg/s
   gps_axes,       ///< its velocity does not go along its positions
@@ -55,8 +56,9 @@ class Plausibility {
  public:
   /// At the end of each inertial interval.
   void add(const Setup& setup, const ImuStep& step, TimeNs now_ns);
-  /// Each measurement at its instant.
-  void measured(const Setup& setup, const Measurement& measurement, TimeNs now_ns);
+  /// Each measurement at its instant. `q_NB`: of the estimate, none while its heading is not known.
+  void measured(const Setup& setup, const Measurement& measurement, const geo::Quaternion* q_NB,
+                TimeNs now_ns);
   /// The sums go on, but no pair spans what was not measured.
   void interrupt();
   /// All evidence.
@@ -86,6 +88,9 @@ class Plausibility {
   /// For archives: see fields/plausibility.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
+  /// Those that came with version 8.
+  template <class Archive, class Self>
+  static void later_fields(Archive& archive, Self& self);
 
  private:
   static constexpr double kHeard_s = 5.0;
@@ -114,7 +119,8 @@ class Plausibility {
     PairFit fit;
   };
 
-  void take(const Setup& setup, const SensorConfig& config, const GpsSample& gps, TimeNs now_ns);
+  void take(const Setup& setup, const SensorConfig& config, const GpsSample& gps, const geo::Quaternion* q_NB,
+            TimeNs now_ns);
   void take(const Setup& setup, const SensorConfig& config, const HeadingSample& heading, TimeNs now_ns);
   void take(const SensorConfig& config, const DvlSample& dvl, TimeNs now_ns);
   void take(const SensorConfig& config, const DepthSample& depth, TimeNs now_ns);
@@ -146,6 +152,7 @@ class Plausibility {
   double along_y_s_ = 0.0;
   Eigen::Vector3d felt_turn_rad_ = Eigen::Vector3d::Zero();
   AxesFit axes_;
+  TiltFit tilts_;
   TimeNs speed_ns_ = 0;
   double speed_m_s_ = 0.0;
   double interval_s_ = 0.0;  ///< sum of inertial intervals
