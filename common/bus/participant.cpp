@@ -10,8 +10,6 @@
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <ifaddrs.h>
-#include <netinet/in.h>
 #include <unistd.h>
 
 #include "bus/detail/network/discovery.hpp"
@@ -22,6 +20,7 @@
 #include "bus/detail/versions/transports.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
 #include "bus/detail/workarounds/scheduling.hpp"
+#include "bus/interfaces.hpp"
 
 namespace fathom::bus {
 namespace {
@@ -66,22 +65,6 @@ std::string host_name() {
   return name.data();
 }
 
-/// Every IPv4 address of this host.
-std::vector<std::string> local_addresses() {
-  std::vector<std::string> addresses;
-  ifaddrs* list = nullptr;
-  if (getifaddrs(&list) != 0) return addresses;
-  for (const ifaddrs* entry = list; entry != nullptr; entry = entry->ifa_next) {
-    if (entry->ifa_addr == nullptr || entry->ifa_addr->sa_family != AF_INET) continue;
-    const auto* address = reinterpret_cast<const sockaddr_in*>(entry->ifa_addr);
-    const std::uint32_t ip = ntohl(address->sin_addr.s_addr);
-    addresses.push_back(std::to_string(ip >> 24U) + "." + std::to_string((ip >> 16U) & 255U) + "." +
-                        std::to_string((ip >> 8U) & 255U) + "." + std::to_string(ip & 255U));
-  }
-  freeifaddrs(list);
-  return addresses;
-}
-
 rtps::Locator_t locator(const std::string& what, const std::string& address) {
   rtps::Locator_t result;
   result.kind = LOCATOR_KIND_UDPv4;
@@ -89,18 +72,6 @@ rtps::Locator_t locator(const std::string& what, const std::string& address) {
     throw BusError(what + " '" + address + "': expected an IPv4 address such as 127.0.0.1");
   }
   return result;
-}
-
-/// Fast DDS would silently leave out an address that this host does not have, and never use it afterwards.
-void check_interfaces(const std::vector<std::string>& interfaces) {
-  if (interfaces.empty()) throw BusError("no interfaces: expected at least one IPv4 address of this host");
-  const std::vector<std::string> present = local_addresses();
-  for (const std::string& interface : interfaces) {
-    if (std::find(present.begin(), present.end(), interface) != present.end()) continue;
-    std::string text;
-    for (const std::string& address : present) text.append(text.empty() ? "" : ", ").append(address);
-    throw BusError("interface '" + interface + "': this host has no such address, only " + text);
-  }
 }
 
 bool loopback(const std::string& address) {

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include "bus/interfaces.hpp"
 #include "bus/writer.hpp"
 #include "host/deafness.hpp"
 #include "host/realtime.hpp"
@@ -81,6 +82,7 @@ struct ServiceHost::Impl {
         realtime_warnings(apply_realtime(start.common.realtime)),
         anchor(start.common.clock.anchor_file, SystemClock()),
         clock(make_clock(start.common.clock, anchor)),
+        without_link(bus::without_link(start.common.bus.interfaces)),
         participant(participant_options(start)),
         status_writer(participant),
         deafness(start.common.bus.domain),
@@ -92,6 +94,8 @@ struct ServiceHost::Impl {
   /// True when this process stood still for so long that nobody on a protected network will speak to it
   /// again.
   bool given_up();
+  /// True when a network card has a link that had none when this service started, which does not use it.
+  bool has_more_links();
   /// Ends the process when it hears nothing any more. What is locked stays so: nothing is taken down.
   void leave_if_deaf();
 
@@ -101,6 +105,7 @@ struct ServiceHost::Impl {
   runtime::ClockAnchor anchor;
   std::unique_ptr<Clock> clock;
   runtime::StopSignal stop_signal;
+  std::vector<bus::LocalAddress> without_link;  ///< as this service started
   bus::Participant participant;
   bus::Writer<ServiceStatus> status_writer;
   Deafness deafness;
@@ -145,6 +150,22 @@ bool ServiceHost::Impl::given_up() {
   log.error("stood still for " + std::to_string(stood_still_ns / kNsPerSecond) +
             " s: the others have given this service up and it has to be started again");
   return true;
+}
+
+bool ServiceHost::Impl::has_more_links() {
+  if (without_link.empty()) return false;
+  const std::vector<bus::LocalAddress> still = bus::without_link(start.common.bus.interfaces);
+  for (const bus::LocalAddress& one : without_link) {
+    const bool gained = std::none_of(still.begin(), still.end(), [&](const bus::LocalAddress& other) {
+      return other.address == one.address;
+    });
+    if (!gained) continue;
+    log.warning(
+        "network card " + one.card + " (" + one.address +
+        ") has a link now, and had none when this service started: it has to be started again to use it");
+    return true;
+  }
+  return false;
 }
 
 void ServiceHost::Impl::leave_if_deaf() {
@@ -252,6 +273,9 @@ ExitCode ServiceHost::run() {
   impl.log.info("started, version " + std::string(runtime::version()) + ", configuration " +
                 impl.start.config_hash + ", vehicle " + impl.start.common.vehicle + ", domain " +
                 std::to_string(impl.start.common.bus.domain));
+  for (const bus::LocalAddress& one : impl.without_link)
+    impl.log.warning("network card " + one.card + " (" + one.address +
+                     ") has no link and is not used: no cable, or what is at its other end is off");
   supervisor::ready();
   TimeNs next_life_sign = impl.clock->monotonic_ns();
   TimeNs next_tick = next_life_sign;
@@ -266,6 +290,7 @@ ExitCode ServiceHost::run() {
       }
       const bool due = now >= next_life_sign;
       if (impl.publish_soon.exchange(false) || due) impl.publish(ServiceState::healthy);
+      if (due && impl.has_more_links()) stop(ExitCode::runtime_failure);
       if (due) next_life_sign += kLifeSignPeriod * (1 + (now - next_life_sign) / kLifeSignPeriod);
       const TimeNs next = impl.tick ? std::min(next_tick, next_life_sign) : next_life_sign;
       const auto woken = impl.stop_signal.wait(host_duration(next - impl.clock->monotonic_ns()));

@@ -58,9 +58,15 @@ std::string number(const char* format, double value) {
 void examine_presence(const NetworkFacts& network, const HostFacts& host, Report& report) {
   report.subject("network");
   for (const std::string& address : network.interfaces) {
-    if (std::find(host.addresses.begin(), host.addresses.end(), address) == host.addresses.end()) {
-      report.problem("No interface of this host that is up has the address " + address + ".",
-                     "Correct bus.interfaces (or --interface), or bring the interface up; see `ip address`.");
+    const auto found = std::find_if(host.addresses.begin(), host.addresses.end(),
+                                    [&](const bus::LocalAddress& one) { return one.address == address; });
+    if (found == host.addresses.end()) {
+      report.problem("No interface of this host has the address " + address + ".",
+                     "Correct bus.interfaces (or --interface); see `ip address`.");
+    } else if (!found->has_link) {
+      report.problem("Network card " + found->card + " (" + address + ") has no link.",
+                     "Plug its cable in, switch on what is at its other end, or bring the interface up; see "
+                     "`ip link`.");
     }
   }
   if (network.participants.empty()) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/unknown.hpp"
+#include "bus/interfaces.hpp"
 #include "bus/network_map.hpp"
 #include "samples/status/health.hpp"
 
@@ -21,7 +22,7 @@ struct ShmLeftover {
 /// What this host offers to services. Unknown where it could not be found out.
 struct HostFacts {
   std::string name;
-  std::vector<std::string> addresses;     ///< of its interfaces that are up
+  std::vector<bus::LocalAddress> addresses;
   std::optional<bool> clock_disciplined;  ///< by NTP, PTP or a GPS receiver, as the kernel knows
   double clock_error_s = kUnknown;        ///< at most, as the kernel knows
   std::optional<std::uint64_t> shm_free_bytes;

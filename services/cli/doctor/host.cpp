@@ -1,7 +1,6 @@
 #include "cli/doctor/host.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <chrono>
 #include <fstream>
@@ -9,43 +8,19 @@
 #include <string>
 #include <string_view>
 
-#include <arpa/inet.h>
-#include <ifaddrs.h>
-#include <net/if.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/timex.h>
 #include <unistd.h>
 
+#include "bus/interfaces.hpp"
 #include "runtime/build_info.hpp"
 
 namespace fathom::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::vector<std::string> addresses() {
-  std::vector<std::string> out;
-  ifaddrs* list = nullptr;
-  if (getifaddrs(&list) != 0) return out;
-  for (const ifaddrs* one = list; one != nullptr; one = one->ifa_next) {
-    if (one->ifa_addr == nullptr || (one->ifa_flags & IFF_UP) == 0) continue;
-    std::array<char, INET6_ADDRSTRLEN> text{};
-    const void* address = nullptr;
-    if (one->ifa_addr->sa_family == AF_INET) {
-      address = &reinterpret_cast<const sockaddr_in*>(one->ifa_addr)->sin_addr;
-    } else if (one->ifa_addr->sa_family == AF_INET6) {
-      address = &reinterpret_cast<const sockaddr_in6*>(one->ifa_addr)->sin6_addr;
-    }
-    if (address == nullptr) continue;
-    if (inet_ntop(one->ifa_addr->sa_family, address, text.data(), text.size()) != nullptr) {
-      out.emplace_back(text.data());
-    }
-  }
-  freeifaddrs(list);
-  return out;
-}
 
 bool is_number(const std::string& text) {
   return !text.empty() &&
@@ -126,7 +101,7 @@ std::vector<ShmLeftover> remove_leftovers(const std::vector<ShmLeftover>& leftov
 HostFacts look_at_host() {
   HostFacts out;
   out.name = runtime::host_name();
-  out.addresses = addresses();
+  out.addresses = bus::local_addresses();
   timex clock{};
   if (adjtimex(&clock) >= 0) {
     out.clock_disciplined = (clock.status & STA_UNSYNC) == 0;

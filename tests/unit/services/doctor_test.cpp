@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 HostFacts sound_host() {
   HostFacts out;
   out.name = "auv1";
-  out.addresses = {"127.0.0.1", "192.168.2.10"};
+  out.addresses = {{"127.0.0.1", "lo", true}, {"192.168.2.10", "eth0", false}};
   out.clock_disciplined = true;
   out.clock_error_s = 0.002;
   out.shm_free_bytes = 1'000'000'000;
@@ -119,7 +119,9 @@ TEST(Doctor, WhoAsksForAnIdentityIsNotHeardWithoutOne) {
 TEST(Doctor, AnInterfaceThatThisHostDoesNotHave) {
   NetworkFacts network = sound_network();
   network.interfaces = {"10.0.0.1"};
-  EXPECT_EQ(only(network).text, "No interface of this host that is up has the address 10.0.0.1.");
+  EXPECT_EQ(only(network).text, "No interface of this host has the address 10.0.0.1.");
+  network.interfaces = {"127.0.0.1", "192.168.2.10"};
+  EXPECT_EQ(only(network).text, "Network card eth0 (192.168.2.10) has no link.");
 }
 
 TEST(Doctor, TopicsOfAnotherTypeOrVersion) {
@@ -245,8 +247,10 @@ TEST(DoctorHost, LeftoversAreWhatNobodyHasOpen) {
 
 TEST(DoctorHost, KnowsItsOwnLoopback) {
   const HostFacts host = look_at_host();
-  EXPECT_NE(std::find(host.addresses.begin(), host.addresses.end(), "127.0.0.1"), host.addresses.end())
-      << "a machine without an interface that is up has no vehicle network";
+  const auto loopback = std::find_if(host.addresses.begin(), host.addresses.end(),
+                                     [](const bus::LocalAddress& one) { return one.address == "127.0.0.1"; });
+  ASSERT_NE(loopback, host.addresses.end()) << "a machine without an interface has no vehicle network";
+  EXPECT_TRUE(loopback->has_link);
   EXPECT_TRUE(host.open_files);
 }
 
