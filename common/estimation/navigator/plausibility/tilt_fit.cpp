@@ -21,6 +21,7 @@ constexpr double kLongest_s = 3.0;
 constexpr double kFloor_rad = 0.005;  // 0.05 m/s^2 that no velocity tells of
 constexpr double kShare = 0.2;        // of what is taken off, and of what turns within a block
 constexpr double kMost_rad = 1.0;
+constexpr double kMost_m_s = 1e4;
 constexpr double kStandsOut = 2.0;
 /// A block is no more than this for or against anything, and its square no more than that of three sigmas:
 /// one that a kerb or a bad velocity made says little.
@@ -46,7 +47,8 @@ void TiltFit::interrupt() {
 
 void TiltFit::measured(const Velocity& velocity) {
   if (has_velocity_ && lasted_s_ < kBlock_s) return;
-  if (has_velocity_ && lasted_s_ < kLongest_s && turn_rad_.norm() < kMost_rad) {
+  const bool sound = turn_rad_.norm() < kMost_rad && dv_m_s_.norm() < kMost_m_s;
+  if (has_velocity_ && lasted_s_ < kLongest_s && sound) {
     // The body in the middle of the block, seen from its end.
     const geo::Quaternion q_NM = velocity.q_NB * geo::exp(-0.5 * turn_rad_);
     const Block now{
