@@ -1,6 +1,6 @@
 // Runs a fuzz target without libFuzzer: over the files named on the command line, else over mutations of the
-// target's seed for `--seconds N` (default 2) from `--seed N` (default 1). The same seed gives the
-// same inputs; on a failure the input is left in the working directory.
+// target's seed for `--seconds N` (default 2), and never fewer than a hundred, from `--seed N` (default 1).
+// The same seed gives the same inputs; on a failure the input is left in the working directory.
 
 #include "driver.hpp"
 
@@ -57,15 +57,19 @@ ByteVector read(const char* path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+/// However busy the machine is.
+constexpr std::uint64_t kFewest = 100;
+
 std::uint64_t run_mutations(std::uint64_t first_seed, double seconds) {
   using Clock = std::chrono::steady_clock;
   const ByteVector stream = fathom::fuzz::target_seed();
-  const auto end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  // What a target makes once, for its first input, is not part of the time.
   run({});
   run(stream);
+  const auto end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
   std::uint64_t seed = first_seed;
-  for (; Clock::now() < end; ++seed) {
+  for (; seed - first_seed < kFewest || Clock::now() < end; ++seed) {
     // Mostly a few errors, sometimes hardly a good byte, sometimes nothing but noise.
     if (seed % 16 == 0) {
       run(fathom::test::noise(seed % 5000, seed));
