@@ -6,11 +6,13 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cerrno>
 #include <chrono>
 #include <mutex>
 #include <string>
 #include <thread>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <pty.h>
 #include <termios.h>
@@ -31,6 +33,8 @@ class Instrument {
     std::array<char, 64> name{};
     if (openpty(&device_, &line_, name.data(), nullptr, nullptr) != 0) throw std::runtime_error("openpty");
     path_ = name.data();
+    // Where nobody reads any more, a line is full in the end, and a writer that waits cannot be ended.
+    fcntl(device_, F_SETFL, O_NONBLOCK);
     termios mode{};
     tcgetattr(line_, &mode);
     cfmakeraw(&mode);
@@ -55,7 +59,8 @@ class Instrument {
       tcgetattr(device_, &mode);
       const bool heard = speed_ == B0 || cfgetispeed(&mode) == speed_;
       const ByteVector& out = heard ? stream_ : (noise_ = test::noise(stream_.size(), ++round));
-      if (write(device_, out.data(), std::min<std::size_t>(out.size(), 1000)) < 0) return;
+      const ssize_t written = write(device_, out.data(), std::min<std::size_t>(out.size(), 1000));
+      if (written < 0 && errno != EAGAIN) return;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }
