@@ -17,7 +17,8 @@ struct LocalAddress {
 /// Those of `interfaces` that have no link.
 [[nodiscard]] std::vector<LocalAddress> without_link(const std::vector<std::string>& interfaces);
 
-/// Throws BusError where this host does not have one of them, or where none of them has a link.
+/// Throws BusError where this host does not have one of them, or where none of them has a link: Fast DDS
+/// would leave them out in silence, and never use them afterwards.
 void check_interfaces(const std::vector<std::string>& interfaces);
 
 }  // namespace fathom::bus
