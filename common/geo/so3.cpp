@@ -72,7 +72,7 @@ Quaternion from_rpy(const Eigen::Vector3d& rpy_rad) {
 
 Eigen::Vector3d to_rpy(const Quaternion& q) {
   const Eigen::Matrix3d c = to_matrix(q);
-  const double level = std::hypot(c(0, 0), c(1, 0));
+  const double level = std::sqrt(c(0, 0) * c(0, 0) + c(1, 0) * c(1, 0));
   const double pitch = std::atan2(-c(2, 0), level);
   if (level < 1e-9) return {0.0, pitch, std::atan2(-c(0, 1), c(1, 1))};
   return {std::atan2(c(2, 1), c(2, 2)), pitch, std::atan2(c(1, 0), c(0, 0))};

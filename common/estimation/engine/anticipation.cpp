@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
 
 namespace fathom::estimation {
 namespace {
@@ -19,7 +20,9 @@ constexpr DurationNs kJitterShare = 8;
 
 void Anticipation::heard(const Measurement& measurement, TimeNs newest_ns) {
   if (measurement.command || measurement.sensor < 0) return;
-  Expected& one = expected_[static_cast<std::size_t>(measurement.sensor)];
+  const auto sensor = static_cast<std::size_t>(measurement.sensor);
+  Expected& one = expected_[sensor];
+  heard_ = std::max(heard_, sensor + 1);
   const DurationNs gap = measurement.stamp_ns - one.stamp_ns;
   if (one.stamp_ns != 0 && gap <= 0) return;  // another part of the same message, or out of order
   if (one.stamp_ns != 0) {
@@ -36,7 +39,7 @@ void Anticipation::heard(const Measurement& measurement, TimeNs newest_ns) {
 TimeNs Anticipation::expected_until_ns(TimeNs now_ns, DurationNs dt_ns) const {
   const DurationNs margin = dt_ns / kJitterShare;
   TimeNs until_ns = 0;
-  for (const Expected& one : expected_) {
+  for (const Expected& one : std::span(expected_).first(heard_)) {
     if (one.period_ns <= 0 || one.period_ns < kFastestSteps * dt_ns || one.delay_ns < 0) continue;
     const DurationNs since = now_ns + margin - one.stamp_ns;
     if (since < 0 || since > kPatience * one.period_ns) continue;

@@ -18,7 +18,7 @@ class Anticipation {
   /// that the next step is too late for a snapshot. The answer is the instant until which such a measurement
   /// may be on its way; 0: none is expected.
   [[nodiscard]] TimeNs expected_until_ns(TimeNs now_ns, DurationNs dt_ns) const;
-  void forget() { expected_ = {}; }
+  void forget() { *this = {}; }
 
  private:
   struct Expected {
@@ -27,6 +27,7 @@ class Anticipation {
     DurationNs delay_ns = 0;  ///< from the stamp to the newest sample at its arrival
   };
   std::array<Expected, kMaxSensors> expected_{};
+  std::size_t heard_ = 0;  ///< none behind the first so many has been heard
 };
 
 }  // namespace fathom::estimation

@@ -82,6 +82,7 @@ void Forecaster::remember(int sensor, const EventSample& sample) {
 void Forecaster::take(const Navigator& navigator) {
   navigator_ = navigator;
   navigator_.record_to(nullptr);
+  navigator_.follow();
   taken_ = past_;
   first_ = -1;
 }
@@ -141,7 +142,7 @@ void Forecaster::step(int lost, double dt_s) {
   nav.v_N_m_s = Eigen::AngleAxisd(turned_rad_, Vector3d::UnitZ()) * motion.v_N_m_s;
   const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
   filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s),
-                    setup_->process_noise(c, motion.rate_B_rad_s, motion.force_B_m_s2));
+                    setup_->process_noise(c, SquaredInputs(c, motion.rate_B_rad_s, motion.force_B_m_s2)));
   navigator_.settle_biases(filter_, ahead_s_, dt_s);
   ahead_s_ += dt_s;
   if (lost == kAll) return;

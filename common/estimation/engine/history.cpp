@@ -34,6 +34,8 @@ std::size_t snapshot_capacity(const EngineConfig& config) {
 
 History::History(const Setup& setup)
     : setup_(&setup),
+      horizon_ns_(from_seconds(setup.config.horizon_s)),
+      snapshot_interval_ns_(from_seconds(setup.config.snapshot_interval_s)),
       past_(setup),
       navigator_(setup),
       leg_(setup.index.size()),
@@ -64,7 +66,7 @@ History::Placing History::insert(const Measurement& measurement, VerdictSink& si
   const TimeNs newest = navigator_.now_ns();
   const TimeNs stamp = measurement.stamp_ns;
   if (stamp > newest + future_tolerance_ns(measurement)) return Placing::from_the_future;
-  const TimeNs horizon = newest - from_seconds(setup_->config.horizon_s);
+  const TimeNs horizon = newest - horizon_ns_;
   if (stamp < horizon || stamp <= marks_[0].now_ns) return Placing::late;
   if (event_count_ == order_.size()) {
     // Full: the oldest goes, and with it the snapshots before it, which could no longer be repeated truly.
@@ -225,8 +227,7 @@ void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
 
 DurationNs History::future_tolerance_ns(const Measurement& measurement) const {
   // An order waits for its instant.
-  const EngineConfig& config = setup_->config;
-  return from_seconds(measurement.command ? config.horizon_s : config.future_tolerance_s);
+  return measurement.command ? horizon_ns_ : from_seconds(setup_->config.future_tolerance_s);
 }
 
 Judgement History::act(Navigator& navigator, Leg& leg, const Measurement& event) {
@@ -259,7 +260,7 @@ bool History::save_due(TimeNs newest_ns, TimeNs expected_until_ns) const {
   if (steps >= steps_.size() / 4) return true;
   if (expected_until_ns > newest_ns && steps >= kNearSteps) return true;
   const DurationNs since = navigator_.now_ns() - last.now_ns;
-  if (since >= from_seconds(setup_->config.snapshot_interval_s)) return true;
+  if (since >= snapshot_interval_ns_) return true;
   return steps_done_ < fine_until_step_ && steps >= kFineSteps &&
          since >= (newest_ns - navigator_.now_ns()) / kSaveShare;
 }
@@ -277,9 +278,9 @@ void History::save(VerdictSink& sink, TimeNs kept_until_ns) {
 }
 
 void History::thin_snapshots(TimeNs newest_ns) {
-  const TimeNs horizon = newest_ns - from_seconds(setup_->config.horizon_s);
+  const TimeNs horizon = newest_ns - horizon_ns_;
   while (snapshot_count_ > 1 && marks_[1].now_ns < horizon) drop_snapshot(0);
-  const DurationNs widest = from_seconds(setup_->config.snapshot_interval_s);
+  const DurationNs widest = snapshot_interval_ns_;
   for (std::size_t i = snapshot_count_; i-- > 2;) {
     const bool is_kept = marks_[i - 1].kept_until_ns >= newest_ns;
     if (is_kept && snapshot_count_ + kUnexpected < snapshots_.size()) continue;
@@ -328,8 +329,7 @@ void History::settle_first(std::size_t count, VerdictKind unjudged, VerdictSink&
 
 void History::settle_past(VerdictSink& sink) {
   // What insert() takes in is younger than this,
-  TimeNs until_ns =
-      std::max(marks_[0].now_ns, navigator_.now_ns() - from_seconds(setup_->config.horizon_s) - 1);
+  TimeNs until_ns = std::max(marks_[0].now_ns, navigator_.now_ns() - horizon_ns_ - 1);
   // and the second navigator judges what is younger than itself again.
   if (catching_up_) until_ns = std::min(until_ns, catching_.now_ns());
   while (settled_count_ < event_count_ && event(settled_count_).stamp_ns <= until_ns)

@@ -142,6 +142,8 @@ class History {
   [[nodiscard]] std::size_t first_after(TimeNs stamp_ns) const;
 
   const Setup* setup_;
+  DurationNs horizon_ns_;
+  DurationNs snapshot_interval_ns_;
   Past past_;
   Navigator navigator_;
   Leg leg_;  ///< of the navigator

@@ -37,9 +37,10 @@ void fill_attitude(const geo::Quaternion& q, NavState& out) {
 /// The filter knows the attitude of the unit against the plumb line (OUT-4).
 std::array<double, 3> published_sigma_rad(const Setup& setup, const Navigator& navigator) {
   std::array<double, 3> out = geo::arr(navigator.rpy_sigma_rad());
-  const StateModelConfig& states = setup.config.states;
+  const double deflection = setup.config.states.vertical_deflection_sigma_rad;
+  const double mounting = setup.config.states.mounting_sigma_rad;
   for (std::size_t i = 0; i < 2; ++i)
-    out[i] = std::hypot(out[i], states.vertical_deflection_sigma_rad, states.mounting_sigma_rad);
+    out[i] = std::sqrt(out[i] * out[i] + deflection * deflection + mounting * mounting);
   return out;
 }
 
@@ -70,14 +71,19 @@ void fill(const Setup& setup, const Navigator& navigator, NavState& out) {
     return;
   }
   const NavSolution& nav = navigator.state().nav;
-  const Matrix3d c = geo::to_matrix(nav.q_NB);
   const Vector3d lever = geo::vec(setup.config.output_lever_B_m);
-  const Vector3d arm = c * lever;
-  const Vector3d rate_nb =
-      navigator.rate_B_rad_s() - c.transpose() * (geo::earth_rate_N(nav.position.latitude_rad) +
-                                                  geo::transport_rate_N(nav.position, nav.v_N_m_s));
-  const Vector3d swing = c * geo::cross(rate_nb, lever);
-  const geo::Geodetic at = geo::moved_by(nav.position, arm);
+  Vector3d arm = Vector3d::Zero();
+  Vector3d swing = Vector3d::Zero();
+  geo::Geodetic at = nav.position;
+  if (!lever.isZero(0.0)) {
+    const Matrix3d c = geo::to_matrix(nav.q_NB);
+    const Vector3d rate_nb =
+        navigator.rate_B_rad_s() - c.transpose() * (geo::earth_rate_N(nav.position.latitude_rad) +
+                                                    geo::transport_rate_N(nav.position, nav.v_N_m_s));
+    arm = c * lever;
+    swing = c * geo::cross(rate_nb, lever);
+    at = geo::moved_by(nav.position, arm);
+  }
   out.latitude_rad = at.latitude_rad;
   out.longitude_rad = at.longitude_rad;
   out.altitude_m = at.altitude_m;

@@ -70,6 +70,24 @@ void fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, SquaredInputs>
+void fields(Archive& archive, Self& self) {
+  archive("rate_B", self.rate_B, fathom::archive::at_least_zero());
+  archive("force_B", self.force_B, fathom::archive::at_least_zero());
+  archive("felt", self.felt, fathom::archive::at_least_zero());
+}
+
+template <class Archive, class Self>
+void Stride::fields(Archive& archive, Self& self) {
+  archive("dt_s", self.dt_s_, fathom::archive::within(0.0, 1.0));
+  archive("C_NB_s", self.C_NB_s_, fathom::archive::within(-1.0, 1.0));
+  archive("turn_B_rad", self.turn_B_rad_, fathom::archive::finite());
+  archive("dv_B_m_s", self.dv_B_m_s_, fathom::archive::finite());
+  archive("dv_N_m_s", self.dv_N_m_s_, fathom::archive::finite());
+  archive("squares_s", self.squares_s_);
+}
+
+template <class Archive, class Self>
 void Estimate::fields(Archive& archive, Self& self) {
   archive("now_ns", self.now_ns, fathom::archive::kInstant);
   archive("navigating", self.navigating);
@@ -200,6 +218,7 @@ void Navigator::fields(Archive& archive, Self& self) {
   }
   if (archive.since(6)) archive("plausibility", self.plausibility_);
   if (archive.since(8)) Plausibility::later_fields(archive, self.plausibility_);
+  if (archive.since(9)) archive("stride", self.estimate_.stride);
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

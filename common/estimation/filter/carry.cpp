@@ -29,9 +29,9 @@ double share_along_vehicle(const ErrorFilter& filter, const Vector3d& v_N_m_s) {
 
 Eigen::Matrix<double, Carry::kStates, Carry::kStates> Carry::matrix() const {
   Eigen::Matrix<double, kStates, kStates> t = Eigen::Matrix<double, kStates, kStates>::Zero();
-  t.block<3, 3>(0, 0) = velocity_own;
+  t.block<3, 3>(0, 0) = turn;
   t.block<3, 3>(0, 3) = velocity_by_attitude;
-  t.block<3, 3>(3, 3) = attitude_own;
+  t.block<3, 3>(3, 3) = turn;
   t.block<3, 3>(6, 6) = bias_own;
   return t;
 }
@@ -40,10 +40,9 @@ Carry carried(const ErrorFilter& filter, const std::array<double, kMaxStates>& x
               const Vector3d& before_N_m_s, const Vector3d& after_N_m_s) {
   // (KF-5)
   Carry out;
-  const Matrix3d turn = geo::to_matrix(geo::exp(Vector3d(0.0, 0.0, x[8])));
-  out.velocity_own = out.attitude_own = turn;
+  out.turn = geo::to_matrix(geo::exp(Vector3d(0.0, 0.0, x[8])));
   out.velocity_by_attitude =
-      share_along_vehicle(filter, before_N_m_s) * geo::skew(after_N_m_s - turn * before_N_m_s) * turn;
+      share_along_vehicle(filter, before_N_m_s) * geo::skew(after_N_m_s - out.turn * before_N_m_s) * out.turn;
   // The tilt that goes with this much bias where nothing accelerates.
   const Vector3d force_N = C_NB * Vector3d(x[9], x[10], x[11]);
   const Vector3d tilt = Vector3d(force_N.y(), -force_N.x(), 0.0) / kGravity_m_s2;

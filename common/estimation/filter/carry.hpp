@@ -11,15 +11,14 @@ namespace fathom::estimation {
 class ErrorFilter;
 
 /// The errors of velocity, attitude and accelerometer bias written anew about a corrected estimate (KF-5):
-///   velocity' = velocity_own velocity + velocity_by_attitude attitude,
-///   attitude' = attitude_own attitude,  bias' = bias_own bias.
+///   velocity' = turn velocity + velocity_by_attitude attitude,
+///   attitude' = turn attitude,  bias' = bias_own bias.
 struct Carry {
   static constexpr int kFirst = 3;  ///< of the nine states
   static constexpr int kStates = 9;
 
-  Eigen::Matrix3d velocity_own = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< about down
   Eigen::Matrix3d velocity_by_attitude = Eigen::Matrix3d::Zero();
-  Eigen::Matrix3d attitude_own = Eigen::Matrix3d::Identity();
   Eigen::Matrix3d bias_own = Eigen::Matrix3d::Identity();
 
   [[nodiscard]] Eigen::Matrix<double, kStates, kStates> matrix() const;

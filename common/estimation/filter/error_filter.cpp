@@ -83,20 +83,35 @@ FATHOM_WITHIN void turn3(const Eigen::Matrix3d& m, double* rows, int columns) {
   }
 }
 
+/// The same where m turns about the third axis.
+FATHOM_WITHIN void turn2(const Eigen::Matrix3d& m, double* rows, int columns) {
+  const double m00 = m(0, 0), m01 = m(0, 1);
+  const double m10 = m(1, 0), m11 = m(1, 1);
+#pragma GCC ivdep
+  for (int j = 0; j < columns; ++j) {
+    const double a = rows[j];
+    const double b = rows[j + kRowStride];
+    rows[j] = m00 * a + m01 * b;
+    rows[j + kRowStride] = m10 * a + m11 * b;
+  }
+}
+
 /// The nine rows of a Carry, from the velocity's first one on.
 FATHOM_WITHIN void apply_carry(const Carry& carry, double* rows, int columns) {
   double* attitude = rows + 3 * kRowStride;
-  turn3(carry.velocity_own, rows, columns);
-  for (int i = 0; i < 3; ++i) {
-    double* target = rows + i * kRowStride;
-    const double a = carry.velocity_by_attitude(i, 0);
-    const double b = carry.velocity_by_attitude(i, 1);
-    const double c = carry.velocity_by_attitude(i, 2);
+  turn2(carry.turn, rows, columns);
+  if (!carry.velocity_by_attitude.isZero(0.0)) {
+    for (int i = 0; i < 3; ++i) {
+      double* target = rows + i * kRowStride;
+      const double a = carry.velocity_by_attitude(i, 0);
+      const double b = carry.velocity_by_attitude(i, 1);
+      const double c = carry.velocity_by_attitude(i, 2);
 #pragma GCC ivdep
-    for (int j = 0; j < columns; ++j)
-      target[j] += a * attitude[j] + b * attitude[j + kRowStride] + c * attitude[j + 2 * kRowStride];
+      for (int j = 0; j < columns; ++j)
+        target[j] += a * attitude[j] + b * attitude[j + kRowStride] + c * attitude[j + 2 * kRowStride];
+    }
   }
-  turn3(carry.attitude_own, attitude, columns);
+  turn2(carry.turn, attitude, columns);
   turn3(carry.bias_own, rows + 6 * kRowStride, columns);
 }
 

@@ -157,9 +157,9 @@ void Passage::carried(const Carry& carry) {
              Eigen::OuterStride<kRowStride>>
       rows(a_.data() + at(Carry::kFirst, 0), Carry::kStates, n_);
   const Rows before = rows;
-  rows.topRows<3>() = carry.velocity_own * before.topRows<3>();
+  rows.topRows<3>() = carry.turn * before.topRows<3>();
   rows.topRows<3>() += carry.velocity_by_attitude * before.middleRows<3>(3);
-  rows.middleRows<3>(3) = carry.attitude_own * before.middleRows<3>(3);
+  rows.middleRows<3>(3) = carry.turn * before.middleRows<3>(3);
   rows.bottomRows<3>() = carry.bias_own * before.bottomRows<3>();
 }
 

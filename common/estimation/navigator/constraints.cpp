@@ -7,17 +7,12 @@
 namespace fathom::estimation {
 namespace {
 
-/// A tick of the grid of this rate lies within the step.
-bool due(const ImuStep& step, double rate_hz) {
-  const DurationNs period = from_seconds(1.0 / rate_hz);
-  return step.to_ns / period != step.from_ns / period;
-}
-
 template <class Model>
 void constrain(const Setup& setup, const Model& model, Estimate& estimate) {
   Observation observation;
   observe(model, setup.index, observation);
   observation.each_alone = true;
+  estimate.follow(setup);
   observation.list_columns(setup.index.size());
   InnovationStatistics statistics;
   const GateResult result =
@@ -28,6 +23,7 @@ void constrain(const Setup& setup, const Model& model, Estimate& estimate) {
 
 /// (AID-ZUPT-1)
 bool apply_zero_velocity(const Setup& setup, Estimate& estimate) {
+  estimate.follow(setup);
   const AidingState state = estimate.aiding_state(setup);
   Observation observation;
   observe(ZeroVelocity(state, setup.config.zero_velocity_sigma_m_s), setup.index, observation);
@@ -49,11 +45,11 @@ bool Constraints::apply(const Setup& setup, const ImuStep& step, Estimate& estim
     next_zero_velocity_ns_ = estimate.now_ns + kNsPerSecond;
     rested = apply_zero_velocity(setup, estimate);
   }
-  if (config.non_holonomic.enabled && due(step, config.non_holonomic.rate_hz)) {
+  if (config.non_holonomic.enabled && step.passes_tick(from_seconds(1.0 / config.non_holonomic.rate_hz))) {
     const AidingState state = estimate.aiding_state(setup);
     constrain(setup, NonHolonomic(state, config.non_holonomic), estimate);
   }
-  if (config.constant_depth.enabled && due(step, config.constant_depth.rate_hz)) {
+  if (config.constant_depth.enabled && step.passes_tick(from_seconds(1.0 / config.constant_depth.rate_hz))) {
     const AidingState state = estimate.aiding_state(setup);
     constrain(setup, ConstantDepth(state, config.constant_depth.sigma_m_s), estimate);
   }

@@ -43,18 +43,31 @@ void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns)
   const geo::LocalEarth earth(state.nav.position);
   const Eigen::Matrix3d c = geo::to_matrix(state.nav.q_NB);
   const Vector3d v_before = state.nav.v_N_m_s;
-  const ErrorRates rates = error_rates(earth, v_before, c * force_B_m_s2);
-  ProcessNoise noise = setup.process_noise(c, rate_B_rad_s, force_B_m_s2);
-  add_second_order(setup, c, noise);
-  add_g_sensitivity(setup, dt, noise);
-  filter.propagate(NavTransition(index, rates, c, rate_B_rad_s, force_B_m_s2, dt), noise);
-  settle_biases(setup, filter, -dt, dt);
+  stride.add(dt, c, rate_B_rad_s, force_B_m_s2);
   state.nav = mechanise(state.nav, earth, c, correct(in, fraction));
   travelled_N_m += 0.5 * dt * (v_before + state.nav.v_N_m_s);
-  for (const std::uint8_t one : setup.drift.decaying()) state.x[one] *= setup.drift.kept(one, dt);
+  if (stride.is_due(setup.stride_s)) follow(setup);
 }
 
-void Estimate::add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB, ProcessNoise& noise) const {
+void Estimate::follow(const Setup& setup) {
+  // (KF-1)
+  if (stride.is_empty()) return;
+  const double dt = stride.dt_s();
+  const Eigen::Matrix3d c = stride.C_NB();
+  const Vector3d force_N_m_s2 = stride.force_N_m_s2();
+  const ErrorRates rates = error_rates(geo::LocalEarth(state.nav.position), state.nav.v_N_m_s, force_N_m_s2);
+  ProcessNoise noise = setup.process_noise(c, stride.squares());
+  add_second_order(setup, c, force_N_m_s2, noise);
+  add_g_sensitivity(setup, noise);
+  filter.propagate(NavTransition(setup.index, rates, c, stride.rate_B_rad_s(), stride.force_B_m_s2(), dt),
+                   noise);
+  settle_biases(setup, filter, -dt, dt);
+  for (const std::uint8_t one : setup.drift.decaying()) state.x[one] *= setup.drift.kept(one, dt);
+  stride = {};
+}
+
+void Estimate::add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB, const Vector3d& force_N_m_s2,
+                                ProcessNoise& noise) const {
   // (NOISE-3)
   const double heading = filter(8, 8);
   if (heading < kKnownHeading_rad * kKnownHeading_rad) return;
@@ -63,7 +76,7 @@ void Estimate::add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB,
   Eigen::Matrix3d about_down = Eigen::Matrix3d::Zero();
   about_down(0, 1) = -1.0;
   about_down(1, 0) = 1.0;
-  const Eigen::Matrix3d force = geo::skew(C_NB * force_B_m_s2);
+  const Eigen::Matrix3d force = geo::skew(force_N_m_s2);
   const Eigen::Matrix3d tilts = filter.block3(6, 6);
   const Eigen::Matrix3d cross = force * filter.block3(6, accel) * C_NB.transpose();
   const Eigen::Matrix3d acceleration = force * tilts * force.transpose() + cross + cross.transpose() +
@@ -74,14 +87,14 @@ void Estimate::add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB,
   noise.attitude += kDriftMemory_s * rate * about_down * tilts * about_down.transpose();
 }
 
-void Estimate::add_g_sensitivity(const Setup& setup, double dt_s, ProcessNoise& noise) {
+void Estimate::add_g_sensitivity(const Setup& setup, ProcessNoise& noise) {
   // (NOISE-4)
   const double k = setup.config.imu.gyro_g_sensitivity_rad_s_per_m_s2;
   if (k <= 0.0) return;
-  const Vector3d fresh = force_B_m_s2 - usual_force_B_m_s2;
+  const Vector3d fresh = stride.force_B_m_s2() - usual_force_B_m_s2;
   const Vector3d learned = usual_force_B_m_s2 + Vector3d(0.0, 0.0, kStandardGravity_m_s2);
   noise.attitude.diagonal().array() += 2.0 * kDriftMemory_s * k * k * std::max(0.0, learned.dot(fresh));
-  usual_force_B_m_s2 += (1.0 - std::exp(-dt_s / kDriftMemory_s)) * fresh;
+  usual_force_B_m_s2 += (1.0 - std::exp(-stride.dt_s() / kDriftMemory_s)) * fresh;
 }
 
 void Estimate::settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {
@@ -131,11 +144,17 @@ void Estimate::replace(const Setup& setup, const FilterState& other, const Error
   force_B_m_s2 += bias(state, Group::accel_bias) - bias(other, Group::accel_bias);
   state = other;
   filter = covariance;
+  stride = {};
+}
+
+void Estimate::forget_covariance(const std::array<double, kMaxStates>& sigma) {
+  filter.reset(sigma);
+  stride = {};
 }
 
 void Estimate::begin(const FilterState& start, const std::array<double, kMaxStates>& sigma) {
   state = start;
-  filter.reset(sigma);
+  forget_covariance(sigma);
   navigating = levelled = true;
   began_ns = now_ns;
 }

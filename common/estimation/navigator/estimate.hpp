@@ -28,13 +28,16 @@ struct Estimate {
   /// Felt for so long that the gyro biases have learned what it does to the gyros (NOISE-4).
   Eigen::Vector3d usual_force_B_m_s2{0.0, 0.0, -kStandardGravity_m_s2};
   Eigen::Vector3d travelled_N_m = Eigen::Vector3d::Zero();  ///< integral of the velocity
+  Stride stride;                                            ///< by which the filter is behind the state
 
   /// Seconds since an instant; unknown when it is 0, which stands for never.
   [[nodiscard]] double since(TimeNs stamp_ns) const {
     return stamp_ns == 0 ? kUnknown : to_seconds(now_ns - stamp_ns);
   }
-  /// Integrates within the interval, from now_ns until an instant in it.
+  /// Integrates within the interval, from now_ns until an instant in it. The filter follows in strides.
   void advance(const Setup& setup, const ImuStep& step, TimeNs until_ns);
+  /// Lets the filter follow to now: before anything is done with its covariance but to show it.
+  void follow(const Setup& setup);
   /// Adds to `covariance` what the settling biases move by in `dt_s` from `ahead_s` after now on (NOISE-2).
   void settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const;
   /// Something may have happened while nothing was measured.
@@ -47,6 +50,8 @@ struct Estimate {
   void replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance);
   /// What is considered is as uncertain as at the start and shares nothing with the states.
   void consider_anew(const Setup& setup);
+  /// The filter knows nothing but `sigma`.
+  void forget_covariance(const std::array<double, kMaxStates>& sigma);
   /// Begins to navigate: the filter knows nothing but `sigma`.
   void begin(const FilterState& start, const std::array<double, kMaxStates>& sigma);
 
@@ -68,10 +73,11 @@ struct Estimate {
   static void later_fields(Archive& archive, Self& self);
 
  private:
-  /// (NOISE-4) What `dt_s` of a force that is not usual makes of the gyros' g-sensitivity.
-  void add_g_sensitivity(const Setup& setup, double dt_s, ProcessNoise& noise);
+  /// (NOISE-4) What the stride's force, where it is not usual, makes of the gyros' g-sensitivity.
+  void add_g_sensitivity(const Setup& setup, ProcessNoise& noise);
   /// (NOISE-3) What the products of heading error, tilt and rate leave out of a linear step.
-  void add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB, ProcessNoise& noise) const;
+  void add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB, const Eigen::Vector3d& force_N_m_s2,
+                        ProcessNoise& noise) const;
 };
 
 /// The axes O that are published, B or the wheels', and how well they are known.

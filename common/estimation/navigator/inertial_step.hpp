@@ -18,6 +18,11 @@ struct ImuStep {
   Increments increments;
   double gap_s = 0.0;  ///< part of the interval during which nothing was measured
   ImuFault fault = ImuFault::none;
+
+  /// A tick of the grid of this period lies within it.
+  [[nodiscard]] bool passes_tick(DurationNs period_ns) const {
+    return to_ns / period_ns != from_ns / period_ns;
+  }
 };
 
 /// What may have happened while nothing was measured: standard deviations along each axis.

@@ -124,6 +124,7 @@ bool Navigator::admit(Trial& trial) {
 }
 
 bool Navigator::observe(Trial& trial) {
+  estimate_.follow(*setup_);
   const EngineConfig& config = setup_->config;
   const EventSample& sample = trial.measurement.sample;
   if (trial.drive == ModelAiding::Drive::fins) {

@@ -4,6 +4,13 @@ namespace fathom::estimation {
 
 using Eigen::Vector3d;
 
+namespace {
+
+/// How often the sigmas are held against what counts as aligned.
+constexpr DurationNs kJudged_ns = 50'000'000;
+
+}  // namespace
+
 Navigator::Navigator(const Setup& setup) : setup_(&setup), estimate_(setup), instruments_(setup) {}
 
 void Navigator::finish(const ImuStep& step) {
@@ -19,10 +26,13 @@ void Navigator::finish(const ImuStep& step) {
   }
   if (setup_->velocity_model) model_.predict(*setup_, step, estimate_);
   if (constraints_.apply(*setup_, step, estimate_)) usage_.velocity_used_ns = estimate_.now_ns;
-  alignment_.judge(setup_->config, rpy_sigma_rad(), plausible(), estimate_.now_ns);
+  // On a grid of its own: whatever comes late puts strides elsewhere, and the phase must not hang on that.
+  if (step.passes_tick(kJudged_ns) || plausibility_.finding())
+    alignment_.judge(setup_->config, rpy_sigma_rad(), plausible(), estimate_.now_ns);
 }
 
 void Navigator::finish_gap(double gap_s) {
+  estimate_.follow(*setup_);
   if (gap_s > setup_->config.imu.lost_gap_s) {
     if (!descent_.resume(*setup_, gap_s, estimate_, alignment_)) lose_attitude();
   } else if (estimate_.navigating) {
@@ -58,6 +68,7 @@ Judgement Navigator::apply(const Measurement& measurement) {
 }
 
 Judgement Navigator::execute(const Command& command) {
+  estimate_.follow(*setup_);
   const auto& sensors = setup_->config.sensors;
   Judgement done;
   done.kind = VerdictKind::used;
@@ -163,6 +174,7 @@ bool Navigator::remembers_the_past_only() const {
 
 void Navigator::lose_attitude() {
   estimate_.navigating = false;
+  estimate_.stride = {};
   estimate_.levelled = false;
   descent_.give_up();
   starter_.forget();

@@ -26,6 +26,8 @@ class Navigator {
 
   /// Integrates within the interval, from now_ns() until an instant in it.
   void advance(const ImuStep& step, TimeNs until_ns) { estimate_.advance(*setup_, step, until_ns); }
+  /// Lets the covariance follow to now: before it is copied for work of its own.
+  void follow() { estimate_.follow(*setup_); }
   /// Called once at the end of each interval: alignment, phases, zero velocity.
   void finish(const ImuStep& step);
   /// Applies one event at the present instant.
@@ -46,6 +48,7 @@ class Navigator {
   [[nodiscard]] bool navigating() const { return estimate_.navigating; }
   [[nodiscard]] TimeNs now_ns() const { return estimate_.now_ns; }
   [[nodiscard]] const FilterState& state() const { return estimate_.state; }
+  /// Up to a stride behind now(): no sigma in it grows noticeably meanwhile.
   [[nodiscard]] const ErrorFilter& filter() const { return estimate_.filter; }
   [[nodiscard]] const Eigen::Vector3d& rate_B_rad_s() const { return estimate_.rate_B_rad_s; }
   [[nodiscard]] const Eigen::Vector3d& force_B_m_s2() const { return estimate_.force_B_m_s2; }

@@ -10,6 +10,9 @@ using Eigen::Vector3d;
 
 namespace {
 
+/// In that time no sigma grows by what anybody would notice, and the products that a second order leaves out
+/// of Phi are below 1e-4.
+constexpr double kStride_s = 0.05;
 /// A step longer than the nominal one by half is one with a sample missing.
 constexpr double kMissedSample = 1.5;
 
@@ -97,10 +100,11 @@ Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considere
   model_limits = gate_limits(model_gate);
   if (config.vehicle_model.enabled) velocity_model.emplace(config.vehicle_model.coefficients);
   drift = StateDrift(walk, decay_per_s, index.size());
+  // Whoever finds what is considered goes back along every step, and needs the covariance at each.
+  if (considered == StateIndex::Considered::kept) stride_s = kStride_s;
 }
 
-ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& rate_B_rad_s,
-                                  const Vector3d& force_B_m_s2) const {
+ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const SquaredInputs& felt) const {
   // (NOISE-1): white noise, and as equivalent noise the scale and misalignment that are not estimated.
   const ImuConfig& imu = config.imu;
   const double arw = imu.angle_random_walk_rad_sqrt_s;
@@ -109,27 +113,24 @@ ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const Vector3d& r
   noise.drift = &drift;
   noise.attitude = arw * arw * Eigen::Matrix3d::Identity();
   noise.velocity = vrw * vrw * Eigen::Matrix3d::Identity();
-  const auto add = [&](Eigen::Matrix3d& to, const Vector3d& input, bool scale, double scale_sigma,
+  const auto add = [&](Eigen::Matrix3d& to, const Vector3d& squares, bool scale, double scale_sigma,
                        bool misalignment, double misalignment_sigma) {
     if (scale && misalignment) return;
-    const Vector3d squares = input.cwiseAbs2();
     Vector3d variance = Vector3d::Zero();
     if (!scale) variance += scale_sigma * scale_sigma * squares;
     if (!misalignment)
       variance += misalignment_sigma * misalignment_sigma * (Vector3d::Constant(squares.sum()) - squares);
     to += C_NB * (imu.equivalent_noise_time_s * variance).asDiagonal() * C_NB.transpose();
   };
-  add(noise.attitude, rate_B_rad_s, index.has(Group::gyro_scale), imu.gyro_scale_sigma,
+  add(noise.attitude, felt.rate_B, index.has(Group::gyro_scale), imu.gyro_scale_sigma,
       index.has(Group::gyro_misalignment), imu.gyro_misalignment_sigma_rad);
-  // Gravity is always there and looks like a bias; only the changing part of the force counts.
-  add(noise.velocity, force_B_m_s2 + 9.81 * C_NB.row(2).transpose(), index.has(Group::accel_scale),
-      imu.accel_scale_sigma, index.has(Group::accel_misalignment), imu.accel_misalignment_sigma_rad);
-  // What is felt at rest and level is part of the biases.
-  const double felt2 = (force_B_m_s2 + Vector3d(0.0, 0.0, kStandardGravity_m_s2)).squaredNorm();
+  add(noise.velocity, felt.force_B, index.has(Group::accel_scale), imu.accel_scale_sigma,
+      index.has(Group::accel_misalignment), imu.accel_misalignment_sigma_rad);
   const double g_sensitivity = imu.gyro_g_sensitivity_rad_s_per_m_s2;
-  noise.attitude.diagonal().array() += imu.equivalent_noise_time_s * g_sensitivity * g_sensitivity * felt2;
+  noise.attitude.diagonal().array() +=
+      imu.equivalent_noise_time_s * g_sensitivity * g_sensitivity * felt.felt;
   const double nonlinearity = imu.accel_nonlinearity_sigma;
-  noise.velocity.diagonal().array() += imu.equivalent_noise_time_s * nonlinearity * nonlinearity * felt2;
+  noise.velocity.diagonal().array() += imu.equivalent_noise_time_s * nonlinearity * nonlinearity * felt.felt;
   return noise;
 }
 

@@ -8,6 +8,7 @@
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/filter/gate.hpp"
 #include "estimation/hydro/water_velocity.hpp"
+#include "estimation/navigator/stride.hpp"
 
 namespace fathom::estimation {
 
@@ -30,6 +31,7 @@ struct Setup {
   std::array<double, kMaxStates> walk{};
   std::array<double, kMaxStates> decay_per_s{};
   StateDrift drift;                                    ///< of walk and decay_per_s
+  double stride_s = 0.0;                               ///< how long the covariance may stay behind (KF-1)
   geo::Quaternion q_B_imu;                             ///< from the unit's own axes into B
   std::optional<hydro::VelocityModel> velocity_model;  ///< where it is switched on
   SensorConfig model_gate;  ///< for it: nothing is widened or believed in the end because it insists
@@ -42,9 +44,8 @@ struct Setup {
   [[nodiscard]] double magnetic_variation_rad() const {
     return config.magnetic_variation_known ? config.magnetic_variation_rad : kUnknown;
   }
-  /// (NOISE-1) Of an inertial step with this attitude, rate and force.
-  [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const Eigen::Vector3d& rate_B_rad_s,
-                                           const Eigen::Vector3d& force_B_m_s2) const;
+  /// (NOISE-1) At this attitude, with what is felt there.
+  [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const SquaredInputs& felt) const;
   /// What the configuration says of a drop and what follows from it.
   [[nodiscard]] DropConfig drop_config() const;
 };

@@ -104,8 +104,7 @@ struct Course {
       std::array<double, kMaxStates> x{};
       ASSERT_TRUE(filter.update(observation, statistics, x));
       Carry carry;
-      carry.attitude_own = geo::to_matrix(geo::exp(Vector3d(0.0, 0.0, normal(0.02))));
-      carry.velocity_own = carry.attitude_own;
+      carry.turn = geo::to_matrix(geo::exp(Vector3d(0.0, 0.0, normal(0.02))));
       carry.velocity_by_attitude = geo::skew(normal.vector(0.01));
       carry.bias_own = geo::to_matrix(geo::exp(normal.vector(0.01)));
       filter.carry(carry);

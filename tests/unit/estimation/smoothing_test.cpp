@@ -214,7 +214,7 @@ TEST(SmoothingCarry, IsThatOfTheDenseProductAndItsWayBackToo) {
   FilterLog log(kSize);
   filter.record_to(&log);
   Carry carry;
-  carry.velocity_own = carry.attitude_own = geo::to_matrix(geo::exp(Vector3d(0.0, 0.0, 0.3)));
+  carry.turn = geo::to_matrix(geo::exp(Vector3d(0.0, 0.0, 0.3)));
   carry.velocity_by_attitude = geo::skew(Vector3d(2.0, -1.0, 0.5));
   carry.bias_own = geo::to_matrix(geo::exp(Vector3d(0.1, -0.2, 0.05)));
   filter.carry(carry);

@@ -10,6 +10,10 @@ namespace {
 using Eigen::Vector3d;
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kFixRows, kFixRows>;
 
+/// A keyframe waits no longer for the covariance: measurements that come with every step may part all
+/// strides.
+constexpr DurationNs kPatience_ns = kNsPerSecond;
+
 Knot knot_of(const Navigator& navigator) {
   const NavSolution& nav = navigator.state().nav;
   return {navigator.now_ns(), navigator.estimate().travelled_N_m, nav.v_N_m_s, nav.q_NB};
@@ -138,7 +142,8 @@ void Past::forget(Leg& leg) {
   leg.passage.begin();
 }
 
-void Past::close(const Navigator& navigator, Leg& leg) {
+void Past::close(Navigator& navigator, Leg& leg) {
+  navigator.follow();
   if (leg.under_way()) {
     Keyframe& before = frame(leg.count - 1);
     before.track = leg.track;
@@ -161,7 +166,7 @@ void Past::close(const Navigator& navigator, Leg& leg) {
   leg.passage.begin();
 }
 
-void Past::follow(const Navigator& navigator, Leg& leg) {
+void Past::follow(Navigator& navigator, Leg& leg) {
   if (!navigator.navigating() || navigator.descent().aligning()) {
     if (leg.under_way()) forget(leg);
     return;
@@ -169,7 +174,10 @@ void Past::follow(const Navigator& navigator, Leg& leg) {
   if (leg.passage.is_cut()) forget(leg);
   const TimeNs now_ns = navigator.now_ns();
   if (!leg.under_way() || now_ns - leg.begun_ns >= interval_ns_) {
-    close(navigator, leg);
+    // Where the covariance has followed anyway: whoever remembers navigates as whoever does not.
+    const TimeNs since_ns = std::max(leg.begun_ns, navigator.estimate().began_ns);
+    if (navigator.estimate().stride.is_empty() || now_ns - since_ns >= interval_ns_ + kPatience_ns)
+      close(navigator, leg);
   } else if (leg.track.count < Track::kKnots &&
              now_ns - leg.knot_ns >= interval_ns_ / static_cast<DurationNs>(Track::kKnots + 1)) {
     leg.track.knots[leg.track.count++] = knot_of(navigator);

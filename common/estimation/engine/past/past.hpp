@@ -40,7 +40,7 @@ class Past {
   /// How far apart keyframes are.
   [[nodiscard]] DurationNs interval_ns() const { return interval_ns_; }
   /// At the end of each step: keeps the way, and makes a keyframe where one is due.
-  void follow(const Navigator& navigator, Leg& leg);
+  void follow(Navigator& navigator, Leg& leg);
   /// Nothing leads from before to what comes.
   static void forget(Leg& leg);
   /// Lets a late fix act at the present instant.
@@ -66,7 +66,7 @@ class Past {
   /// Number of the first keyframe that a navigator can be asked for.
   [[nodiscard]] std::uint64_t oldest(const Leg& leg) const;
   /// Ends the leg here and begins the next.
-  void close(const Navigator& navigator, Leg& leg);
+  void close(Navigator& navigator, Leg& leg);
   /// Which two keyframes an instant lies between; none where it is not remembered.
   [[nodiscard]] std::optional<LateFix> place(const Leg& leg, TimeNs instant_ns) const;
   /// The filter's state of then, between those two.

@@ -175,7 +175,7 @@ void Descent::hand_over(const Setup& setup, Estimate& estimate, AlignmentWatch& 
   // (ALN-17)
   fall_.aligning = false;
   carry_covariance(setup);
-  estimate.filter.reset(setup.initial_sigma);
+  estimate.forget_covariance(setup.initial_sigma);
   const Matrix3d attitude = drop_.attitude_covariance();
   Eigen::Matrix<double, 6, 3> arm;
   arm << geo::skew(fall_.dp_N), geo::skew(fall_.dv_N);
