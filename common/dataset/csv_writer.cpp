@@ -1,5 +1,6 @@
 #include "dataset/csv_writer.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -24,28 +25,31 @@ constexpr double kMostScaled = 0x1p44;
 /// How near to a half that product must not be for the rounding of it to be sure.
 constexpr double kDoubtful = 0x1p-8;
 
+/// Of a whole number, at least `least` digits; returns the end.
+char* write_digits(std::uint64_t value, std::size_t least, char* out) {
+  std::array<char, 24> digits;
+  const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  const auto count = static_cast<std::size_t>(end - digits.data());
+  for (std::size_t i = count; i < least; ++i) *out++ = '0';
+  return std::copy_n(digits.data(), count, out);
+}
+
 /// What std::to_chars writes with a fixed count of decimals, several times faster: one product, rounded to a
 /// whole number. Nothing where the product's own rounding might have decided.
-std::size_t quick_fixed(double value, int decimals, std::array<char, 24>& out) {
+std::size_t quick_fixed(double value, int decimals, std::array<char, 32>& out) {
   if (decimals < 1 || decimals >= static_cast<int>(kPowersOfTen.size())) return 0;
   const double scaled = std::abs(value) * kPowersOfTen[static_cast<std::size_t>(decimals)];
   if (!(scaled < kMostScaled)) return 0;
-  auto rest = static_cast<std::uint64_t>(scaled + 0.5);
-  const double off = std::abs(scaled - static_cast<double>(rest));
+  const auto rounded = static_cast<std::uint64_t>(scaled + 0.5);
+  const double off = std::abs(scaled - static_cast<double>(rounded));
   if (off > 0.5 - kDoubtful) return 0;
-  std::array<char, 24> digits{};
-  std::size_t count = 0;
-  while (rest != 0 || count <= static_cast<std::size_t>(decimals)) {
-    digits[count++] = static_cast<char>('0' + rest % 10);
-    rest /= 10;
-  }
-  std::size_t length = 0;
-  if (std::signbit(value)) out[length++] = '-';
-  while (count > 0) {
-    if (count == static_cast<std::size_t>(decimals)) out[length++] = '.';
-    out[length++] = digits[--count];
-  }
-  return length;
+  char* at = out.data();
+  if (std::signbit(value)) *at++ = '-';
+  // One digit before the point at least; then the decimals move up by one place.
+  at = write_digits(rounded, static_cast<std::size_t>(decimals) + 1, at);
+  std::copy_backward(at - decimals, at, at + 1);
+  *(at - decimals) = '.';
+  return static_cast<std::size_t>(at + 1 - out.data());
 }
 
 }  // namespace
@@ -78,7 +82,7 @@ CsvWriter& CsvWriter::number(double value) {
 CsvWriter& CsvWriter::fixed(double value, int decimals) {
   separate();
   if (!known(value)) return *this;
-  std::array<char, 24> quick{};
+  std::array<char, 32> quick;
   if (const std::size_t length = quick_fixed(value, decimals, quick); length > 0) {
     pending_.append(quick.data(), length);
     return *this;
@@ -96,11 +100,15 @@ CsvWriter& CsvWriter::seconds(DurationNs duration) {
   const std::uint64_t magnitude =
       negative ? 0 - static_cast<std::uint64_t>(duration) : static_cast<std::uint64_t>(duration);
   constexpr std::uint64_t kPerSecond = kNsPerSecond;
-  std::string fraction = std::to_string(magnitude % kPerSecond);
-  fraction.insert(0, 9 - fraction.size(), '0');
-  while (fraction.size() > 2 && fraction.back() == '0') fraction.pop_back();
-  if (negative) pending_ += '-';
-  pending_ += std::to_string(magnitude / kPerSecond) + '.' + fraction;
+  std::array<char, 40> digits;
+  char* at = digits.data();
+  if (negative) *at++ = '-';
+  at = write_digits(magnitude / kPerSecond, 1, at);
+  *at++ = '.';
+  const char* const least = at + 2;
+  at = write_digits(magnitude % kPerSecond, 9, at);
+  while (at > least && *(at - 1) == '0') --at;
+  pending_.append(digits.data(), at);
   return *this;
 }
 

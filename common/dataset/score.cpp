@@ -4,9 +4,9 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 
 #include "geo/so3.hpp"
+#include "geo/wgs84.hpp"
 
 namespace fathom::dataset {
 namespace {
@@ -15,9 +15,7 @@ namespace {
 constexpr double kSemiMajor_m = 6'378'137.0;
 constexpr double kEccentricity2 = 6.694379990141316e-3;
 
-double wrap_pi(double angle_rad) {
-  return std::remainder(angle_rad, 2.0 * std::numbers::pi);
-}
+using geo::wrap_pi;
 
 double lerp_angle(double from_rad, double to_rad, double share) {
   return wrap_pi(from_rad + share * wrap_pi(to_rad - from_rad));

@@ -9,7 +9,11 @@ Quaternion exp(const Eigen::Vector3d& rotation_rad) {
   const double square = 0.25 * rotation_rad.squaredNorm();
   double cosine = 0.0;
   double factor = 0.0;
-  if (square < 0.01) {
+  if (square < 1e-9) {
+    // What more the series has is less than their rounding: such is the turn of N within a step.
+    cosine = 1.0 - 0.5 * square;
+    factor = 0.5 - square * (1.0 / 12.0);
+  } else if (square < 0.01) {
     // Series in the square of the half angle, exact to rounding, and far from the quotient that would lose
     // digits at zero: the steps of a mechanisation are all of this kind.
     const auto term = [square](double divisor, double rest) { return 1.0 - square * (1.0 / divisor) * rest; };

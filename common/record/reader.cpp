@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <future>
 #include <set>
 #include <utility>
 
@@ -52,44 +53,6 @@ const Schema* Reader::schema_of(const Channel& channel) const {
   return found == contents_.schemas.end() ? nullptr : &found->second;
 }
 
-Outcome Reader::read(const Selection& selection, const Handler& handler) {
-  Outcome outcome;
-  outcome.problems = contents_.problems;
-  Chosen chosen{{}, selection.topics.empty(), selection.from, selection.to};
-  for (const auto& [id, channel] : contents_.channels) {
-    if (std::find(selection.topics.begin(), selection.topics.end(), channel.topic) != selection.topics.end())
-      chosen.channels.insert(id);
-  }
-  if (contents_.loose_messages) {
-    stream(chosen, handler, outcome);
-    return outcome;
-  }
-  for (std::size_t first = 0; first < contents_.chunks.size();) {
-    const std::size_t count = beside(first);
-    if (!read_chunks(std::span(contents_.chunks).subspan(first, count), chosen, handler, outcome)) break;
-    first += count;
-  }
-  return outcome;
-}
-
-/// How many chunks from this one on were filled beside each other: they were flushed in the order of their
-/// groups.
-std::size_t Reader::beside(std::size_t first) const {
-  constexpr std::size_t kMost = 4;  // are in memory at once
-  const auto group_of = [&](const ChunkIndex& chunk) -> unsigned long {
-    if (chunk.message_index_offsets.empty()) return 0;
-    const auto channel = contents_.channels.find(chunk.message_index_offsets.begin()->first);
-    if (channel == contents_.channels.end()) return 0;
-    const auto group = channel->second.metadata.find(kChunkGroup);
-    return group == channel->second.metadata.end() ? 0 : std::strtoul(group->second.c_str(), nullptr, 10);
-  };
-  std::size_t next = first + 1;
-  while (next < contents_.chunks.size() && next - first < kMost &&
-         group_of(contents_.chunks[next]) > group_of(contents_.chunks[next - 1]))
-    ++next;
-  return next - first;
-}
-
 /// A chunk under reading, at one of its messages.
 struct Reader::Unpacked {
   std::uint64_t at = 0;
@@ -112,25 +75,86 @@ struct Reader::Unpacked {
   }
 };
 
-bool Reader::read_chunks(std::span<const ChunkIndex> indexes, const Chosen& chosen, const Handler& handler,
-                         Outcome& outcome) {
+/// Chunks that were filled beside each other.
+struct Reader::Group {
+  struct Problem {
+    std::uint64_t at;
+    std::string what;
+  };
+  std::size_t end = 0;  ///< number of the first chunk behind them
   std::vector<std::unique_ptr<Unpacked>> open;
+  std::vector<Problem> problems;  ///< of those that cannot be unpacked
+};
+
+Outcome Reader::read(const Selection& selection, const Handler& handler) {
+  Outcome outcome;
+  outcome.problems = contents_.problems;
+  Chosen chosen{{}, selection.topics.empty(), selection.from, selection.to};
+  for (const auto& [id, channel] : contents_.channels) {
+    if (std::find(selection.topics.begin(), selection.topics.end(), channel.topic) != selection.topics.end())
+      chosen.channels.insert(id);
+  }
+  if (contents_.loose_messages) {
+    stream(chosen, handler, outcome);
+    return outcome;
+  }
+  if (contents_.chunks.empty()) return outcome;
+  // While some chunks are handed over, another thread unpacks the next ones.
+  Group group = unpack_from(0, chosen);
+  while (true) {
+    const std::size_t following = group.end;
+    std::future<Group> next;
+    if (following < contents_.chunks.size())
+      next = std::async(std::launch::async, [&, following] { return unpack_from(following, chosen); });
+    if (!read_chunks(std::move(group), chosen, handler, outcome) || !next.valid()) return outcome;
+    group = next.get();
+  }
+}
+
+/// How many chunks from this one on were filled beside each other: they were flushed in the order of their
+/// groups.
+std::size_t Reader::beside(std::size_t first) const {
+  constexpr std::size_t kMost = 4;  // are in memory at once
+  const auto group_of = [&](const ChunkIndex& chunk) -> unsigned long {
+    if (chunk.message_index_offsets.empty()) return 0;
+    const auto channel = contents_.channels.find(chunk.message_index_offsets.begin()->first);
+    if (channel == contents_.channels.end()) return 0;
+    const auto group = channel->second.metadata.find(kChunkGroup);
+    return group == channel->second.metadata.end() ? 0 : std::strtoul(group->second.c_str(), nullptr, 10);
+  };
+  std::size_t next = first + 1;
+  while (next < contents_.chunks.size() && next - first < kMost &&
+         group_of(contents_.chunks[next]) > group_of(contents_.chunks[next - 1]))
+    ++next;
+  return next - first;
+}
+
+Reader::Group Reader::unpack_from(std::size_t first, const Chosen& chosen) {
+  Group out;
+  out.end = first + beside(first);
+  for (std::size_t i = first; i < out.end; ++i) {
+    const ChunkIndex& index = contents_.chunks[i];
+    if (!chosen.takes(index)) continue;
+    auto chunk = unpack(index);
+    if (chunk)
+      out.open.push_back(std::move(chunk.value()));
+    else
+      out.problems.push_back({index.chunk_start_offset, chunk.error().message});
+  }
+  return out;
+}
+
+bool Reader::read_chunks(Group group, const Chosen& chosen, const Handler& handler, Outcome& outcome) {
+  std::vector<std::unique_ptr<Unpacked>>& open = group.open;
   const auto advance = [&](std::size_t i) {
-    if (open[i]->next()) return;
+    if (open[i]->next()) return true;
     if (!open[i]->inside.fault().empty())
       note(outcome.problems, open[i]->at, "in the chunk: " + open[i]->inside.fault());
     open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+    return false;
   };
-  for (const ChunkIndex& index : indexes) {
-    if (!chosen.takes(index)) continue;
-    auto chunk = unpack(index);
-    if (!chunk) {
-      note(outcome.problems, index.chunk_start_offset, chunk.error().message);
-      continue;
-    }
-    open.push_back(std::move(chunk.value()));
-    advance(open.size() - 1);
-  }
+  for (const Group::Problem& one : group.problems) note(outcome.problems, one.at, one.what);
+  for (std::size_t i = 0; i < open.size();) i += advance(i) ? 1 : 0;
   while (!open.empty()) {
     std::size_t first = 0;
     for (std::size_t i = 1; i < open.size(); ++i)

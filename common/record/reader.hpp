@@ -65,11 +65,13 @@ class Reader {
 
   struct Chosen;
   struct Unpacked;
+  struct Group;
   [[nodiscard]] std::size_t beside(std::size_t first) const;
   [[nodiscard]] Result<std::unique_ptr<Unpacked>> unpack(const ChunkIndex& index);
+  /// Those from `first` on that were filled beside each other.
+  [[nodiscard]] Group unpack_from(std::size_t first, const Chosen& chosen);
   /// False: the handler has enough.
-  bool read_chunks(std::span<const ChunkIndex> indexes, const Chosen& chosen, const Handler& handler,
-                   Outcome& outcome);
+  bool read_chunks(Group group, const Chosen& chosen, const Handler& handler, Outcome& outcome);
   bool hand_over(const Place& place, const Chosen& chosen, const Handler& handler, Outcome& outcome,
                  const Unpacked* chunk);
   void stream(const Chosen& chosen, const Handler& handler, Outcome& outcome);

@@ -1,6 +1,9 @@
 #include "cli/log.hpp"
 
+#include <algorithm>
 #include <cstdio>
+#include <functional>
+#include <map>
 
 #include "bus/cdr.hpp"
 #include "cli/command.hpp"
@@ -55,13 +58,30 @@ RecordedSamples read_recording(const std::string& file, Name vehicle, bool with_
   selection.topics.emplace_back(kTruth);
   if (with_states) selection.topics.emplace_back(kNavState);
   for_each_kind([&](auto kind) { selection.topics.emplace_back(kind.kTopic); });
+  const auto& counts = reader.contents().statistics.channel_message_counts;
+  using Taker = std::function<void(const record::Message&)>;
+  std::map<const record::Channel*, Taker> takers;
+  const auto taker_of = [&](const record::Channel& channel) {
+    Taker taker;
+    const auto into = [&](auto& stream) {
+      // What the file says of itself may be wrong: no more than that is believed before it is seen.
+      constexpr std::uint64_t kMost = 1U << 18U;
+      const auto count = counts.find(channel.id);
+      if (count != counts.end()) stream.reserve(std::min(count->second, kMost));
+      taker = [&](const record::Message& message) { take(message, stream); };
+    };
+    if (channel.topic == kTruth) into(out.data.reference);
+    if (channel.topic == kNavState) into(out.states);
+    for_each_kind([&](auto kind) {
+      if (channel.topic == kind.kTopic) into(out.data.of<typename decltype(kind)::Sample>());
+    });
+    return taker;
+  };
   const record::Outcome outcome =
       reader.read(selection, [&](const record::Channel& channel, const record::Message& message) {
-        if (channel.topic == kTruth) take(message, out.data.reference);
-        if (channel.topic == kNavState) take(message, out.states);
-        for_each_kind([&](auto kind) {
-          if (channel.topic == kind.kTopic) take(message, out.data.of<typename decltype(kind)::Sample>());
-        });
+        auto known = takers.find(&channel);
+        if (known == takers.end()) known = takers.emplace(&channel, taker_of(channel)).first;
+        known->second(message);
         return true;
       });
   for (const std::string& problem : outcome.problems)

@@ -43,7 +43,11 @@ TimeNs Anticipation::expected_until_ns(TimeNs now_ns, DurationNs dt_ns) const {
     if (one.period_ns <= 0 || one.period_ns < kFastestSteps * dt_ns || one.delay_ns < 0) continue;
     const DurationNs since = now_ns + margin - one.stamp_ns;
     if (since < 0 || since > kPatience * one.period_ns) continue;
-    const TimeNs next_ns = one.stamp_ns + (since / one.period_ns + 1) * one.period_ns;
+    // Mostly the next one or the one after it; a division costs as much as all the rest.
+    const DurationNs passed = since < one.period_ns       ? 0
+                              : since < 2 * one.period_ns ? 1
+                                                          : since / one.period_ns;
+    const TimeNs next_ns = one.stamp_ns + (passed + 1) * one.period_ns;
     if (next_ns > now_ns + margin + dt_ns) continue;
     until_ns = std::max(until_ns, next_ns + one.delay_ns + dt_ns);
   }

@@ -14,6 +14,8 @@ constexpr std::uint64_t kFineSteps = 3;
 constexpr std::uint64_t kNearSteps = 2;
 /// So much room is left to snapshots that nothing is expected behind.
 constexpr std::size_t kUnexpected = 16;
+/// So many events are looked at one by one before the rest is halved.
+constexpr std::size_t kNewest = 6;
 /// An eighth of the age between snapshots, a quarter where one between two is given up.
 constexpr DurationNs kSaveShare = 8;
 constexpr DurationNs kThinShare = 4;
@@ -53,8 +55,12 @@ History::History(const Setup& setup)
 }
 
 std::size_t History::first_after(TimeNs stamp_ns) const {
+  // Most ask for the newest.
+  std::size_t rank = event_count_;
+  for (std::size_t i = 0; i < kNewest; ++i, --rank)
+    if (rank == 0 || pool_[order_[rank - 1]].stamp_ns <= stamp_ns) return rank;
   const auto begin = order_.begin();
-  const auto end = begin + static_cast<std::ptrdiff_t>(event_count_);
+  const auto end = begin + static_cast<std::ptrdiff_t>(rank);
   const auto found = std::upper_bound(begin, end, stamp_ns, [this](TimeNs stamp, std::uint16_t place) {
     return stamp < pool_[place].stamp_ns;
   });

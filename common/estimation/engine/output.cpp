@@ -35,8 +35,10 @@ void fill_attitude(const geo::Quaternion& q, NavState& out) {
 }
 
 /// The filter knows the attitude of the unit against the plumb line (OUT-4).
-std::array<double, 3> published_sigma_rad(const Setup& setup, const Navigator& navigator) {
-  std::array<double, 3> out = geo::arr(navigator.rpy_sigma_rad());
+std::array<double, 3> published_sigma_rad(const Setup& setup, const Navigator& navigator,
+                                          const OutputAttitude& attitude) {
+  const bool by_filter = !navigator.descent().aligning();
+  std::array<double, 3> out = geo::arr(by_filter ? rpy_sigma_rad(attitude) : navigator.rpy_sigma_rad());
   const double deflection = setup.config.states.vertical_deflection_sigma_rad;
   const double mounting = setup.config.states.mounting_sigma_rad;
   for (std::size_t i = 0; i < 2; ++i)
@@ -98,7 +100,7 @@ void fill(const Setup& setup, const Navigator& navigator, NavState& out) {
   fill_attitude(attitude.q_NO, out);
   out.position_covariance_N_m2 = with_lever(navigator.filter(), 0, arm);
   out.velocity_covariance_N_m2_s2 = with_lever(navigator.filter(), 3, swing);
-  out.rpy_sigma_rad = published_sigma_rad(setup, navigator);
+  out.rpy_sigma_rad = published_sigma_rad(setup, navigator, attitude);
 }
 
 void fill(const Setup& setup, const Navigator& navigator, NavDetail& out) {

@@ -87,10 +87,12 @@ Vector3d corrected(const StateIndex& index, const std::array<double, kMaxStates>
   const auto at = [&](int i) { return x[static_cast<std::size_t>(i)]; };
   const int b = index.of(bias);
   Vector3d v = measured - Vector3d(at(b), at(b + 1), at(b + 2));
+  // What is only considered stands at zero.
+  const auto found = [&](int state) { return state >= 0 && state < index.estimated(); };
   Vector3d excess = Vector3d::Zero();
-  if (const int s = index.of(scale); s >= 0)
+  if (const int s = index.of(scale); found(s))
     excess += Vector3d(at(s) * v.x(), at(s + 1) * v.y(), at(s + 2) * v.z());
-  if (const int m = index.of(misalignment); m >= 0)
+  if (const int m = index.of(misalignment); found(m))
     excess += Vector3d(at(m) * v.y() + at(m + 1) * v.z(), at(m + 2) * v.x() + at(m + 3) * v.z(),
                        at(m + 4) * v.x() + at(m + 5) * v.y());
   return v - excess;

@@ -117,6 +117,27 @@ FATHOM_WITHIN void apply_carry(const Carry& carry, double* rows, int columns) {
 
 }  // namespace
 
+FATHOM_WIDE void ErrorFilter::copy(const ErrorFilter& other) {
+  // Rows are short: a call for each would cost more than its copying.
+  const int columns = width();
+  for (int i = 0; i < n_; ++i) {
+    const double* from = other.p_.data() + at(i, 0);
+    double* to = p_.data() + at(i, 0);
+    int j = 0;
+    for (; j + 4 <= columns; j += 4) {
+      const double a = from[j];
+      const double b = from[j + 1];
+      const double c = from[j + 2];
+      const double d = from[j + 3];
+      to[j] = a;
+      to[j + 1] = b;
+      to[j + 2] = c;
+      to[j + 3] = d;
+    }
+    for (; j < columns; ++j) to[j] = from[j];
+  }
+}
+
 void ErrorFilter::reset(const std::array<double, kMaxStates>& sigma) {
   if (tape_ != nullptr) tape_->restarted();
   std::fill(p_.begin(), p_.end(), 0.0);

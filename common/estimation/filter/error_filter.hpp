@@ -109,10 +109,7 @@ class ErrorFilter {
                        const double* gain);
   /// Columns that the loops run over: an even number, so that two always go together. The odd one is zero.
   [[nodiscard]] int width() const { return (n_ + 1) & ~1; }
-  void copy(const ErrorFilter& other) {
-    for (int i = 0; i < n_; ++i)
-      std::copy_n(other.p_.data() + at(i, 0), static_cast<std::size_t>(width()), p_.data() + at(i, 0));
-  }
+  void copy(const ErrorFilter& other);
 
   int n_;
   int estimated_;

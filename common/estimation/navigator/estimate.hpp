@@ -96,6 +96,7 @@ struct OutputAttitude {
 /// (OUT-3)
 [[nodiscard]] OutputAttitude output_attitude(const Setup& setup, const Estimate& estimate);
 /// (OUT-1) Sigmas of roll, pitch and yaw of those axes, as the filter has them.
+[[nodiscard]] Eigen::Vector3d rpy_sigma_rad(const OutputAttitude& output);
 [[nodiscard]] Eigen::Vector3d rpy_sigma_rad(const Setup& setup, const Estimate& estimate);
 
 }  // namespace fathom::estimation

@@ -1,6 +1,7 @@
 // One measurement's way: admit, observe, gate, reacquire, update, account.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/registry.hpp"
@@ -50,9 +51,9 @@ struct Navigator::Trial {
   bool modelled = false;  ///< the vehicle model speaks for the shaft speed
   AidingPolicy policy{};
   bool with_position = false;
-  bool fix = false;     ///< it is refused or believed by how it agrees with the motion
-  Observation whole{};  ///< every row
-  Observation kept{};   ///< the rows that act, with the noise they act with
+  bool fix = false;                   ///< it is refused or believed by how it agrees with the motion
+  Observation whole{};                ///< every row
+  std::optional<Observation> kept{};  ///< the rows that act, with the noise they act with; from the gate on
   InnovationStatistics statistics{};
   GateResult gated{};
   bool stepped = false;  ///< the position steps with it
@@ -181,11 +182,11 @@ bool Navigator::observe(Trial& trial) {
 }
 
 void Navigator::gate(Trial& trial) const {
-  trial.kept = trial.whole;
+  trial.kept.emplace(trial.whole);
   trial.gated =
       trial.then == nullptr
-          ? estimation::gate(estimate_.filter, *trial.rules, *trial.limits, trial.kept, trial.statistics)
-          : estimation::gate(*trial.rules, *trial.limits, trial.kept, trial.statistics);
+          ? estimation::gate(estimate_.filter, *trial.rules, *trial.limits, *trial.kept, trial.statistics)
+          : estimation::gate(*trial.rules, *trial.limits, *trial.kept, trial.statistics);
 }
 
 void Navigator::reacquire(Trial& trial) {
@@ -219,7 +220,7 @@ void Navigator::reacquire(Trial& trial) {
   trial.stepped = gated.pass && believed != 0 && trial.with_position;
   if (gated.pass && trial.fix)
     trial.stepped =
-        Reacquisition::bound_step(trial.config, estimate_, trial.kept, trial.statistics) || trial.stepped;
+        Reacquisition::bound_step(trial.config, estimate_, *trial.kept, trial.statistics) || trial.stepped;
   const bool disputed = trial.fix && Reacquisition::disputed(trial.instrument, trial.config, estimate_);
   judgement.kind = gated.pass ? VerdictKind::used : disputed ? VerdictKind::disputed : VerdictKind::rejected;
   if (trial.modelled && !trial.model.believed) judgement.kind = VerdictKind::rejected;
@@ -229,12 +230,12 @@ void Navigator::reacquire(Trial& trial) {
 bool Navigator::update(Trial& trial) {
   if (trial.judgement.kind != VerdictKind::used) return false;
   if (trial.then != nullptr) {
-    trial.then->acts(trial.kept);
+    trial.then->acts(*trial.kept);
     // Of the present error it sees nothing: all that it says of that is in the statistics.
-    trial.kept.h = {};
-    trial.kept.column_count = 0;
+    trial.kept->h = {};
+    trial.kept->column_count = 0;
   }
-  if (!estimate_.update(*setup_, trial.kept, trial.statistics, velocity_along(trial.policy), trial.x))
+  if (!estimate_.update(*setup_, *trial.kept, trial.statistics, velocity_along(trial.policy), trial.x))
     return trial.end(VerdictKind::rejected);
   return true;
 }

@@ -9,8 +9,11 @@ namespace fathom::estimation {
 using Eigen::Vector3d;
 
 Vector3d rpy_sigma_rad(const Setup& setup, const Estimate& estimate) {
+  return rpy_sigma_rad(output_attitude(setup, estimate));
+}
+
+Vector3d rpy_sigma_rad(const OutputAttitude& output) {
   // (OUT-1): how roll, pitch and yaw turn with the attitude error about N.
-  const OutputAttitude output = output_attitude(setup, estimate);
   const Eigen::Matrix3d c = geo::to_matrix(output.q_NO);
   const double level = std::max(std::sqrt(c(0, 0) * c(0, 0) + c(1, 0) * c(1, 0)), 1e-3);  // cos(pitch)
   const double cosine = c(0, 0) / level;                                                  // of yaw
@@ -37,7 +40,7 @@ OutputAttitude output_attitude(const Setup& setup, const Estimate& estimate) {
     const auto at = static_cast<std::size_t>(mount);
     angles.tail<2>() = Eigen::Vector2d(state.x[at], state.x[at + 1]);
   }
-  const geo::Quaternion q_BO = geo::from_rpy(geo::vec(wheels.mounting_rpy_rad)) * geo::exp(angles);
+  const geo::Quaternion q_BO = setup.q_B_wheels * geo::exp(angles);
   out.C_BO = geo::to_matrix(q_BO);
   out.q_NO = geo::normalized(state.nav.q_NB * q_BO);
   if (mount < 0) return out;

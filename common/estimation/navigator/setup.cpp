@@ -33,7 +33,8 @@ void markov(Setup& setup, Group group, double sigma, double time_constant_s) {
 Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considered)
     : config(engine_config),
       index(engine_config.groups, engine_config.considered(), considered),
-      q_B_imu(geo::from_rpy(geo::vec(engine_config.imu.mounting_rpy_rad))) {
+      q_B_imu(geo::from_rpy(geo::vec(engine_config.imu.mounting_rpy_rad))),
+      q_B_wheels(geo::from_rpy(geo::vec(engine_config.constraints.non_holonomic.mounting_rpy_rad))) {
   int layers = 0;
   water_layer.fill(-1);
   for (std::size_t i = 0; i < config.sensors.size() && i < limits.size(); ++i) {

@@ -33,6 +33,7 @@ struct Setup {
   StateDrift drift;                                    ///< of walk and decay_per_s
   double stride_s = 0.0;                               ///< how long the covariance may stay behind (KF-1)
   geo::Quaternion q_B_imu;                             ///< from the unit's own axes into B
+  geo::Quaternion q_B_wheels;                          ///< likewise from those of the wheels
   std::optional<hydro::VelocityModel> velocity_model;  ///< where it is switched on
   SensorConfig model_gate;  ///< for it: nothing is widened or believed in the end because it insists
   GateLimits model_limits;

@@ -140,10 +140,10 @@ void HeadingWatch::compare(const NavState& state, const NavDetail& detail, const
   if (state.alignment == AlignmentPhase::aligned) figures_.course_aligned.add(error, own, whole);
 }
 
-void HeadingWatch::add(const NavState& state, const Truth& reference) {
+void add_heading(const NavState& state, const Truth& reference, HeadingErrors& out) {
   if (!known(state.latitude_rad)) return;
   const double sigma = state.rpy_sigma_rad[2];
-  figures_.reference.add(wrapped(state.rpy_rad[2] - reference.rpy_rad[2]), sigma, sigma);
+  out.add(wrapped(state.rpy_rad[2] - reference.rpy_rad[2]), sigma, sigma);
 }
 
 }  // namespace fathom::cli

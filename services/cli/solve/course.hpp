@@ -47,6 +47,9 @@ struct HeadingFigures {
   HeadingErrors reference;            ///< from the heading of the reference, every state
 };
 
+/// Compares the heading of a state with that of the reference.
+void add_heading(const NavState& state, const Truth& reference, HeadingErrors& out);
+
 /// Sees each navigation state, in the order of time, and compares its heading.
 class HeadingWatch {
  public:
@@ -56,7 +59,6 @@ class HeadingWatch {
   /// A fix that this state has just passed is to be compared: `add` needs the detail.
   [[nodiscard]] bool wants_detail(const NavState& state) const;
   void add(const NavState& state, const NavDetail& detail);
-  void add(const NavState& state, const Truth& reference);
   [[nodiscard]] const HeadingFigures& figures() const { return figures_; }
 
  private:

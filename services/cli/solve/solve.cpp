@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/relay.hpp"
 #include "cli/command.hpp"
 #include "cli/log.hpp"
 #include "cli/solve/calibrate.hpp"
@@ -174,11 +175,10 @@ SolveReport solve(const SolveOptions& options) {
 
   const dataset::TruthTrack truth(data.reference);
   ReferencePlacement placement;
-  const auto score = [&truth](const NavState& state, dataset::Scorer& scorer, ReferencePlacement* place) {
+  const auto score = [](const NavState& state, const Truth& at, dataset::Scorer& scorer,
+                        ReferencePlacement* place) {
     if (!gives_position(state.mode)) return;
-    const auto at = truth.at(state.header.stamp_ns);
-    if (!at) return;
-    const dataset::NavError error = dataset::error_of(state, *at);
+    const dataset::NavError error = dataset::error_of(state, at);
     scorer.add(error);
     if (place != nullptr) place->add(state, error);
   };
@@ -190,6 +190,7 @@ SolveReport solve(const SolveOptions& options) {
   SolveReport report;
   Path path;
   Path filtered_path;
+  HeadingErrors heading_errors;
   const auto take = [&](const NavState& state) {
     report.alignment = state.alignment;
     // The file begins with the first position.
@@ -200,7 +201,10 @@ SolveReport solve(const SolveOptions& options) {
     } else if (rows.pass(state.header.stamp_ns)) {
       csv.add(state);
     }
-    score(state, scorer, &placement);
+    if (const auto reference = truth.at(state.header.stamp_ns)) {
+      score(state, *reference, scorer, &placement);
+      add_heading(state, *reference, heading_errors);
+    }
     if (!data.of<GpsSample>().empty()) path.add(state);
   };
 
@@ -212,7 +216,7 @@ SolveReport solve(const SolveOptions& options) {
   if (options.smooth) {
     dataset::Scorer filtered;
     const auto take_filtered = [&](const NavState& state) {
-      score(state, filtered, nullptr);
+      if (const auto reference = truth.at(state.header.stamp_ns)) score(state, *reference, filtered, nullptr);
       if (!data.of<GpsSample>().empty()) filtered_path.add(state);
     };
     report.result = run_smoothed(solve_run, {take_filtered, take});
@@ -220,14 +224,18 @@ SolveReport solve(const SolveOptions& options) {
   } else {
     HeadingWatch heading(loaded.value, data.of<GpsSample>());
     NavDetail detail;
+    // What is made of the states is as much work as navigating.
+    Relay<NavState> relay(take);
     solve_run.on_state = [&](const NavState& state, const estimation::FusionEngine& engine) {
-      take(state);
+      relay.give(state);
       if (heading.wants_detail(state)) engine.fill(detail);
       heading.add(state, detail);
-      if (const auto at = truth.at(state.header.stamp_ns)) heading.add(state, *at);
     };
     report.result = run(solve_run);
+    relay.finish();
+    solve_run.on_state = {};
     report.heading = heading.figures();
+    report.heading.reference = heading_errors;
   }
   csv.close();
   if (at) say_refused(*at, options.at, epoch_ns);

@@ -96,15 +96,15 @@ TEST_F(HeadingWatchTest, SlowFixesAndStatesThatComeLateSayNothing) {
 }
 
 TEST_F(HeadingWatchTest, TheReferenceIsComparedTheShorterWayRound) {
-  HeadingWatch watch(config, gps);
+  HeadingErrors errors;
   Truth truth;
   truth.rpy_rad = {0.0, 0.0, -179.0 * kDeg};
-  watch.add(state(0.0, 179.0, 1.0), truth);
+  add_heading(state(0.0, 179.0, 1.0), truth, errors);
   truth.rpy_rad[2] = kUnknown;
-  watch.add(state(0.1, 0.0, 1.0), truth);
-  EXPECT_EQ(watch.figures().reference.count(), 1U);
-  EXPECT_NEAR(watch.figures().reference.worst(), 2.0, 1e-9);
-  EXPECT_NEAR(watch.figures().reference.rms_rad(), 2.0 * kDeg, 1e-12);
+  add_heading(state(0.1, 0.0, 1.0), truth, errors);
+  EXPECT_EQ(errors.count(), 1U);
+  EXPECT_NEAR(errors.worst(), 2.0, 1e-9);
+  EXPECT_NEAR(errors.rms_rad(), 2.0 * kDeg, 1e-12);
 }
 
 }  // namespace
