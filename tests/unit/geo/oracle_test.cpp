@@ -1,0 +1,96 @@
+// The ellipsoid held against GeographicLib, which shares no formula with it.
+#include <cmath>
+#include <random>
+
+#include <GeographicLib/Ellipsoid.hpp>
+#include <GeographicLib/Geocentric.hpp>
+#include <GeographicLib/Geodesic.hpp>
+#include <GeographicLib/NormalGravity.hpp>
+#include <gtest/gtest.h>
+
+#include "geo/wgs84.hpp"
+
+namespace fathom::geo {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDegree = 0.017453292519943295;
+
+class Draw {
+ public:
+  double operator()(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  Geodetic place(double most_latitude_deg) {
+    const double latitude = (*this)(-most_latitude_deg, most_latitude_deg) * kDegree;
+    const double longitude = (*this)(-180.0, 180.0) * kDegree;
+    return {latitude, longitude, (*this)(-6000.0, 12000.0)};
+  }
+
+ private:
+  std::mt19937_64 engine_{11};
+};
+
+Vector3d geocentric(const Geodetic& at) {
+  Vector3d out;
+  GeographicLib::Geocentric::WGS84().Forward(at.latitude_rad / kDegree, at.longitude_rad / kDegree,
+                                             at.altitude_m, out.x(), out.y(), out.z());
+  return out;
+}
+
+TEST(Oracle, RadiiOfCurvature) {
+  const GeographicLib::Ellipsoid& earth = GeographicLib::Ellipsoid::WGS84();
+  for (double degrees = -90.0; degrees <= 90.0; degrees += 0.5) {
+    const Radii own = radii(degrees * kDegree);
+    EXPECT_NEAR(own.meridian_m, earth.MeridionalCurvatureRadius(degrees), 1e-6) << degrees;
+    EXPECT_NEAR(own.normal_m, earth.TransverseCurvatureRadius(degrees), 1e-6) << degrees;
+  }
+}
+
+TEST(Oracle, NormalGravity) {
+  const GeographicLib::NormalGravity& gravity = GeographicLib::NormalGravity::WGS84();
+  Draw draw;
+  for (int i = 0; i < 2000; ++i) {
+    const Geodetic at = draw.place(89.0);
+    double north = 0.0;
+    double up = 0.0;
+    gravity.Gravity(at.latitude_rad / kDegree, at.altitude_m, north, up);
+    const Vector3d own = gravity_N(at.latitude_rad, at.altitude_m);
+    // The third order of altitude is left out, and under water the lean, which is below 5e-5 m/s^2 there.
+    EXPECT_NEAR(own.z(), -up, 3e-6) << at.latitude_rad << " " << at.altitude_m;
+    const double lean = at.altitude_m < 0.0 ? 5e-5 : 0.02 * std::abs(north) + 2e-8;
+    EXPECT_NEAR(own.x(), north, lean) << at.latitude_rad << " " << at.altitude_m;
+  }
+}
+
+TEST(Oracle, WaysOverTheGroundAreGeodesics) {
+  const GeographicLib::Geodesic& earth = GeographicLib::Geodesic::WGS84();
+  Draw draw;
+  for (int i = 0; i < 2000; ++i) {
+    Geodetic from = draw.place(80.0);
+    from.altitude_m = 0.0;
+    const double length = std::exp(draw(std::log(1.0), std::log(5000.0)));
+    const double way = draw(-180.0, 180.0) * kDegree;
+    const Vector3d delta(length * std::cos(way), length * std::sin(way), 0.0);
+    const Geodetic to = moved_by(from, delta);
+    double distance = 0.0;
+    earth.Inverse(from.latitude_rad / kDegree, from.longitude_rad / kDegree, to.latitude_rad / kDegree,
+                  to.longitude_rad / kDegree, distance);
+    EXPECT_NEAR(distance, length, 1e-6 * length + 1e-7) << from.latitude_rad << " " << way;
+    EXPECT_NEAR(difference_N(from, to).norm(), distance, 1e-6 * length + 1e-7);
+  }
+}
+
+TEST(Oracle, StepsOfAVehicleAreChordsInSpace) {
+  Draw draw;
+  for (int i = 0; i < 2000; ++i) {
+    const Geodetic from = draw.place(80.0);
+    const Vector3d delta(draw(-20.0, 20.0), draw(-20.0, 20.0), draw(-5.0, 5.0));
+    const Geodetic to = moved_by(from, delta);
+    EXPECT_NEAR((geocentric(to) - geocentric(from)).norm(), delta.norm(), 2e-5);
+  }
+}
+
+}  // namespace
+}  // namespace fathom::geo
