@@ -10,7 +10,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "base/relay.hpp"
 #include "cli/command.hpp"
 #include "cli/log.hpp"
 #include "cli/solve/calibrate.hpp"
@@ -19,6 +18,7 @@
 #include "cli/solve/fixes.hpp"
 #include "cli/solve/metrics.hpp"
 #include "cli/solve/outage.hpp"
+#include "cli/solve/relay.hpp"
 #include "cli/solve/run.hpp"
 #include "cli/solve/smooth.hpp"
 #include "config/fusion/fusion_config.hpp"

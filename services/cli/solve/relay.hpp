@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace fathom {
+namespace fathom::cli {
 
 /// Lets another thread do `work` on each item, in their order, while whoever gives them goes on. What work
 /// throws ends it, and comes out of the next give() or of finish(). For one giver.
@@ -103,4 +103,4 @@ class Relay {
   std::thread thread_;  ///< the last, so that all it uses is there
 };
 
-}  // namespace fathom
+}  // namespace fathom::cli

@@ -1,4 +1,4 @@
-#include "base/relay.hpp"
+#include "cli/solve/relay.hpp"
 
 #include <atomic>
 #include <stdexcept>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace fathom {
+namespace fathom::cli {
 namespace {
 
 TEST(Relay, DoesTheWorkInOrderInAnotherThread) {
@@ -74,4 +74,4 @@ TEST(Relay, MayBeLeftBeforeItsWorkIsDone) {
 }
 
 }  // namespace
-}  // namespace fathom
+}  // namespace fathom::cli
