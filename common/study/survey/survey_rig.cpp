@@ -20,6 +20,11 @@ constexpr double kGpsNoise_m = 0.5;
 constexpr double kGpsDrift_m = 1.0;
 constexpr double kGpsDrift_s = 300.0;
 constexpr double kGpsVelocity_m_s = 0.03;
+constexpr double kGpsRate_hz = 5.0;
+// Where instruments of the same grade are less kind.
+constexpr double kUnkindGpsVelocity_m_s = 0.1;
+constexpr double kUnkindGpsRate_hz = 1.0;
+constexpr double kUnkindAccelDrift_m_s2 = 0.3 * kMilliG;
 // Deviation of a magnetic compass in the vehicle, A and each of B to E, 1 sigma.
 constexpr double kCompassA_rad = 1.0 * kDegree;
 constexpr double kCompassCurve_rad = 2.0 * kDegree;
@@ -38,8 +43,9 @@ constexpr double kOrder_m_s = 2.2;  // 2.0 through the water, after the drag of 
 constexpr double kLeg_s = 290.0;
 constexpr double kCrossing_s = 30.0;
 
-constexpr std::array<SurveyCase, 16> kCases{{
+constexpr std::array<SurveyCase, 17> kCases{{
     {.name = "tactical_straight"},
+    {.name = "tactical_straight_less_kind", .less_kind = true},
     {.name = "tactical_straight_same_course", .surface = SurfaceLeg::same_course},
     {.name = "tactical_straight_course_90_off", .surface = SurfaceLeg::course_90_off},
     {.name = "tactical_straight_uncalibrated", .uncalibrated = true},
@@ -65,6 +71,16 @@ void order(sim::Scenario& s, double at_s, double heading_rad, double speed_m_s =
   step.speed_m_s = speed_m_s;
   step.depth_m = depth_m;
   s.mission.push_back(step);
+}
+
+ImuGrade grade_of(const SurveyCase& one) {
+  ImuGrade grade = one.navigation_grade ? kNavigation : kTactical;
+  if (one.less_kind) grade.accel_in_run_m_s2 = kUnkindAccelDrift_m_s2;
+  return grade;
+}
+
+double gps_velocity_m_s(const SurveyCase& one) {
+  return one.less_kind ? kUnkindGpsVelocity_m_s : kGpsVelocity_m_s;
 }
 
 double surface_course_rad(SurfaceLeg leg) {
@@ -130,18 +146,18 @@ sim::Scenario survey_scenario(const SurveyCase& one, std::uint64_t seed) {
       step.speed_m_s = kOrder_m_s;
     }
 
-  s.sensors.of<ImuSample>() = simulated(one.navigation_grade ? kNavigation : kTactical, 1.0);
+  s.sensors.of<ImuSample>() = simulated(grade_of(one), 1.0);
   sim::GpsConfig& gps = s.sensors.of<GpsSample>();
   gps.enabled = true;
-  gps.rate_hz = 5.0;
+  gps.rate_hz = one.less_kind ? kUnkindGpsRate_hz : kGpsRate_hz;
   gps.lever_B_m = kGpsLever_B_m;
   gps.position_sigma_m = kGpsNoise_m;
   gps.altitude_sigma_m = 2.0 * kGpsNoise_m;
   gps.correlated_sigma_m = kGpsDrift_m;
   gps.correlated_altitude_sigma_m = 2.0 * kGpsDrift_m;
   gps.correlated_tau_s = kGpsDrift_s;
-  gps.velocity_sigma_m_s = kGpsVelocity_m_s;
-  gps.velocity_down_sigma_m_s = 2.0 * kGpsVelocity_m_s;
+  gps.velocity_sigma_m_s = gps_velocity_m_s(one);
+  gps.velocity_down_sigma_m_s = 2.0 * gps_velocity_m_s(one);
   gps.dropouts.push_back({kSurveyDive_s, kSurveyDuration_s});
 
   sim::DvlConfig& dvl = s.sensors.of<DvlSample>();
@@ -197,7 +213,7 @@ DvlFault draw_dvl_fault(const SurveyCase& one, std::uint64_t seed) {
 estimation::EngineConfig survey_config(const SurveyCase& one, SurveyFilter filter) {
   const bool published = filter == SurveyFilter::hybrid25;
   const bool states25 = filter != SurveyFilter::full;
-  const ImuGrade& grade = one.navigation_grade ? kNavigation : kTactical;
+  const ImuGrade grade = grade_of(one);
   estimation::EngineConfig c;
   c.configuration = states25 ? "hybrid25" : "full";
   (void)estimation::named_state_groups(c.configuration, c.groups);
@@ -242,7 +258,8 @@ estimation::EngineConfig survey_config(const SurveyCase& one, SurveyFilter filte
   // Where the slow error is no state it is noise.
   const double horizontal = c.groups.gps_position_bias ? kGpsNoise_m : std::hypot(kGpsNoise_m, kGpsDrift_m);
   gps.sigma = {horizontal, horizontal, 2.0 * horizontal};
-  gps.velocity_sigma_m_s = {kGpsVelocity_m_s, kGpsVelocity_m_s, 2.0 * kGpsVelocity_m_s};
+  const double velocity = gps_velocity_m_s(one);
+  gps.velocity_sigma_m_s = {velocity, velocity, 2.0 * velocity};
   gps.use_sample_sigma = false;
   gps.frozen_change = 0.0;
   // The printed measurement of the Doppler log is that of the velocity of the IMU.

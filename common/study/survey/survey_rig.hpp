@@ -41,6 +41,7 @@ struct SurveyCase {
   double outlier_probability = 0.0;
   int beams = 4;
   bool water_track = false;
+  bool less_kind = false;  ///< GPS once a second with coarser velocities, accelerometers that drift more
 };
 [[nodiscard]] std::span<const SurveyCase> survey_cases();
 
