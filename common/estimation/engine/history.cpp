@@ -7,18 +7,10 @@
 namespace fathom::estimation {
 namespace {
 
-/// Room for young snapshots, and the steps between the youngest.
+/// Room for young snapshots.
 constexpr std::size_t kYoung = 48;
-constexpr std::uint64_t kFineSteps = 3;
-/// A snapshot that stands no further before what is expected serves it as well.
-constexpr std::uint64_t kNearSteps = 2;
-/// So much room is left to snapshots that nothing is expected behind.
-constexpr std::size_t kUnexpected = 16;
 /// So many events are looked at one by one before the rest is halved.
 constexpr std::size_t kNewest = 6;
-/// An eighth of the age between snapshots, a quarter where one between two is given up.
-constexpr DurationNs kSaveShare = 8;
-constexpr DurationNs kThinShare = 4;
 /// A second navigator that is set back again and again finishes at once after so many samples.
 constexpr int kMostCatching = 32;
 
@@ -39,12 +31,12 @@ History::History(const Setup& setup)
       horizon_ns_(from_seconds(setup.config.horizon_s)),
       snapshot_interval_ns_(from_seconds(setup.config.snapshot_interval_s)),
       past_(setup),
-      navigator_(setup),
-      leg_(setup.index.size()),
+      leg_without_past_(setup.index.size()),
       steps_(step_capacity(setup.config)),
-      snapshots_(snapshot_capacity(setup.config), Navigator(setup)),
-      legs_(past_.on() ? snapshots_.size() : 0, Leg(setup.index.size())),
-      marks_(snapshots_.size()),
+      navigators_(snapshot_capacity(setup.config) + 1, Navigator(setup)),
+      legs_(past_.on() ? navigators_.size() : 0, Leg(setup.index.size())),
+      present_(static_cast<std::uint16_t>(navigators_.size() - 1)),
+      marks_(navigators_.size() - 1),
       pool_(setup.config.measurement_capacity),
       order_(setup.config.measurement_capacity),
       judgements_(setup.config.measurement_capacity),
@@ -60,16 +52,15 @@ std::size_t History::first_after(TimeNs stamp_ns) const {
   for (std::size_t i = 0; i < kNewest; ++i, --rank)
     if (rank == 0 || pool_[order_[rank - 1]].stamp_ns <= stamp_ns) return rank;
   const auto begin = order_.begin();
-  const auto end = begin + static_cast<std::ptrdiff_t>(rank);
-  const auto found = std::upper_bound(begin, end, stamp_ns, [this](TimeNs stamp, std::uint16_t place) {
-    return stamp < pool_[place].stamp_ns;
-  });
+  const auto found =
+      std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(rank), stamp_ns,
+                       [this](TimeNs stamp, std::uint16_t place) { return stamp < pool_[place].stamp_ns; });
   return static_cast<std::size_t>(found - begin);
 }
 
 History::Placing History::insert(const Measurement& measurement, VerdictSink& sink) {
   if (!started_) return Placing::not_started;
-  const TimeNs newest = navigator_.now_ns();
+  const TimeNs newest = present().now_ns();
   const TimeNs stamp = measurement.stamp_ns;
   if (stamp > newest + future_tolerance_ns(measurement)) return Placing::from_the_future;
   const TimeNs horizon = newest - horizon_ns_;
@@ -116,12 +107,6 @@ void History::advance(const ImuStep& step, VerdictSink& sink) {
   settle_past(sink);
 }
 
-std::size_t History::snapshot_before(TimeNs stamp_ns) const {
-  std::size_t at = snapshot_count_ - 1;
-  while (at > 0 && marks_[at].now_ns >= stamp_ns) --at;
-  return at;
-}
-
 std::uint64_t History::steps_since(TimeNs stamp_ns, std::uint64_t first) const {
   while (first < steps_done_ && steps_[first % steps_.size()].to_ns < stamp_ns) ++first;
   return steps_done_ - first;
@@ -130,37 +115,6 @@ std::uint64_t History::steps_since(TimeNs stamp_ns, std::uint64_t first) const {
 TimeNs History::oldest_ns() const {
   const TimeNs oldest = marks_[0].now_ns;
   return catching_up_ ? std::min(oldest, catching_.now_ns()) : oldest;
-}
-
-void History::go_back() {
-  if (dirty_ns_ == 0) return;
-  // insert() has seen to it that there is a snapshot before it.
-  const TimeNs late_ns = dirty_ns_;
-  dirty_ns_ = 0;
-  const std::size_t at = snapshot_before(late_ns);
-  // Asked of the steps behind it and not of those behind the snapshot: equal events make equal states,
-  // wherever snapshots stand.
-  const std::uint64_t needed = steps_since(late_ns, marks_[at].after_step);
-  const std::uint64_t wasted = steps_done_ - marks_[at].after_step - needed;
-  const bool dear = needed > setup_->config.replay_steps_per_sample;
-  if (wasted > kFineSteps && wasted > needed / kSaveShare)
-    fine_until_step_ = steps_done_ + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
-  if (catching_up_ && late_ns > catching_.now_ns()) {
-    // The second will meet it on its way; the first takes it in meanwhile where that is cheap.
-    if (dear || marks_[at].after_step <= caught_up_step_) return;
-  } else if (catching_up_ || dear) {
-    if (!catching_up_) catching_for_ = 0;
-    catching_up_ = true;
-    catching_ = snapshot(at);
-    if (past_.on()) catching_leg_ = legs_[marks_[at].place];
-    caught_up_step_ = marks_[at].after_step;
-    return;
-  }
-  repeated_steps_ += steps_done_ - marks_[at].after_step;
-  snapshot_count_ = at + 1;
-  navigator_ = snapshot(at);
-  if (past_.on()) leg_ = legs_[marks_[at].place];
-  steps_done_ = marks_[at].after_step;
 }
 
 void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
@@ -174,13 +128,13 @@ void History::catch_up(std::uint64_t steps, VerdictSink& sink) {
         std::lower_bound(begin, end, caught_up_step_,
                          [](const Mark& one, std::uint64_t step) { return one.after_step < step; });
     if (passed != end && passed->after_step == caught_up_step_) {
-      snapshots_[passed->place] = catching_;
+      navigators_[passed->place] = catching_;
       if (past_.on()) legs_[passed->place] = catching_leg_;
     }
   }
   if (caught_up_step_ < steps_done_) return;
-  navigator_ = catching_;
-  if (past_.on()) leg_ = catching_leg_;
+  present() = catching_;
+  if (past_.on()) present_leg() = catching_leg_;
   catching_up_ = false;
 }
 
@@ -192,7 +146,7 @@ void History::settle(VerdictSink& sink) {
   if (catching_up_) catch_up(target, sink);
   Judgement unplaced;
   unplaced.kind = VerdictKind::from_the_future;
-  std::size_t kept = first_after(navigator_.now_ns());
+  std::size_t kept = first_after(present().now_ns());
   for (std::size_t rank = kept; rank < event_count_; ++rank) {
     // An order stays for the step that may yet come.
     if (event(rank).command) {
@@ -208,11 +162,11 @@ void History::settle(VerdictSink& sink) {
 
 void History::repeat_until(std::uint64_t target, VerdictSink& sink) {
   const TimeNs newest_ns =
-      target == steps_done_ ? navigator_.now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
+      target == steps_done_ ? present().now_ns() : steps_[(target - 1) % steps_.size()].to_ns;
   bool saved = false;
   while (steps_done_ < target) {
     const ImuStep& step = steps_[steps_done_ % steps_.size()];
-    run(navigator_, leg_, step, sink);
+    run(present(), present_leg(), step, sink);
     ++steps_done_;
     const TimeNs expected_until_ns = anticipation_.expected_until_ns(step.to_ns, step.to_ns - step.from_ns);
     if (save_due(newest_ns, expected_until_ns)) {
@@ -260,48 +214,6 @@ void History::run(Navigator& navigator, Leg& leg, const ImuStep& step, VerdictSi
   navigator.record_to(nullptr);  // whoever copies it tells nothing
 }
 
-bool History::save_due(TimeNs newest_ns, TimeNs expected_until_ns) const {
-  const Mark& last = marks_[snapshot_count_ - 1];
-  const std::uint64_t steps = steps_done_ - last.after_step;
-  if (steps >= steps_.size() / 4) return true;
-  if (expected_until_ns > newest_ns && steps >= kNearSteps) return true;
-  const DurationNs since = navigator_.now_ns() - last.now_ns;
-  if (since >= snapshot_interval_ns_) return true;
-  return steps_done_ < fine_until_step_ && steps >= kFineSteps &&
-         since >= (newest_ns - navigator_.now_ns()) / kSaveShare;
-}
-
-void History::save(VerdictSink& sink, TimeNs kept_until_ns) {
-  if (snapshot_count_ == snapshots_.size()) drop_snapshot(0);
-  Mark& mark = marks_[snapshot_count_];
-  mark.after_step = steps_done_;
-  mark.now_ns = navigator_.now_ns();
-  mark.kept_until_ns = kept_until_ns;
-  snapshots_[mark.place] = navigator_;
-  if (past_.on()) legs_[mark.place] = leg_;
-  ++snapshot_count_;
-  drop_before(oldest_ns(), sink);
-}
-
-void History::thin_snapshots(TimeNs newest_ns) {
-  const TimeNs horizon = newest_ns - horizon_ns_;
-  while (snapshot_count_ > 1 && marks_[1].now_ns < horizon) drop_snapshot(0);
-  const DurationNs widest = snapshot_interval_ns_;
-  for (std::size_t i = snapshot_count_; i-- > 2;) {
-    const bool is_kept = marks_[i - 1].kept_until_ns >= newest_ns;
-    if (is_kept && snapshot_count_ + kUnexpected < snapshots_.size()) continue;
-    const TimeNs before = marks_[i - 2].now_ns;
-    const DurationNs gap = marks_[i].now_ns - before;
-    if (gap <= std::min(widest, (newest_ns - before) / kThinShare)) drop_snapshot(i - 1);
-  }
-}
-
-void History::drop_snapshot(std::size_t age_order) {
-  const auto mark = marks_.begin() + static_cast<std::ptrdiff_t>(age_order);
-  std::rotate(mark, mark + 1, marks_.begin() + static_cast<std::ptrdiff_t>(snapshot_count_));
-  --snapshot_count_;
-}
-
 void History::drop_before(TimeNs stamp_ns, VerdictSink& sink) {
   const std::size_t count = first_after(stamp_ns);
   if (count == 0) return;
@@ -335,7 +247,7 @@ void History::settle_first(std::size_t count, VerdictKind unjudged, VerdictSink&
 
 void History::settle_past(VerdictSink& sink) {
   // What insert() takes in is younger than this,
-  TimeNs until_ns = std::max(marks_[0].now_ns, navigator_.now_ns() - horizon_ns_ - 1);
+  TimeNs until_ns = std::max(marks_[0].now_ns, present().now_ns() - horizon_ns_ - 1);
   // and the second navigator judges what is younger than itself again.
   if (catching_up_) until_ns = std::min(until_ns, catching_.now_ns());
   while (settled_count_ < event_count_ && event(settled_count_).stamp_ns <= until_ns)
@@ -359,15 +271,15 @@ void History::forget() {
 }
 
 void History::begin(TimeNs now_ns, VerdictSink& sink) {
-  navigator_.rebase(now_ns, 0.0);
+  present().rebase(now_ns, 0.0);
   started_ = true;
   save(sink);
 }
 
 void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSink& sink) {
   forget_past(sink, VerdictKind::not_aligned);
-  Past::forget(leg_);
-  navigator_.start(initial, now_ns);
+  Past::forget(present_leg());
+  present().start(initial, now_ns);
   started_ = true;
   save(sink);
 }
@@ -375,15 +287,15 @@ void History::begin_given(const InitialState& initial, TimeNs now_ns, VerdictSin
 void History::rebase(TimeNs now_ns, double unobserved_s, VerdictSink& sink) {
   if (catching_up_) catch_up(steps_done_, sink);
   forget_past(sink, VerdictKind::late);
-  Past::forget(leg_);  // which had other stamps
-  navigator_.rebase(now_ns, unobserved_s);
+  Past::forget(present_leg());  // which had other stamps
+  present().rebase(now_ns, unobserved_s);
   save(sink);
 }
 
 void History::clear(VerdictSink& sink) {
   forget_past(sink, VerdictKind::not_aligned);
-  Past::forget(leg_);
-  navigator_ = Navigator(*setup_);
+  Past::forget(present_leg());
+  present() = Navigator(*setup_);
   started_ = false;
 }
 

@@ -48,7 +48,7 @@ class History {
 
   explicit History(const Setup& setup);
 
-  [[nodiscard]] const Navigator& navigator() const { return navigator_; }
+  [[nodiscard]] const Navigator& navigator() const { return present(); }
   [[nodiscard]] bool started() const { return started_; }
   /// Every event that is held, oldest first.
   template <class Visit>
@@ -90,7 +90,7 @@ class History {
     std::uint64_t after_step = 0;  ///< number of steps applied
     TimeNs now_ns = 0;
     TimeNs kept_until_ns = 0;  ///< an instrument is expected to be stamped just behind it until then
-    std::uint16_t place = 0;   ///< in snapshots_
+    std::uint16_t place = 0;   ///< in navigators_
   };
 
   // history_archive.cpp
@@ -98,6 +98,20 @@ class History {
   void read_steps(archive::Reader& archive, Candidate& out) const;
   void read_events(archive::Reader& archive, Candidate& out) const;
   void take_over(const Candidate& found, VerdictSink& sink);
+
+  // history_snapshots.cpp
+  /// Goes back to before the earliest event that came late, or lets the second navigator do it.
+  void go_back();
+  /// Something may still come that is stamped just behind this snapshot.
+  [[nodiscard]] bool is_awaited(const Mark& mark) const;
+  /// The newest snapshot before an instant.
+  [[nodiscard]] std::size_t snapshot_before(TimeNs stamp_ns) const;
+  /// Whether a snapshot is due, `newest_ns` being the end of the newest step and `expected_until_ns` what the
+  /// anticipation says.
+  [[nodiscard]] bool save_due(TimeNs newest_ns, TimeNs expected_until_ns) const;
+  void save(VerdictSink& sink, TimeNs kept_until_ns = 0);
+  void thin_snapshots(TimeNs newest_ns);
+  void drop_snapshot(std::size_t age_order);
 
   /// Gives a verdict of an event, the one after those that were given before.
   static void say(Measurement& event, const Judgement& judgement, bool is_final, VerdictSink& sink);
@@ -112,8 +126,9 @@ class History {
   void forget();
   /// So far ahead of the newest inertial sample an event may be stamped.
   [[nodiscard]] DurationNs future_tolerance_ns(const Measurement& measurement) const;
-  /// Goes back to before the earliest event that came late, or lets the second navigator do it.
-  void go_back();
+  [[nodiscard]] Navigator& present() { return navigators_[present_]; }
+  [[nodiscard]] const Navigator& present() const { return navigators_[present_]; }
+  [[nodiscard]] Leg& present_leg() { return past_.on() ? legs_[present_] : leg_without_past_; }
   /// On to the given number of steps.
   void repeat_until(std::uint64_t target, VerdictSink& sink);
   void run(Navigator& navigator, Leg& leg, const ImuStep& step, VerdictSink& sink);
@@ -121,21 +136,13 @@ class History {
   Judgement act(Navigator& navigator, Leg& leg, const Measurement& event);
   /// At most so many steps of the second navigator.
   void catch_up(std::uint64_t steps, VerdictSink& sink);
-  /// The newest snapshot before an instant.
-  [[nodiscard]] std::size_t snapshot_before(TimeNs stamp_ns) const;
   /// How many steps end at an instant or behind it; those before step `first` do not.
   [[nodiscard]] std::uint64_t steps_since(TimeNs stamp_ns, std::uint64_t first) const;
   /// The oldest instant from which steps may still be repeated.
   [[nodiscard]] TimeNs oldest_ns() const;
-  /// Whether a snapshot is due, `newest_ns` being the end of the newest step and `expected_until_ns` what the
-  /// anticipation says.
-  [[nodiscard]] bool save_due(TimeNs newest_ns, TimeNs expected_until_ns) const;
-  void save(VerdictSink& sink, TimeNs kept_until_ns = 0);
-  void thin_snapshots(TimeNs newest_ns);
-  void drop_snapshot(std::size_t age_order);
   void drop_before(TimeNs stamp_ns, VerdictSink& sink);
   [[nodiscard]] const Navigator& snapshot(std::size_t age_order) const {
-    return snapshots_[marks_[age_order].place];
+    return navigators_[marks_[age_order].place];
   }
   [[nodiscard]] Measurement& event(std::size_t rank) { return pool_[order_[rank]]; }
   [[nodiscard]] const Judgement& judgement(std::size_t rank) const { return judgements_[order_[rank]]; }
@@ -145,15 +152,15 @@ class History {
   DurationNs horizon_ns_;
   DurationNs snapshot_interval_ns_;
   Past past_;
-  Navigator navigator_;
-  Leg leg_;  ///< of the navigator
+  Leg leg_without_past_;  ///< of the present navigator where nothing is remembered
   bool started_ = false;
   std::uint64_t steps_done_ = 0;
   TimeNs dirty_ns_ = 0;         ///< earliest event that has not acted although its instant is past; 0: none
   std::vector<ImuStep> steps_;  ///< ring, by step number
-  std::vector<Navigator> snapshots_;
-  std::vector<Leg> legs_;    ///< of the snapshots; none where nothing is remembered
-  std::vector<Mark> marks_;  ///< by age, oldest first; the first snapshot_count_ are in use
+  std::vector<Navigator> navigators_;  ///< the present one and the snapshots
+  std::vector<Leg> legs_;              ///< of these; none where nothing is remembered
+  std::uint16_t present_;              ///< place of the present one
+  std::vector<Mark> marks_;            ///< by age, oldest first; the first snapshot_count_ are in use
   std::size_t snapshot_count_ = 0;
   std::vector<Measurement> pool_;
   std::vector<std::uint16_t> order_;  ///< ranks to places in the pool; the first event_count_ are in use

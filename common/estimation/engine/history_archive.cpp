@@ -53,7 +53,7 @@ void History::layout(archive::Layout& archive) const {
   const ImuStep step;
   const Measurement event;
   archive("base_step", count);
-  archive("core", navigator_);
+  archive("core", present());
   archive("steps", count);
   archive.element("steps", 0, step);
   archive("events", count);
@@ -154,8 +154,8 @@ std::string History::read(archive::Reader& archive, TimeNs newest_ns, VerdictSin
 
 void History::take_over(const Candidate& found, VerdictSink& sink) {
   forget();  // what becomes of those events follows from the state that is taken over
-  navigator_ = found.navigator;
-  if (past_.on()) past_.take_over(found.past, leg_);
+  present() = found.navigator;
+  if (past_.on()) past_.take_over(found.past, present_leg());
   const std::uint64_t target = found.base_step + found.steps.size();
   for (std::uint64_t step = found.base_step; step < target; ++step)
     steps_[step % steps_.size()] = found.steps[step - found.base_step];
