@@ -55,12 +55,12 @@ json verdicts(const VerdictCounts& counts) {
   return out;
 }
 
-json innovations(const std::map<std::string, InnovationTally>& all) {
+json innovations(const InnovationTallies& all) {
   json out = json::object();
   for (const auto& [name, one] : all)
-    out[name] = {{"count", one.measurements()},
-                 {"mean_normalised_squared", number(one.mean_square())},
-                 {"within_95", number(one.share_within_95())}};
+    out[text_of(name)] = {{"count", one.measurements()},
+                          {"mean_normalised_squared", number(one.mean_square())},
+                          {"within_95", number(one.share_within_95())}};
   return out;
 }
 
@@ -271,7 +271,7 @@ std::string to_text(const SolveReport& report) {
   for (const auto& [name, one] : report.result.innovations)
     if (one.components() > 0)
       out += line("innovations of %s: mean square %.2f sigma^2 (1 where sigmas hold), %.1f %% within 95 %%",
-                  name.c_str(), one.mean_square(), 100.0 * one.share_within_95());
+                  text_of(name).c_str(), one.mean_square(), 100.0 * one.share_within_95());
   if (known(report.heading.aligned_after_s))
     out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
   if (const HeadingErrors& course = report.heading.course; course.count() > 0)

@@ -49,8 +49,8 @@ class Relay {
   }
 
  private:
-  static constexpr std::size_t kBlock = 128;
-  static constexpr std::size_t kMostBlocks = 8;
+  static constexpr std::size_t kBlock = 512;
+  static constexpr std::size_t kMostBlocks = 2;
   using Block = std::vector<T>;
 
   void pass_on() {

@@ -24,8 +24,7 @@ constexpr std::uint64_t kStatusEvery = 20;
 void SolveResult::add(const Verdict& verdict) {
   if (!verdict.is_final) return;
   ++verdicts[verdict.source][static_cast<std::size_t>(verdict.kind)];
-  if (verdict.dimensions > 0)
-    innovations[verdict.header.sensor.str() + "." + verdict.model.str()].add(verdict);
+  if (verdict.dimensions > 0) innovations[{verdict.header.sensor, verdict.model}].add(verdict);
 }
 
 bool SolveRun::removes(const GpsSample& fix) const {

@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "base/name.hpp"
 #include "base/time.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "dataset/dataset.hpp"
@@ -102,9 +104,15 @@ struct ImplausibleSpan {
   double value = 0.0;
 };
 
+/// By sensor and model.
+using InnovationTallies = std::map<std::pair<Name, Name>, InnovationTally>;
+[[nodiscard]] inline std::string text_of(const std::pair<Name, Name>& sensor_and_model) {
+  return sensor_and_model.first.str() + "." + sensor_and_model.second.str();
+}
+
 struct SolveResult {
   VerdictCounts verdicts;
-  std::map<std::string, InnovationTally> innovations;  ///< by sensor and model
+  InnovationTallies innovations;
   std::uint64_t imu_samples = 0;
   std::uint64_t nav_states = 0;
   double wall_s = 0.0;
