@@ -105,7 +105,7 @@ Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considere
   if (considered == StateIndex::Considered::kept) stride_s = kStride_s;
 }
 
-ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const SquaredInputs& felt) const {
+ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const SquaredInputs& inputs) const {
   // (NOISE-1): white noise, and as equivalent noise the scale and misalignment that are not estimated.
   const ImuConfig& imu = config.imu;
   const double arw = imu.angle_random_walk_rad_sqrt_s;
@@ -123,15 +123,16 @@ ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const SquaredInpu
       variance += misalignment_sigma * misalignment_sigma * (Vector3d::Constant(squares.sum()) - squares);
     to += C_NB * (imu.equivalent_noise_time_s * variance).asDiagonal() * C_NB.transpose();
   };
-  add(noise.attitude, felt.rate_B, index.has(Group::gyro_scale), imu.gyro_scale_sigma,
+  add(noise.attitude, inputs.rate_B, index.has(Group::gyro_scale), imu.gyro_scale_sigma,
       index.has(Group::gyro_misalignment), imu.gyro_misalignment_sigma_rad);
-  add(noise.velocity, felt.force_B, index.has(Group::accel_scale), imu.accel_scale_sigma,
+  add(noise.velocity, inputs.force_B, index.has(Group::accel_scale), imu.accel_scale_sigma,
       index.has(Group::accel_misalignment), imu.accel_misalignment_sigma_rad);
   const double g_sensitivity = imu.gyro_g_sensitivity_rad_s_per_m_s2;
   noise.attitude.diagonal().array() +=
-      imu.equivalent_noise_time_s * g_sensitivity * g_sensitivity * felt.felt;
+      imu.equivalent_noise_time_s * g_sensitivity * g_sensitivity * inputs.felt;
   const double nonlinearity = imu.accel_nonlinearity_sigma;
-  noise.velocity.diagonal().array() += imu.equivalent_noise_time_s * nonlinearity * nonlinearity * felt.felt;
+  noise.velocity.diagonal().array() +=
+      imu.equivalent_noise_time_s * nonlinearity * nonlinearity * inputs.felt;
   return noise;
 }
 

@@ -46,7 +46,7 @@ struct Setup {
     return config.magnetic_variation_known ? config.magnetic_variation_rad : kUnknown;
   }
   /// (NOISE-1) At this attitude, with what is felt there.
-  [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const SquaredInputs& felt) const;
+  [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const SquaredInputs& inputs) const;
   /// What the configuration says of a drop and what follows from it.
   [[nodiscard]] DropConfig drop_config() const;
 };

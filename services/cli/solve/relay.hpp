@@ -13,7 +13,7 @@
 namespace fathom::cli {
 
 /// Lets another thread do `work` on each item, in their order, while whoever gives them goes on. What work
-/// throws ends it, and comes out of the next give() or of finish(). For one giver.
+/// throws ends it, and comes out of each give() and finish() from then on. For one giver.
 template <class T>
 class Relay {
  public:
@@ -45,7 +45,7 @@ class Relay {
     }
     changed_.notify_all();
     if (thread_.joinable()) thread_.join();
-    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
@@ -56,7 +56,7 @@ class Relay {
   void pass_on() {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return blocks_.size() < kMostBlocks || failure_; });
-    if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
+    if (failure_) std::rethrow_exception(failure_);
     blocks_.push_back(std::move(given_));
     given_.clear();
     if (!spare_.empty()) {

@@ -1,6 +1,5 @@
 // The ellipsoid held against GeographicLib, which shares no formula with it.
 #include <cmath>
-#include <random>
 
 #include <GeographicLib/Ellipsoid.hpp>
 #include <GeographicLib/Geocentric.hpp>
@@ -9,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "geo/wgs84.hpp"
+#include "support/analytic_vehicle.hpp"
 
 namespace fathom::geo {
 namespace {
@@ -17,20 +17,11 @@ using Eigen::Vector3d;
 
 constexpr double kDegree = 0.017453292519943295;
 
-class Draw {
- public:
-  double operator()(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  Geodetic place(double most_latitude_deg) {
-    const double latitude = (*this)(-most_latitude_deg, most_latitude_deg) * kDegree;
-    const double longitude = (*this)(-180.0, 180.0) * kDegree;
-    return {latitude, longitude, (*this)(-6000.0, 12000.0)};
-  }
-
- private:
-  std::mt19937_64 engine_{11};
-};
+Geodetic place(test::Normal& draw, double most_latitude_deg) {
+  const double latitude = draw.uniform(-most_latitude_deg, most_latitude_deg) * kDegree;
+  const double longitude = draw.uniform(-180.0, 180.0) * kDegree;
+  return {latitude, longitude, draw.uniform(-6000.0, 12000.0)};
+}
 
 Vector3d geocentric(const Geodetic& at) {
   Vector3d out;
@@ -50,9 +41,9 @@ TEST(Oracle, RadiiOfCurvature) {
 
 TEST(Oracle, NormalGravity) {
   const GeographicLib::NormalGravity& gravity = GeographicLib::NormalGravity::WGS84();
-  Draw draw;
+  test::Normal draw(11);
   for (int i = 0; i < 2000; ++i) {
-    const Geodetic at = draw.place(89.0);
+    const Geodetic at = place(draw, 89.0);
     double north = 0.0;
     double up = 0.0;
     gravity.Gravity(at.latitude_rad / kDegree, at.altitude_m, north, up);
@@ -66,12 +57,12 @@ TEST(Oracle, NormalGravity) {
 
 TEST(Oracle, WaysOverTheGroundAreGeodesics) {
   const GeographicLib::Geodesic& earth = GeographicLib::Geodesic::WGS84();
-  Draw draw;
+  test::Normal draw(11);
   for (int i = 0; i < 2000; ++i) {
-    Geodetic from = draw.place(80.0);
+    Geodetic from = place(draw, 80.0);
     from.altitude_m = 0.0;
-    const double length = std::exp(draw(std::log(1.0), std::log(5000.0)));
-    const double way = draw(-180.0, 180.0) * kDegree;
+    const double length = std::exp(draw.uniform(std::log(1.0), std::log(5000.0)));
+    const double way = draw.uniform(-180.0, 180.0) * kDegree;
     const Vector3d delta(length * std::cos(way), length * std::sin(way), 0.0);
     const Geodetic to = moved_by(from, delta);
     double distance = 0.0;
@@ -83,10 +74,10 @@ TEST(Oracle, WaysOverTheGroundAreGeodesics) {
 }
 
 TEST(Oracle, StepsOfAVehicleAreChordsInSpace) {
-  Draw draw;
+  test::Normal draw(11);
   for (int i = 0; i < 2000; ++i) {
-    const Geodetic from = draw.place(80.0);
-    const Vector3d delta(draw(-20.0, 20.0), draw(-20.0, 20.0), draw(-5.0, 5.0));
+    const Geodetic from = place(draw, 80.0);
+    const Vector3d delta(draw.uniform(-20.0, 20.0), draw.uniform(-20.0, 20.0), draw.uniform(-5.0, 5.0));
     const Geodetic to = moved_by(from, delta);
     EXPECT_NEAR((geocentric(to) - geocentric(from)).norm(), delta.norm(), 2e-5);
   }

@@ -59,6 +59,7 @@ TEST(Relay, WhatWorkThrowsComesOut) {
         relay.finish();
       },
       std::runtime_error);
+  EXPECT_THROW(relay.finish(), std::runtime_error) << "and again: nothing waits for work that has ended";
   Relay<int> late(work);
   for (int i = 0; i < 701; ++i) late.give(i);  // the last of them, found when all is done
   EXPECT_THROW(late.finish(), std::runtime_error);
