@@ -72,19 +72,27 @@ void fields(Archive& archive, Self& self) {
 template <class Archive, class Self>
 requires std::is_same_v<std::remove_const_t<Self>, SquaredInputs>
 void fields(Archive& archive, Self& self) {
-  archive("rate_B", self.rate_B, fathom::archive::at_least_zero());
-  archive("force_B", self.force_B, fathom::archive::at_least_zero());
-  archive("felt", self.felt, fathom::archive::at_least_zero());
+  constexpr double kMost = 1e12;
+  archive("rate_B", self.rate_B, fathom::archive::within(0.0, kMost));
+  archive("force_B", self.force_B, fathom::archive::within(0.0, kMost));
+  archive("felt", self.felt, fathom::archive::within(0.0, kMost));
 }
 
+/// Integrals over less than a second; the means are quotients by its length.
 template <class Archive, class Self>
 void Stride::fields(Archive& archive, Self& self) {
+  constexpr double kMost = 1e6;
+  constexpr double kShortest_s = 1e-10;  // stamps are whole nanoseconds
   archive("dt_s", self.dt_s_, fathom::archive::within(0.0, 1.0));
   archive("C_NB_s", self.C_NB_s_, fathom::archive::within(-1.0, 1.0));
-  archive("turn_B_rad", self.turn_B_rad_, fathom::archive::finite());
-  archive("dv_B_m_s", self.dv_B_m_s_, fathom::archive::finite());
-  archive("dv_N_m_s", self.dv_N_m_s_, fathom::archive::finite());
+  archive("turn_B_rad", self.turn_B_rad_, fathom::archive::within(-kMost, kMost));
+  archive("dv_B_m_s", self.dv_B_m_s_, fathom::archive::within(-kMost, kMost));
+  archive("dv_N_m_s", self.dv_N_m_s_, fathom::archive::within(-kMost, kMost));
   archive("squares_s", self.squares_s_);
+  if constexpr (Archive::kReads) {
+    archive.expect(self.dt_s_ == 0.0 || self.dt_s_ >= kShortest_s, "dt_s", "0 or a nanosecond at least");
+    if (self.is_empty()) self = {};
+  }
 }
 
 template <class Archive, class Self>

@@ -1,8 +1,15 @@
 // The covariance follows the state in strides (KF-1).
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "archive/reader.hpp"
+#include "archive/writer.hpp"
+#include "estimation/fields/navigator.hpp"
+#include "estimation/fields/state_head.hpp"
 #include "estimation/navigator/estimate.hpp"
 #include "support/survey_run.hpp"
 
@@ -89,6 +96,38 @@ TEST(Stride, EndsWhereTheVehicleHasTurnedFar) {
     estimate.advance(setup, step, step.to_ns);
     EXPECT_TRUE(estimate.stride.is_empty()) << "0.12 rad within one step";
   }
+}
+
+/// What a reader says to an image whose first number, the length of the stride, is this one.
+std::string complaint_about(double dt_s) {
+  Stride stride;
+  stride.add(0.01, Eigen::Matrix3d::Identity(), Vector3d(0.1, 0.2, 0.3), Vector3d(0.0, 0.0, -9.8));
+  std::vector<std::byte> image;
+  archive::Writer writer(image, kStateVersion);
+  writer("stride", stride);
+  const double written = stride.dt_s();
+  const auto* bytes = reinterpret_cast<const std::byte*>(&written);
+  const auto at = std::search(image.begin(), image.end(), bytes, bytes + sizeof written);
+  EXPECT_NE(at, image.end());
+  std::copy_n(reinterpret_cast<const std::byte*>(&dt_s), sizeof dt_s, at);
+  archive::Reader reader(image);
+  reader.set_version(kStateVersion);
+  Stride read;
+  reader("stride", read);
+  if (reader.good() && dt_s == 0.0) {
+    // An empty one holds nothing: the next step is alone in it.
+    read.add(0.01, Eigen::Matrix3d::Identity(), Vector3d::Zero(), Vector3d::Zero());
+    EXPECT_EQ(read.rate_B_rad_s().norm(), 0.0);
+  }
+  return reader.good() ? "" : reader.complaint();
+}
+
+TEST(Stride, OneFromOutsideHasALengthThatItsIntegralsCanBeDividedBy) {
+  EXPECT_EQ(complaint_about(0.01), "");
+  EXPECT_EQ(complaint_about(0.0), "");
+  EXPECT_NE(complaint_about(1e-300).find("dt_s"), std::string::npos) << complaint_about(1e-300);
+  EXPECT_NE(complaint_about(-0.01).find("dt_s"), std::string::npos);
+  EXPECT_NE(complaint_about(std::nan("")).find("dt_s"), std::string::npos);
 }
 
 }  // namespace
