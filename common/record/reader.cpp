@@ -100,14 +100,16 @@ Outcome Reader::read(const Selection& selection, const Handler& handler) {
   }
   if (contents_.chunks.empty()) return outcome;
   // While some chunks are handed over, another thread unpacks the next ones.
-  Group group = unpack_from(0, chosen);
+  std::vector<Group> groups = unpack_from(0, chosen);
   while (true) {
-    const std::size_t following = group.end;
-    std::future<Group> next;
+    const std::size_t following = groups.back().end;
+    std::future<std::vector<Group>> next;
     if (following < contents_.chunks.size())
       next = std::async(std::launch::async, [&, following] { return unpack_from(following, chosen); });
-    if (!read_chunks(std::move(group), chosen, handler, outcome) || !next.valid()) return outcome;
-    group = next.get();
+    for (Group& group : groups)
+      if (!read_chunks(std::move(group), chosen, handler, outcome)) return outcome;
+    if (!next.valid()) return outcome;
+    groups = next.get();
   }
 }
 
@@ -129,17 +131,26 @@ std::size_t Reader::beside(std::size_t first) const {
   return next - first;
 }
 
-Reader::Group Reader::unpack_from(std::size_t first, const Chosen& chosen) {
-  Group out;
-  out.end = first + beside(first);
-  for (std::size_t i = first; i < out.end; ++i) {
-    const ChunkIndex& index = contents_.chunks[i];
-    if (!chosen.takes(index)) continue;
-    auto chunk = unpack(index);
-    if (chunk)
-      out.open.push_back(std::move(chunk.value()));
-    else
-      out.problems.push_back({index.chunk_start_offset, chunk.error().message});
+std::vector<Reader::Group> Reader::unpack_from(std::size_t first, const Chosen& chosen) {
+  // A thread for each group alone would cost as much as its unpacking.
+  constexpr std::uint64_t kEnough_bytes = 8U << 20U;
+  std::vector<Group> out;
+  std::uint64_t bytes = 0;
+  for (std::size_t next = first; next < contents_.chunks.size() && bytes < kEnough_bytes;
+       next = out.back().end) {
+    Group& group = out.emplace_back();
+    group.end = next + beside(next);
+    for (std::size_t i = next; i < group.end; ++i) {
+      const ChunkIndex& index = contents_.chunks[i];
+      if (!chosen.takes(index)) continue;
+      auto chunk = unpack(index);
+      if (!chunk) {
+        group.problems.push_back({index.chunk_start_offset, chunk.error().message});
+        continue;
+      }
+      bytes += chunk.value()->records.size();
+      group.open.push_back(std::move(chunk.value()));
+    }
   }
   return out;
 }

@@ -68,8 +68,8 @@ class Reader {
   struct Group;
   [[nodiscard]] std::size_t beside(std::size_t first) const;
   [[nodiscard]] Result<std::unique_ptr<Unpacked>> unpack(const ChunkIndex& index);
-  /// Those from `first` on that were filled beside each other.
-  [[nodiscard]] Group unpack_from(std::size_t first, const Chosen& chosen);
+  /// Groups from the chunk `first` on, some megabytes of them; at least one.
+  [[nodiscard]] std::vector<Group> unpack_from(std::size_t first, const Chosen& chosen);
   /// False: the handler has enough.
   bool read_chunks(Group group, const Chosen& chosen, const Handler& handler, Outcome& outcome);
   bool hand_over(const Place& place, const Chosen& chosen, const Handler& handler, Outcome& outcome,

@@ -14,7 +14,7 @@ constexpr DurationNs kMostLost = 4;
 /// After so many nobody waits for the next one.
 constexpr DurationNs kPatience = 16;
 /// Stamps jitter by so much less than a step.
-constexpr DurationNs kJitterShare = 8;
+constexpr DurationNs kJitterShare = 2;
 
 }  // namespace
 

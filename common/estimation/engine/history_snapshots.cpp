@@ -36,7 +36,8 @@ void History::go_back() {
   const std::uint64_t needed = steps_since(late_ns, marks_[at].after_step);
   const std::uint64_t wasted = steps_done_ - marks_[at].after_step - needed;
   const bool dear = needed > setup_->config.replay_steps_per_sample;
-  if (wasted > kFineSteps && wasted > needed / kSaveShare)
+  // Snapshots that stand close cost something with each step: they pay where the waste is the greater part.
+  if (wasted > kFineSteps && wasted > needed)
     fine_until_step_ = steps_done_ + static_cast<std::uint64_t>(setup_->config.imu.nominal_rate_hz);
   if (catching_up_ && late_ns > catching_.now_ns()) {
     // The second will meet it on its way; the first takes it in meanwhile where that is cheap.
