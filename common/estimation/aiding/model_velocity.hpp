@@ -28,6 +28,8 @@ class ModelVelocity {
     policy.velocity = VelocityOver::medium;
     return policy;
   }
+  /// What it measures with is the vehicle model, not the sensor.
+  [[nodiscard]] static bool may_aid(const SensorConfig& /*sensor*/) { return false; }
 
   ModelVelocity(const AidingState& s, const VehicleModelConfig& config, const hydro::WaterVelocity& water)
       : s_(s),

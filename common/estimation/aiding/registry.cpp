@@ -32,6 +32,10 @@ constexpr AidingEntry entry() {
           },
           [](const SensorConfig& sensor, const EventSample& sample) {
             return Model::policy(sensor, std::get<Sample>(sample));
+          },
+          [](const SensorConfig& sensor) {
+            if constexpr (requires { Model::may_aid(sensor); }) return Model::may_aid(sensor);
+            return true;
           }};
 }
 
@@ -56,6 +60,12 @@ SensorConfig default_sensor(SourceKind kind, const std::string& name) {
     if (row.kSource == kind) set_defaults(sensor, static_cast<const Sample*>(nullptr));
   });
   return sensor;
+}
+
+bool may_aid(const SensorConfig& sensor) {
+  return std::any_of(kRegistry.begin(), kRegistry.end(), [&](const AidingEntry& entry) {
+    return entry.source == sensor.kind && entry.may_aid(sensor);
+  });
 }
 
 bool may_place(const SensorConfig& sensor, const EventSample& sample) {

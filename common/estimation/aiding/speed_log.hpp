@@ -34,6 +34,7 @@ class SpeedLog {
     policy.velocity = VelocityOver::medium;
     return policy;  // a shaft may well keep its speed: nothing tells a frozen reading
   }
+  [[nodiscard]] static bool may_aid(const SensorConfig& sensor) { return sensor.scale_m_s_per_rpm != 0.0; }
 
   /// `unused_s`: since the last sample that was used, unknown before the first.
   SpeedLog(const AidingState& s, const SensorConfig& sensor, const PropulsionSample& sample, double unused_s)
@@ -46,7 +47,7 @@ class SpeedLog {
 
   [[nodiscard]] static Usable usable(const AidingState& s, const SensorConfig& sensor,
                                      const PropulsionSample& sample, double surface_altitude_m) {
-    if (sensor.scale_m_s_per_rpm == 0.0) return Usable::not_estimated;
+    if (!may_aid(sensor)) return Usable::not_estimated;
     if (!(std::abs(sample.rpm) > 1.0 && std::abs(sample.rpm) < 1e5)) return Usable::out_of_range;
     const double depth =
         s.value(Group::surface_altitude, 0, surface_altitude_m) - s.state.nav.position.altitude_m;

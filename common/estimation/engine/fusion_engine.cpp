@@ -96,8 +96,9 @@ class FusionEngine::Impl final : public VerdictSink {
     Judgement judgement;
     const SampleHeader& header = header_of(sample);
     const int sensor = find(header.sensor, source);
-    if (sensor < 0 || !sound_stamp(header.stamp_ns)) {
-      judgement.kind = sensor < 0 ? VerdictKind::source_disabled : VerdictKind::out_of_range;
+    const bool unused = sensor < 0 || setup_.unused[static_cast<std::size_t>(sensor)];
+    if (unused || !sound_stamp(header.stamp_ns)) {
+      judgement.kind = unused ? VerdictKind::source_disabled : VerdictKind::out_of_range;
       refuse(header, source, writer, judgement);
       return;
     }

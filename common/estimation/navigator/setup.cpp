@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/standard_gravity.hpp"
+#include "estimation/aiding/registry.hpp"
 
 namespace fathom::estimation {
 
@@ -100,6 +101,10 @@ Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considere
   model_gate.reacquire_s = 0.0;
   model_limits = gate_limits(model_gate);
   if (config.vehicle_model.enabled) velocity_model.emplace(config.vehicle_model.coefficients);
+  // Shaft and fins serve the vehicle model, and the shaft serves the alignment after a drop.
+  const bool driven = velocity_model || config.alignment.mode == StartMode::air_drop;
+  for (std::size_t i = 0; i < config.sensors.size() && i < unused.size(); ++i)
+    unused[i] = !driven && !may_aid(config.sensors[i]);
   drift = StateDrift(walk, decay_per_s, index.size());
   // Whoever finds what is considered goes back along every step, and needs the covariance at each.
   if (considered == StateIndex::Considered::kept) stride_s = kStride_s;

@@ -25,6 +25,7 @@ struct Setup {
   StateIndex index;
   std::array<GateLimits, kMaxSensors> limits{};
   std::array<int, kMaxSensors> water_layer{};  ///< of each DVL a number; -1: none
+  std::array<bool, kMaxSensors> unused{};      ///< nothing here has a use for what the sensor measures
   SensorConfig constraint_gate;                ///< how what no instrument measures is gated
   GateLimits constraint_limits;
   std::array<double, kMaxStates> initial_sigma{};  ///< of the states from index 9 on
