@@ -58,11 +58,10 @@ struct Field {
   static constexpr std::size_t kCount = detail::Element<T>::kCount;
   static constexpr std::size_t kBytes = kCount * sizeof(Scalar);
 
+  constexpr Field(std::string_view its_name, T M::*its_member) : name(its_name), member(its_member) {}
   std::string_view name;
   T M::*member;
 };
-template <class M, class T>
-Field(std::string_view, T M::*) -> Field<M, T>;
 
 /// M has kId, kName, kFields (a tuple of Field) and kExtensions, how many of the last fields came later than
 /// the message.

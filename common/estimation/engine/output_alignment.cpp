@@ -188,9 +188,11 @@ void fill_navigating(const Navigator& navigator, const EngineConfig& engine, con
   sigma_condition("yaw_sigma_rad", sigma.z(), config.aligned_heading_sigma_rad);
   const double unheard = navigator.unheard_s();
   if (unheard > 0.0) add_condition(out, "imu_unjudged_s", unheard, 0.0, false);
+  const bool doubted = navigator.is_doubted();
+  if (doubted) add_condition(out, "instruments_contradict", 1.0, 0.0, false);
   if (navigator.alignment().phase == AlignmentPhase::aligned) {
     out.time_to_aligned_s = 0.0;
-  } else if (navigator.alignment().hold_since_ns != 0) {
+  } else if (!doubted && navigator.alignment().hold_since_ns != 0) {
     out.time_to_aligned_s = std::max(unheard, config.aligned_hold_s - held);
   }
 }

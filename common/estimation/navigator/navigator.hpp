@@ -68,7 +68,12 @@ class Navigator {
   [[nodiscard]] const PlausibilityFinding& implausible() const { return plausibility_.finding(); }
   [[nodiscard]] Plausible plausible() const {
     if (plausibility_.finding()) return Plausible::no;
-    return plausibility_.has_heard() ? Plausible::yes : Plausible::not_heard_enough;
+    return plausibility_.has_heard() && !is_doubted() ? Plausible::yes : Plausible::not_heard_enough;
+  }
+  /// The instruments contradict each other. That keeps from aligning; what is aligned stays so until it is
+  /// claimed which one is wrong.
+  [[nodiscard]] bool is_doubted() const {
+    return alignment_.phase != AlignmentPhase::aligned && plausibility_.is_doubted();
   }
   /// For how long the inertial unit has to be heard still; 0: it was.
   [[nodiscard]] double unheard_s() const { return plausibility_.unheard_s(); }

@@ -21,9 +21,12 @@ struct Recorded {
   const char* of_class;
   /// What is said of each mistake: sensor and kind, any of which says it.
   std::map<std::string, std::set<std::string>> said;
+  /// What nothing speaks against before it is aligned.
+  std::set<std::string> aligns;
 };
 
-/// A car and a small aircraft. The car never rolls or pitches: two level axes of its gyro may be exchanged.
+/// A car and a small aircraft. The car hardly rolls or pitches: that two level axes of its gyro are exchanged
+/// takes most of a minute to be seen.
 const std::vector<Recorded>& recorded() {
   static const std::map<std::string, std::set<std::string>> kCar{{"accelerometer negated", {"imu sign"}},
                                                                  {"gyro negated", {"imu sign"}},
@@ -32,10 +35,12 @@ const std::vector<Recorded>& recorded() {
                                                                  {"gps velocity east north up", {"gps axes"}},
                                                                  {"imu 10 % fast", {"imu rate"}}};
   static const std::vector<Recorded> kAll = [] {
-    auto aircraft = kCar;
+    auto car = kCar;
+    car["gyro x and y swapped"] = {"imu axes"};
+    auto aircraft = car;
     aircraft["gyro negated"].insert("imu axes");
-    aircraft["gyro x and y swapped"] = {"imu axes"};
-    return std::vector<Recorded>{{"rtkx_drive", "mems_car", kCar}, {"thor75", "mems_fixed_wing", aircraft}};
+    return std::vector<Recorded>{{"rtkx_drive", "mems_car", car, {"gyro x and y swapped"}},
+                                 {"thor75", "mems_fixed_wing", aircraft, {}}};
   }();
   return kAll;
 }
@@ -52,7 +57,7 @@ class SolveRecorded : public SolveTest {
   }
 };
 
-TEST_F(SolveRecorded, GrossMistakesAreNamedAndDoNotStayAligned) {
+TEST_F(SolveRecorded, GrossMistakesAreNamedAndDoNotAlign) {
   const fs::path datasets = FATHOM_DATASETS;
   if (!fs::exists(datasets)) FATHOM_DATA_IS_MISSING(datasets << " is not there");
   for (const Recorded& one : recorded()) {
@@ -66,6 +71,7 @@ TEST_F(SolveRecorded, GrossMistakesAreNamedAndDoNotStayAligned) {
       const auto metrics = solved(wrong, one.of_class);
       const std::string where = std::string(one.folder) + ", " + sabotage.name;
       EXPECT_NE(metrics["alignment"], "aligned") << where;
+      EXPECT_EQ(metrics["ever_aligned"], one.aligns.contains(sabotage.name)) << where;
       ASSERT_GE(metrics["refused_to_align"].size(), 1U) << where;
       for (const auto& found : metrics["refused_to_align"])
         EXPECT_TRUE(expected->second.contains(found["sensor"].get<std::string>() + " " +

@@ -25,6 +25,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDeg = M_PI / 180.0;
+constexpr Proof kProof{.fewest = kFewestPairs, .most_left = 0.25, .claim = 0.0};
 
 /// An AUV at 2 m/s that turns at the surface and dives.
 sim::Scenario scenario(bool dives) {
@@ -253,10 +254,37 @@ TEST(PairFit, BelievesAnotherFactorOnlyWhereItExplainsWhatTheConfiguredOneDoesNo
     wrong.add(a, -a + random.normal(0.02), 0.02, 0.1);
     silent.add(random.normal(0.02), random.normal(0.02), 0.02, 0.1);
   }
-  EXPECT_EQ(right.evidence(-1.0), 0.0);
-  EXPECT_GT(wrong.evidence(-1.0), 20.0);
-  EXPECT_EQ(wrong.evidence(0.5), 0.0);
-  EXPECT_EQ(silent.evidence(-1.0), 0.0);
+  EXPECT_EQ(right.evidence(-1.0, kProof), 0.0);
+  EXPECT_GT(wrong.evidence(-1.0, kProof), 20.0);
+  EXPECT_EQ(wrong.evidence(0.5, kProof), 0.0);
+  EXPECT_EQ(silent.evidence(-1.0, kProof), 0.0);
+}
+
+TEST(PairFit, AsksForMoreBeforeItClaimsThanBeforeItDoubts) {
+  constexpr Proof kDoubt{.fewest = 1.0, .most_left = 0.25, .claim = 0.0};
+  PairFit fit;
+  fit.add(0.5, -0.5, 0.02, 0.1);
+  EXPECT_EQ(fit.evidence(-1.0, kProof), 0.0);
+  EXPECT_GT(fit.evidence(-1.0, kDoubt), 0.0);
+  EXPECT_EQ(fit.evidence(2.0, kDoubt), 0.0);
+}
+
+TEST(PairFit, KeepsWhatWasClaimedUntilTheConfigurationExplainsAsMuch) {
+  constexpr Proof kStands{.fewest = 4.0, .most_left = 1.0, .claim = 0.0};
+  PairFit fit;
+  for (int i = 0; i < 40; ++i) fit.add(0.5, -0.5, 0.02, 0.1);
+  ASSERT_GT(fit.evidence(-1.0, kProof), 0.0);
+  // Turned about and put right: for as many pairs that is no more likely than that it is negated.
+  int claimed = 0;
+  int standing = 0;
+  for (int i = 0; i < 100; ++i) {
+    fit.add(0.5, 0.5, 0.02, 0.1);
+    claimed += fit.evidence(-1.0, kProof) > 0.0 ? 1 : 0;
+    standing += fit.evidence(-1.0, kStands) > 0.0 ? 1 : 0;
+  }
+  EXPECT_GT(claimed, 0);
+  EXPECT_GT(standing, claimed + 5);
+  EXPECT_LT(standing, 45) << "of 40 that were wrong, fading";
 }
 
 TEST(PairFit, FindsTheTurnOfAVelocity) {
@@ -269,7 +297,7 @@ TEST(PairFit, FindsTheTurnOfAVelocity) {
   EXPECT_NEAR(fit.turn_rad(), 0.8, 1e-9);
   Matrix2d turn;
   turn << std::cos(0.8), -std::sin(0.8), std::sin(0.8), std::cos(0.8);
-  EXPECT_GT(fit.evidence(turn), 20.0);
+  EXPECT_GT(fit.evidence(turn, kProof), 20.0);
 }
 
 TEST(Alignment, EveryConditionThatAVehicleWaitsForSaysWhatHelps) {

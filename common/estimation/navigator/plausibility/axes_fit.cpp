@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/navigator/plausibility/pair_fit.hpp"
-
 namespace fathom::estimation {
 namespace {
 
@@ -57,13 +55,14 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
   speed_before_m_s_ = speed_m_s >= 0.0 ? speed_m_s : -1.0;
 }
 
-OtherAxes AxesFit::other() const {
+OtherAxes AxesFit::other(const Proof& proof) const {
   OtherAxes out;
   for (std::size_t i = 1; i < kAxesHypotheses; ++i) {
-    if (count_[i] < kFewestPairs) continue;
+    if (count_[i] < proof.fewest) continue;
     // Squares are in units of their variances, and two of the three components are free.
     const double components = 2.0 * count_[i];
-    const double evidence = evidence_for_other(components, components, configured_[i], left_[i]);
+    const double evidence =
+        evidence_for_other(components, components, configured_[i], left_[i], proof.most_left);
     if (evidence > out.evidence) out = {i, evidence};
   }
   return out;

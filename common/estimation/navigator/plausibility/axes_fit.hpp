@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "estimation/navigator/plausibility/axes_hypotheses.hpp"
+#include "estimation/navigator/plausibility/pair_fit.hpp"
 
 namespace fathom::estimation {
 
@@ -18,7 +19,7 @@ class AxesFit {
   void add(const Eigen::Vector3d& down_B, const Eigen::Vector3d& turn_rad, double lasted_s, double speed_m_s);
   void interrupt() { has_before_ = false; }
   /// The best explanation besides "as configured"; no evidence where that is not refuted.
-  [[nodiscard]] OtherAxes other() const;
+  [[nodiscard]] OtherAxes other(const Proof& proof) const;
 
   /// For archives: see fields/plausibility.hpp.
   template <class Archive, class Self>

@@ -30,15 +30,11 @@ constexpr double kOtherRate = 0.15;
 /// Less may be a compass's deviation, or a current that nobody knows.
 constexpr double kLeastTurn_rad = 25.0 * kDegree;
 
-struct Best {
-  PlausibilityFinding finding;
-  double evidence = kClaim;
-  void hear(Implausible kind, double value, double evidence_for_it) {
-    if (!(evidence_for_it > evidence)) return;
-    evidence = evidence_for_it;
-    finding = {kind, value};
-  }
-};
+const Proof kClaimed{.fewest = kFewestPairs, .most_left = 0.25, .claim = kClaim};
+/// Enough not to rely on a vehicle, and far from enough to accuse one.
+constexpr Proof kDoubted{.fewest = 1.0, .most_left = 0.25, .claim = 0.0};
+/// What was claimed once stays until the configuration explains as much.
+constexpr Proof kStanding{.fewest = kFewestPairs, .most_left = 1.0, .claim = 0.0};
 
 Matrix2d matrix(double a, double b, double c, double d) {
   Matrix2d out;
@@ -46,33 +42,42 @@ Matrix2d matrix(double a, double b, double c, double d) {
   return out;
 }
 
-void judge_turns(const PairFit& fit, Best& best) {
-  best.hear(Implausible::gyro_negated, -1.0, fit.evidence(-1.0));
-  for (const double sign : {1.0, -1.0}) {
-    best.hear(Implausible::gyro_in_degrees, sign * kDegree, fit.evidence(sign * kDegree));
-    best.hear(Implausible::gyro_too_slow, sign / kDegree, fit.evidence(sign / kDegree));
-  }
-}
-
-void judge_track(const PairFit& fit, Best& best) {
-  for (const double factor : {kKnot_m_s, 1.0 / 3.6, 1e-2, 1e-3})
-    best.hear(Implausible::gps_unit, factor, fit.evidence(factor));
-  best.hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(0, 1, 1, 0)));
-  best.hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(-1, 0, 0, 1)));
-  best.hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(1, 0, 0, -1)));
-  best.hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(-1, 0, 0, -1)));
-}
-
-void judge_ground(const PairFit& ground, const PairFit& mirror, Best& best) {
-  const double angle = ground.turn_rad();
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  if (std::abs(angle) > kLeastTurn_rad)
-    best.hear(Implausible::dvl_turned, angle, ground.evidence(matrix(c, -s, s, c)));
-  best.hear(Implausible::dvl_mirrored, 0.0, ground.evidence_of(mirror.left_over(Matrix2d::Identity())));
-}
-
 }  // namespace
+
+/// The explanation that is proven best, of those that are asked for.
+struct Plausibility::Best {
+  double evidence;                       ///< to be exceeded
+  Implausible only = Implausible::none;  ///< none: all
+  PlausibilityFinding finding{};
+  void hear(Implausible kind, double value, double evidence_for_it) {
+    if (!(evidence_for_it > evidence) || (only != Implausible::none && only != kind)) return;
+    evidence = evidence_for_it;
+    finding = {kind, value};
+  }
+  void hear_turns(const PairFit& fit, const Proof& proof) {
+    hear(Implausible::gyro_negated, -1.0, fit.evidence(-1.0, proof));
+    for (const double sign : {1.0, -1.0}) {
+      hear(Implausible::gyro_in_degrees, sign * kDegree, fit.evidence(sign * kDegree, proof));
+      hear(Implausible::gyro_too_slow, sign / kDegree, fit.evidence(sign / kDegree, proof));
+    }
+  }
+  void hear_track(const PairFit& fit, const Proof& proof) {
+    for (const double factor : {kKnot_m_s, 1.0 / 3.6, 1e-2, 1e-3})
+      hear(Implausible::gps_unit, factor, fit.evidence(factor, proof));
+    hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(0, 1, 1, 0), proof));
+    hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(-1, 0, 0, 1), proof));
+    hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(1, 0, 0, -1), proof));
+    hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(-1, 0, 0, -1), proof));
+  }
+  void hear_ground(const PairFit& ground, const PairFit& mirror, const Proof& proof) {
+    const double angle = ground.turn_rad();
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    if (std::abs(angle) > kLeastTurn_rad)
+      hear(Implausible::dvl_turned, angle, ground.evidence(matrix(c, -s, s, c), proof));
+    hear(Implausible::dvl_mirrored, 0.0, ground.evidence_of(mirror.left_over(Matrix2d::Identity()), proof));
+  }
+};
 
 std::string_view to_string(Implausible kind) {
   static constexpr std::array<std::string_view, kImplausibles> kNames{
@@ -105,8 +110,43 @@ double Plausibility::off(const Setup& setup, double count) const {
   return std::abs(count / (interval_s_ * setup.config.imu.nominal_rate_hz) - 1.0);
 }
 
+void Plausibility::explain(const Proof& proof, const OtherAxes& by_tilts, Best& best) const {
+  best.hear_turns(compass_.fit, proof);
+  best.hear_turns(course_.fit, proof);
+  for (const OtherAxes other : {axes_.other(proof), by_tilts})
+    best.hear(Implausible::gyro_axes, static_cast<double>(other.number), other.evidence);
+  best.hear_track(track_.fit, proof);
+  // Only a GPS velocity that goes along its positions can speak against a DVL.
+  if (!best.finding && track_.fit.agrees()) {
+    for (const double factor : {1e-3, 1e-2, kKnot_m_s, kFoot_m, 1e3})
+      best.hear(Implausible::dvl_unit, factor, speed_.evidence(factor, proof));
+    best.hear_ground(ground_, mirror_, proof);
+  }
+  // And only a DVL that goes along with GPS, where there is one, against a depth.
+  const bool vouched = (speed_.is_empty() || speed_.agrees()) && (ground_.is_empty() || ground_.agrees());
+  if (!best.finding && vouched) {
+    // The reading of one metre: bar, millibar, pascal, feet.
+    for (const double reading : {0.0997, 99.7, 9970.0, 1.0 / kFoot_m})
+      best.hear(Implausible::depth_unit, 1.0 / reading, depth_.fit.evidence(reading, proof));
+    best.hear(Implausible::depth_upwards, -1.0, depth_.fit.evidence(-1.0, proof));
+  }
+}
+
+bool Plausibility::is_doubted() const {
+  Best best{.evidence = kDoubted.claim};
+  explain(kDoubted, {}, best);
+  return static_cast<bool>(best.finding);
+}
+
+bool Plausibility::stands() const {
+  if (finding_.kind == Implausible::gyro_axes && tilts_.stands(static_cast<std::size_t>(finding_.value)))
+    return true;
+  Best best{.evidence = kStanding.claim, .only = finding_.kind};
+  explain(kStanding, {}, best);
+  return static_cast<bool>(best.finding);
+}
+
 void Plausibility::judge(const Setup& setup) {
-  Best best;
   if (judge_force()) {
     // Nobody knew which way was down.
     compass_.fit.reset();
@@ -123,26 +163,9 @@ void Plausibility::judge(const Setup& setup) {
   }
   // What is as it should be needs no more time; what is not has the time to be found out.
   sound_ = sound_ || (upwards_s_ > 0.0 && by_intervals < kRateShare);
-  judge_turns(compass_.fit, best);
-  judge_turns(course_.fit, best);
-  for (const OtherAxes other : {axes_.other(), tilts_.other()})
-    best.hear(Implausible::gyro_axes, static_cast<double>(other.number), other.evidence);
-  judge_track(track_.fit, best);
-  // Only a GPS velocity that goes along its positions can speak against a DVL.
-  if (!best.finding && track_.fit.agrees()) {
-    for (const double factor : {1e-3, 1e-2, kKnot_m_s, kFoot_m, 1e3})
-      best.hear(Implausible::dvl_unit, factor, speed_.evidence(factor));
-    judge_ground(ground_, mirror_, best);
-  }
-  // And only a DVL that goes along with GPS, where there is one, against a depth.
-  const bool vouched = (speed_.is_empty() || speed_.agrees()) && (ground_.is_empty() || ground_.agrees());
-  if (!best.finding && vouched) {
-    // The reading of one metre: bar, millibar, pascal, feet.
-    for (const double reading : {0.0997, 99.7, 9970.0, 1.0 / kFoot_m})
-      best.hear(Implausible::depth_unit, 1.0 / reading, depth_.fit.evidence(reading));
-    best.hear(Implausible::depth_upwards, -1.0, depth_.fit.evidence(-1.0));
-  }
-  finding_ = best.finding;
+  Best best{.evidence = kClaimed.claim};
+  explain(kClaimed, tilts_.other(), best);
+  if (best.finding || !finding_ || !stands()) finding_ = best.finding;
 }
 
 void write_sentence(const PlausibilityFinding& finding, double nominal_rate_hz, std::array<char, 128>& out) {

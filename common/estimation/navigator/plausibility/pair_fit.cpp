@@ -7,8 +7,6 @@ namespace fathom::estimation {
 namespace {
 
 constexpr double kMost = 1e7;
-/// The share of the misfit that the other hypothesis may leave.
-constexpr double kExplained = 0.25;
 
 }  // namespace
 
@@ -17,8 +15,9 @@ double chi_square_mean(double count, double sigmas) {
   return std::pow(1.0 - variance + sigmas * std::sqrt(variance), 3);
 }
 
-double evidence_for_other(double components, double expected, double configured, double other) {
-  if (configured < chi_square_mean(components, kRefutedSigmas) * expected || other > kExplained * configured)
+double evidence_for_other(double components, double expected, double configured, double other,
+                          double most_left) {
+  if (configured < chi_square_mean(components, kRefutedSigmas) * expected || other > most_left * configured)
     return 0.0;
   return 0.5 * components * std::log((configured + expected) / (other + expected));
 }
@@ -57,9 +56,10 @@ bool PairFit::agrees() const {
          left_over(Eigen::Matrix2d::Identity()) <= chi_square_mean(count_, kAgreesSigmas) * expected_;
 }
 
-double PairFit::evidence_of(double left_over) const {
-  if (count_ < kFewestPairs) return 0.0;
-  return evidence_for_other(count_, expected_, this->left_over(Eigen::Matrix2d::Identity()), left_over);
+double PairFit::evidence_of(double left_over, const Proof& proof) const {
+  if (count_ < proof.fewest) return 0.0;
+  return evidence_for_other(count_, expected_, this->left_over(Eigen::Matrix2d::Identity()), left_over,
+                            proof.most_left);
 }
 
 }  // namespace fathom::estimation

@@ -15,11 +15,19 @@ inline constexpr double kFewestPairs = 4.0;
 /// Of the noise: what does not stand out of it says nothing.
 inline constexpr double kPairStandsOut = 4.0;
 
+/// What is asked of another hypothesis beside that the configured one is refuted (PLAUS-1).
+struct Proof {
+  double fewest;     ///< components
+  double most_left;  ///< the share of the misfit that it may leave
+  double claim;      ///< the log likelihood ratio that it has to exceed
+};
+
 /// Log of the likelihood of another hypothesis over that of the configured one, where the scatter is not
 /// known better than that it is no less than expected (PLAUS-1). Zero unless the configured one is refuted
-/// and the other one explains most of it. The squares that are expected, and left by either hypothesis, are
-/// sums over so many components.
-[[nodiscard]] double evidence_for_other(double components, double expected, double configured, double other);
+/// and the other one leaves no more than `most_left` of it. The squares that are expected, and left by either
+/// hypothesis, are sums over so many components.
+[[nodiscard]] double evidence_for_other(double components, double expected, double configured, double other,
+                                        double most_left);
 
 /// Sums over pairs of figures in the plane that should be the same, fading: what each hypothesis `b = M a`
 /// leaves over. A value of fixed size; figures of one dimension stand in the first.
@@ -37,12 +45,14 @@ class PairFit {
   /// The angle by which a has to be turned into b (from the first axis to the second), rad.
   [[nodiscard]] double turn_rad() const;
   /// Of `M` over the identity: see evidence_for_other().
-  [[nodiscard]] double evidence(const Eigen::Matrix2d& M) const { return evidence_of(left_over(M)); }
-  [[nodiscard]] double evidence(double factor) const {
-    return evidence_of(left_over(factor * Eigen::Matrix2d::Identity()));
+  [[nodiscard]] double evidence(const Eigen::Matrix2d& M, const Proof& proof) const {
+    return evidence_of(left_over(M), proof);
+  }
+  [[nodiscard]] double evidence(double factor, const Proof& proof) const {
+    return evidence_of(left_over(factor * Eigen::Matrix2d::Identity()), proof);
   }
   /// The same with what another hypothesis leaves over of the same pairs.
-  [[nodiscard]] double evidence_of(double left_over) const;
+  [[nodiscard]] double evidence_of(double left_over, const Proof& proof) const;
   /// Enough was added, and it is as expected: only then can the figures speak against a third one.
   [[nodiscard]] bool agrees() const;
   [[nodiscard]] bool is_empty() const { return count_ <= 0.0; }

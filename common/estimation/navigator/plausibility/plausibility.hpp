@@ -70,6 +70,8 @@ class Plausibility {
   [[nodiscard]] double unheard_s() const {
     return vouched_ || sound_ ? 0.0 : std::max(0.0, kHeard_s - interval_s_);
   }
+  /// Something that cannot be claimed yet speaks against the configuration: what nobody should rely on.
+  [[nodiscard]] bool is_doubted() const;
   /// The attitude is another's, who has heard.
   void vouch() { vouched_ = true; }
 
@@ -132,6 +134,11 @@ class Plausibility {
   void follow(const SensorConfig& config, const GpsSample& gps, const Eigen::Vector2d& v_N_m_s,
               double noise_m_s, TimeNs now_ns);
   void judge(const Setup& setup);
+  struct Best;
+  /// What pairs of figures say, and with them the tilts.
+  void explain(const Proof& proof, const OtherAxes& by_tilts, Best& best) const;
+  /// What has been claimed is still more likely than the configuration.
+  [[nodiscard]] bool stands() const;
   /// By how much of itself a count of samples is another one than the configured rate gives.
   [[nodiscard]] double off(const Setup& setup, double count) const;
   /// What gravity alone says, and whether that says that nothing else can be judged.

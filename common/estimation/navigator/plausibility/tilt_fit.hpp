@@ -30,6 +30,10 @@ class TiltFit {
   void interrupt();
   /// No evidence where the gyro as it should be does not explain the tilts better than one that says nothing.
   [[nodiscard]] OtherAxes other() const;
+  /// The hypothesis of this number is still more likely than "as configured".
+  [[nodiscard]] bool stands(std::size_t number) const {
+    return number < kAxesHypotheses && over_configured_[number] > 0.0;
+  }
 
   /// For archives: see fields/plausibility.hpp.
   template <class Archive, class Self>
