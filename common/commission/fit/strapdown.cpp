@@ -13,6 +13,10 @@ Strapdown::Strapdown(const ImuSeries& imu, const ImuReading& reading, double fro
   auto i =
       static_cast<std::size_t>(std::lower_bound(imu.t_s.begin(), imu.t_s.end(), from_s) - imu.t_s.begin());
   if (i >= imu.size()) return;
+  const double span_s = std::min(to_s, imu.t_s.back()) - imu.t_s[i];
+  const auto most = static_cast<std::size_t>(std::clamp(span_s / step_s, 0.0, 1e6)) + 2;
+  t_s_.reserve(most);
+  states_.reserve(most);
   State state;
   geo::Quaternion q;
   t_s_.push_back(imu.t_s[i]);
@@ -27,8 +31,9 @@ Strapdown::Strapdown(const ImuSeries& imu, const ImuReading& reading, double fro
     velocity += reading.force * imu.force[i] * dt;
     span += dt;
     if (span < step_s - 1e-6) continue;
-    const geo::Quaternion middle = q * geo::exp(0.5 * angle);
-    q = geo::normalized(q * geo::exp(angle));
+    const geo::Quaternion half = geo::exp(0.5 * angle);
+    const geo::Quaternion middle = q * half;
+    q = geo::normalized(middle * half);
     const Eigen::Matrix3d C_middle = geo::to_matrix(middle);
     state.S += C_middle * velocity;
     state.IC += C_middle * span;
