@@ -16,7 +16,6 @@ using Eigen::Vector3d;
 
 constexpr double kG_m_s2 = 9.80665;
 constexpr double kDownMemory_s = 2.0;
-constexpr double kLeastForce = 0.3;  // of what is felt on the whole: without it there is no up
 constexpr double kQuiet_rad_s = 0.35;
 constexpr double kAlong = 0.97;  // 14 degrees: a vehicle that stands on end has no heading
 constexpr double kFelt_s = 1.0;
