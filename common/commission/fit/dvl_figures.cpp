@@ -19,7 +19,6 @@ using Eigen::VectorXd;
 
 constexpr double kMargin_s = 2.0;
 constexpr double kLeastStep_s = 0.15;
-constexpr double kRateStep = 1e-4;
 constexpr double kTimeStep_s = 0.02;
 // Unknowns: turn of the mounting, log of the scale, lever, latency, bias of the rate, bias of the force.
 constexpr int kTurn = 0, kScale = 3, kLever = 4, kLatency = 7, kRateBias = 8, kForceBias = 11, kCommon = 14;
@@ -72,12 +71,6 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
     rows.read.push_back(series.dvl.v[i]);
   }
   if (rows.t_s.size() < 6) return;
-  std::vector<Strapdown> biased;
-  for (int axis = 0; axis < 3; ++axis) {
-    ImuReading other = u.reading;
-    other.rate_bias[axis] += kRateStep;
-    biased.emplace_back(series.imu, other, from_s, to_s);
-  }
   const double begin_s = window.from_s;
   const Matrix3d A = u.D * u.C.transpose() / u.scale;
   const auto count = static_cast<Eigen::Index>(3 * rows.t_s.size());
@@ -121,9 +114,10 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
                         (body_velocity(strapdown, t + kTimeStep_s, begin_s, u, own) -
                          body_velocity(strapdown, t - kTimeStep_s, begin_s, u, own)) /
                         (2.0 * kTimeStep_s);
-    for (int axis = 0; axis < 3; ++axis)
-      row.col(kRateBias + axis) =
-          -A * (body_velocity(biased[static_cast<std::size_t>(axis)], t, begin_s, u, own) - v_B) / kRateStep;
+    const Vector3d v_W = state.C_WB * (v_B - state.rate.cross(u.lever));
+    row.middleCols<3>(kRateBias) =
+        -A * (state.C_WB.transpose() * (state.IFC - geo::skew(v_W) * state.IC) + geo::skew(u.lever)) *
+        u.reading.rate;
     row.middleCols<3>(kForceBias) = turn * state.IC;
     J.middleRows<3>(at) = weight * row;
     Jw.block<3, 3>(at, 0) = -weight * turn;

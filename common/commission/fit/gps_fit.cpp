@@ -91,7 +91,6 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
   ImuReading now = reading;
   Vector3d force_bias = Vector3d::Zero();
   double scale = 1.0;
-  constexpr double kRateStep = 2e-4;
   constexpr double kTimeStep_s = 0.02;
   std::vector<Matrix3d> turns(windows.size(), Matrix3d::Zero());
   std::vector<double> changes(windows.size(), 0.0);  // of the velocity over ground, squares
@@ -102,12 +101,6 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
       const double from_s = windows[w].from_s - kMargin_s;
       const double to_s = windows[w].to_s + kMargin_s;
       const Strapdown strapdown(series.imu, now, from_s, to_s);
-      std::vector<Strapdown> biased;
-      for (int axis = 0; axis < 3; ++axis) {
-        ImuReading other = now;
-        other.rate_bias[axis] += kRateStep;
-        biased.emplace_back(series.imu, other, from_s, to_s);
-      }
       // Points of the window: v = v0 + R x + g t, v0 and R of the window.
       const double begin_s = windows[w].from_s;
       std::vector<double> times;
@@ -151,11 +144,10 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
                                    (felt(strapdown, t - kTimeStep_s, out.lever_B_m) -
                                     felt(strapdown, t + kTimeStep_s, out.lever_B_m)) /
                                    (2.0 * kTimeStep_s);
-        for (int axis = 0; axis < 3; ++axis)
-          row.col(4 + axis) = -R *
-                              (felt(biased[static_cast<std::size_t>(axis)], t, out.lever_B_m) -
-                               state.IC * force_bias - x[k]) /
-                              kRateStep;
+        const Vector3d swing_W = state.C_WB * state.rate.cross(out.lever_B_m);
+        row.block<3, 3>(0, 4) =
+            -R * (state.IFC + geo::skew(swing_W) * state.IC + state.C_WB * geo::skew(out.lever_B_m)) *
+            now.rate;
         row.block<3, 3>(0, 7) = R * state.IC;
         J.middleRows<3>(at) = weight * row;
         Jw.block<3, 3>(at, 0) = weight * geo::skew(R * (x[k] - mean_x));

@@ -35,7 +35,9 @@ Strapdown::Strapdown(const ImuSeries& imu, const ImuReading& reading, double fro
     const geo::Quaternion middle = q * half;
     q = geo::normalized(middle * half);
     const Eigen::Matrix3d C_middle = geo::to_matrix(middle);
-    state.S += C_middle * velocity;
+    const Vector3d velocity_W = C_middle * velocity;
+    state.S += velocity_W;
+    state.IFC += geo::skew(velocity_W) * (state.IC + 0.5 * span * C_middle);
     state.IC += C_middle * span;
     state.C_WB = geo::to_matrix(q);
     state.rate = angle / span;
@@ -57,6 +59,7 @@ Strapdown::State Strapdown::at(double t_s) const {
   State out;
   out.S = a.S + share * (b.S - a.S);
   out.IC = a.IC + share * (b.IC - a.IC);
+  out.IFC = a.IFC + share * (b.IFC - a.IFC);
   out.rate = b.rate;
   // The turn within one step is small.
   const Vector3d turn = geo::log(geo::from_matrix(a.C_WB.transpose() * b.C_WB));

@@ -21,8 +21,10 @@ class Strapdown {
   struct State {
     Eigen::Matrix3d C_WB = Eigen::Matrix3d::Identity();
     Eigen::Vector3d S = Eigen::Vector3d::Zero();  ///< integral of C_WB f, m/s
-    Eigen::Matrix3d IC =
-        Eigen::Matrix3d::Zero();  ///< integral of C_WB, s: what a bias of the force adds up to
+    /// Integral of C_WB, s: what a bias of the force adds to S, and one of the rate to the angle, negative.
+    Eigen::Matrix3d IC = Eigen::Matrix3d::Zero();
+    /// Integral of [C_WB f] IC, m: what a bias of the rate adds to S, by the angles that it has made.
+    Eigen::Matrix3d IFC = Eigen::Matrix3d::Zero();
     Eigen::Vector3d rate = Eigen::Vector3d::Zero();
   };
   /// Samples of [from_s, to_s], in steps of at least `step_s`. A sample counts for the interval before it.
