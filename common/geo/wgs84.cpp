@@ -19,9 +19,16 @@ constexpr double kLean_1_s2 =
     kGravityEquator_m_s2 * (kSomigliana + 0.5 * kEccentricitySquared) / kSemiMajorAxis_m;  // 8.1e-9
 // Nearer than this to a pole the longitude of a short step means nothing.
 constexpr double kLeastCosine = 1e-9;
+constexpr double kNear_m = 1e3;
 
 double away_from_zero(double cosine) {
   return cosine < kLeastCosine ? kLeastCosine : cosine;
+}
+
+Radii radii_at(double sine) {
+  const double w2 = 1.0 - kEccentricitySquared * sine * sine;
+  const double w = std::sqrt(w2);
+  return {kSemiMajorAxis_m * (1.0 - kEccentricitySquared) / (w2 * w), kSemiMajorAxis_m / w};
 }
 
 /// `w` is 1 / sqrt(1 - e^2 sine^2).
@@ -41,10 +48,7 @@ double gravity_north_at(double sine, double cosine, double altitude_m) {
 }  // namespace
 
 Radii radii(double latitude_rad) {
-  const double sine = std::sin(latitude_rad);
-  const double w2 = 1.0 - kEccentricitySquared * sine * sine;
-  const double w = std::sqrt(w2);
-  return {kSemiMajorAxis_m * (1.0 - kEccentricitySquared) / (w2 * w), kSemiMajorAxis_m / w};
+  return radii_at(std::sin(latitude_rad));
 }
 
 double gravity(double latitude_rad, double altitude_m) {
@@ -92,15 +96,13 @@ Geodetic moved_by(const Geodetic& from, const Eigen::Vector3d& delta_N_m) {
   Geodetic to;
   to.altitude_m = from.altitude_m - delta_N_m.z();
   const double altitude = 0.5 * (from.altitude_m + to.altitude_m);
-  // Two rounds settle the radius halfway to better than a micrometre over 10 km.
+  // One round settles the radius halfway to a nanometre over a kilometre, two to a micrometre over ten.
   double middle = from.latitude_rad;
-  for (int round = 0; round < 2; ++round) {
-    const double step = delta_N_m.x() / (radii(middle).meridian_m + altitude);
-    middle = from.latitude_rad + 0.5 * step;
-  }
-  const Radii r = radii(middle);
+  for (int round = 0; round < (std::abs(delta_N_m.x()) < kNear_m ? 1 : 2); ++round)
+    middle = from.latitude_rad + 0.5 * delta_N_m.x() / (radii(middle).meridian_m + altitude);
+  const Radii r = radii_at(std::sin(middle));
+  const double cosine = away_from_zero(std::cos(middle));
   to.latitude_rad = from.latitude_rad + delta_N_m.x() / (r.meridian_m + altitude);
-  const double cosine = away_from_zero(std::cos(0.5 * (from.latitude_rad + to.latitude_rad)));
   to.longitude_rad = wrap_pi(from.longitude_rad + delta_N_m.y() / ((r.normal_m + altitude) * cosine));
   return to;
 }

@@ -28,12 +28,15 @@ struct AidingState {
       : index(states),
         state(filter),
         C_NB(geo::to_matrix(filter.nav.q_NB)),
-        rate_nb_B_rad_s(rate_ib_B_rad_s -
-                        C_NB.transpose() * (geo::earth_rate_N(filter.nav.position.latitude_rad) +
-                                            geo::transport_rate_N(filter.nav.position, filter.nav.v_N_m_s))),
+        rate_nb_B_rad_s(rate_ib_B_rad_s - C_NB.transpose() * rate_in_N_rad_s(filter.nav)),
         variation_rad(magnetic_variation_rad),
         force_B_m_s2(specific_force_B_m_s2) {}
 
+  /// Of N relative to inertial space.
+  [[nodiscard]] static Eigen::Vector3d rate_in_N_rad_s(const NavSolution& nav) {
+    const geo::LocalEarth earth(nav.position);
+    return earth.earth_rate_N + earth.transport_rate_N(nav.v_N_m_s);
+  }
   /// Value of the states of a group, `fallback` where the group is not estimated.
   [[nodiscard]] double value(Group group, int component, double fallback = 0.0) const {
     const int start = index.of(group);
@@ -50,10 +53,9 @@ struct AidingState {
   /// Of the velocity relative to the Earth, along N.
   [[nodiscard]] Eigen::Vector3d acceleration_N_m_s2() const {
     const NavSolution& nav = state.nav;
-    const Eigen::Vector3d turning =
-        2.0 * geo::earth_rate_N(nav.position.latitude_rad) + geo::transport_rate_N(nav.position, nav.v_N_m_s);
-    const Eigen::Vector3d gravity = geo::gravity_N(nav.position.latitude_rad, nav.position.altitude_m);
-    return C_NB * force_B_m_s2 + gravity - geo::cross(turning, nav.v_N_m_s);
+    const geo::LocalEarth earth(nav.position);
+    const Eigen::Vector3d turning = 2.0 * earth.earth_rate_N + earth.transport_rate_N(nav.v_N_m_s);
+    return C_NB * force_B_m_s2 + earth.gravity_N() - geo::cross(turning, nav.v_N_m_s);
   }
 };
 

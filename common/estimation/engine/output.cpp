@@ -79,9 +79,7 @@ void fill(const Setup& setup, const Navigator& navigator, NavState& out) {
   geo::Geodetic at = nav.position;
   if (!lever.isZero(0.0)) {
     const Matrix3d c = geo::to_matrix(nav.q_NB);
-    const Vector3d rate_nb =
-        navigator.rate_B_rad_s() - c.transpose() * (geo::earth_rate_N(nav.position.latitude_rad) +
-                                                    geo::transport_rate_N(nav.position, nav.v_N_m_s));
+    const Vector3d rate_nb = navigator.rate_B_rad_s() - c.transpose() * AidingState::rate_in_N_rad_s(nav);
     arm = c * lever;
     swing = c * geo::cross(rate_nb, lever);
     at = geo::moved_by(nav.position, arm);
