@@ -79,7 +79,9 @@ void fill(const Setup& setup, const Navigator& navigator, NavState& out) {
   geo::Geodetic at = nav.position;
   if (!lever.isZero(0.0)) {
     const Matrix3d c = geo::to_matrix(nav.q_NB);
-    const Vector3d rate_nb = navigator.rate_B_rad_s() - c.transpose() * AidingState::rate_in_N_rad_s(nav);
+    const geo::LocalEarth earth(nav.position);
+    const Vector3d rate_nb =
+        navigator.rate_B_rad_s() - c.transpose() * (earth.earth_rate_N + earth.transport_rate_N(nav.v_N_m_s));
     arm = c * lever;
     swing = c * geo::cross(rate_nb, lever);
     at = geo::moved_by(nav.position, arm);

@@ -76,7 +76,8 @@ TEST_F(ConsoleBench, FourHundredHertzAndThreeBrowsers) {
 // Twelve hours of vehicle time in some minutes, with a browser listening. Takes its time, so only when asked:
 //   FATHOM_SOAK=1 build/tests/bench_console --gtest_filter=*TwelveHours*
 TEST_F(ConsoleBench, TwelveHours) {
-  if (std::getenv("FATHOM_SOAK") == nullptr) GTEST_SKIP() << "set FATHOM_SOAK to run it: it takes minutes";
+  if (std::getenv("FATHOM_SOAK") == nullptr)
+    GTEST_SKIP() << "FATHOM_SOAK is not set, and twelve hours of the vehicle take minutes";
   constexpr double kRate = 100.0;
   constexpr double kVehicleS = 12.0 * 3600.0;
   const TimeNs epoch_ns = clock.utc_ns();

@@ -61,7 +61,6 @@ OtherAxes AxesFit::other(const Proof& proof) const {
     if (count_[i] < proof.fewest) continue;
     // Squares are in units of their variances, and two of the three components are free.
     const double components = 2.0 * count_[i];
-    if (configured_[i] <= components) continue;  // there is nothing to explain
     const double evidence =
         evidence_for_other(components, components, configured_[i], left_[i], proof.most_left);
     if (evidence > out.evidence) out = {i, evidence};

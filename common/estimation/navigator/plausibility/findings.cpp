@@ -55,7 +55,6 @@ struct Plausibility::Best {
     finding = {kind, value};
   }
   void hear_turns(const PairFit& fit, const Proof& proof) {
-    if (!fit.misfits()) return;
     hear(Implausible::gyro_negated, -1.0, fit.evidence(-1.0, proof));
     for (const double sign : {1.0, -1.0}) {
       hear(Implausible::gyro_in_degrees, sign * kDegree, fit.evidence(sign * kDegree, proof));
@@ -63,7 +62,6 @@ struct Plausibility::Best {
     }
   }
   void hear_track(const PairFit& fit, const Proof& proof) {
-    if (!fit.misfits()) return;
     for (const double factor : {kKnot_m_s, 1.0 / 3.6, 1e-2, 1e-3})
       hear(Implausible::gps_unit, factor, fit.evidence(factor, proof));
     hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(0, 1, 1, 0), proof));
@@ -72,19 +70,16 @@ struct Plausibility::Best {
     hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(-1, 0, 0, -1), proof));
   }
   void hear_speed(const PairFit& fit, const Proof& proof) {
-    if (!fit.misfits()) return;
     for (const double factor : {1e-3, 1e-2, kKnot_m_s, kFoot_m, 1e3})
       hear(Implausible::dvl_unit, factor, fit.evidence(factor, proof));
   }
   void hear_depth(const PairFit& fit, const Proof& proof) {
-    if (!fit.misfits()) return;
     // The reading of one metre: bar, millibar, pascal, feet.
     for (const double reading : {0.0997, 99.7, 9970.0, 1.0 / kFoot_m})
       hear(Implausible::depth_unit, 1.0 / reading, fit.evidence(reading, proof));
     hear(Implausible::depth_upwards, -1.0, fit.evidence(-1.0, proof));
   }
   void hear_ground(const PairFit& ground, const PairFit& mirror, const Proof& proof) {
-    if (!ground.misfits()) return;
     const double angle = ground.turn_rad();
     const double c = std::cos(angle);
     const double s = std::sin(angle);

@@ -17,6 +17,7 @@ double chi_square_mean(double count, double sigmas) {
 
 double evidence_for_other(double components, double expected, double configured, double other,
                           double most_left) {
+  if (configured <= expected) return 0.0;  // there is nothing to explain, as mostly
   if (configured < chi_square_mean(components, kRefutedSigmas) * expected || other > most_left * configured)
     return 0.0;
   return 0.5 * components * std::log((configured + expected) / (other + expected));

@@ -53,8 +53,6 @@ class PairFit {
   }
   /// The same with what another hypothesis leaves over of the same pairs.
   [[nodiscard]] double evidence_of(double left_over, const Proof& proof) const;
-  /// More is left over than is expected: there is something to explain.
-  [[nodiscard]] bool misfits() const { return left_over(Eigen::Matrix2d::Identity()) > expected_; }
   /// Enough was added, and it is as expected: only then can the figures speak against a third one.
   [[nodiscard]] bool agrees() const;
   [[nodiscard]] bool is_empty() const { return count_ <= 0.0; }
