@@ -16,7 +16,12 @@ namespace fathom::cli {
 /// throws ends it, and comes out of each give() and finish() from then on. For one giver.
 template <class T>
 class Relay {
+  static constexpr std::size_t kBlock = 512;
+  static constexpr std::size_t kMostBlocks = 2;
+
  public:
+  /// Items given and not done: of the blocks that wait, the one at work and the giver's own.
+  static constexpr std::size_t kMostBehind = (kMostBlocks + 2) * kBlock;
   explicit Relay(std::function<void(const T&)> work) : work_(std::move(work)), thread_([this] { run(); }) {}
   Relay(const Relay&) = delete;
   Relay& operator=(const Relay&) = delete;
@@ -49,8 +54,6 @@ class Relay {
   }
 
  private:
-  static constexpr std::size_t kBlock = 512;
-  static constexpr std::size_t kMostBlocks = 2;
   using Block = std::vector<T>;
 
   void pass_on() {
