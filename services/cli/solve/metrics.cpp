@@ -148,6 +148,12 @@ std::string line(const char* format, Arguments... arguments) {
   return std::string(text.data()) + "\n";
 }
 
+std::string is(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "is %.4g", value);
+  return std::isfinite(value) ? text.data() : "is not known";
+}
+
 // One sentence.
 std::string why_no_position(const SolveReport& report) {
   const AlignmentStatus& status = report.result.alignment;
@@ -163,11 +169,11 @@ std::string why_no_position(const SolveReport& report) {
     if (one.met) continue;
     std::snprintf(text.data(), text.size(), "%s", one.name.str().c_str());
     if (one.needed_s > 0.0) {  // the others are yes or no, or a figure that is good at once
-      std::snprintf(text.data(), text.size(), "%s below %.4g for %.4g s (is %.4g, has been below for %.4g s)",
-                    one.name.str().c_str(), one.limit, one.needed_s, one.value, one.held_s);
+      std::snprintf(text.data(), text.size(), "%s below %.4g for %.4g s (%s, has been below for %.4g s)",
+                    one.name.str().c_str(), one.limit, one.needed_s, is(one.value).c_str(), one.held_s);
     } else if (one.limit != 1.0 && known(one.limit)) {
-      std::snprintf(text.data(), text.size(), "%s below %.4g (is %.4g)", one.name.str().c_str(), one.limit,
-                    one.value);
+      std::snprintf(text.data(), text.size(), "%s below %.4g (%s)", one.name.str().c_str(), one.limit,
+                    is(one.value).c_str());
     }
     out += separator + text.data();
     if (const std::string_view help = help_of(one); !help.empty()) out += ": " + std::string(help);

@@ -235,6 +235,7 @@ TEST_F(SolveTest, NoPositionIsTheAnswerNo) {
   EXPECT_EQ(solve({}), 1);
   EXPECT_EQ(err, "");
   EXPECT_NE(out.find("no position was found: alignment is"), std::string::npos) << out;
+  EXPECT_EQ(out.find("nan"), std::string::npos) << out;
 }
 
 TEST_F(SolveTest, AFolderInPlaceOfAFileIsNamed) {
@@ -331,6 +332,7 @@ TEST_F(SolveTest, StartsAtRestWithAHeadingFromTheGyroOrFromAnInstrument) {
   // The unit of the defaults cannot, and no instrument says: no position, and it says why.
   EXPECT_EQ(solve({"--set", "start.mode=at_rest"}), 1);
   EXPECT_NE(out.find("no position was found"), std::string::npos) << out;
+  EXPECT_NE(out.find("course_sigma_rad below 0.3 (is not known)"), std::string::npos) << out;
 
   // Two antennas give a heading that needs no doubt.
   write("data/heading.csv", "t_s,heading_deg,sigma_deg\n");
