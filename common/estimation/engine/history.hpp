@@ -109,6 +109,8 @@ class History {
   /// Whether a snapshot is due, `newest_ns` being the end of the newest step and `expected_until_ns` what the
   /// anticipation says.
   [[nodiscard]] bool save_due(TimeNs newest_ns, TimeNs expected_until_ns) const;
+  /// Something older is expected until then: a snapshot that is made now will be undone before it is used.
+  [[nodiscard]] bool goes_back_between(TimeNs newest_ns, TimeNs until_ns) const;
   void save(VerdictSink& sink, TimeNs kept_until_ns = 0);
   void thin_snapshots(TimeNs newest_ns);
   void drop_snapshot(std::size_t age_order);

@@ -74,11 +74,19 @@ bool History::save_due(TimeNs newest_ns, TimeNs expected_until_ns) const {
   const Mark& last = marks_[snapshot_count_ - 1];
   const std::uint64_t steps = steps_done_ - last.after_step;
   if (steps >= steps_.size() / 4) return true;
-  if (expected_until_ns > newest_ns && steps >= kNearSteps) return true;
+  if (expected_until_ns > newest_ns && steps >= kNearSteps &&
+      !goes_back_between(newest_ns, expected_until_ns))
+    return true;
   const DurationNs since = present().now_ns() - last.now_ns;
   if (since >= snapshot_interval_ns_) return true;
   return steps_done_ < fine_until_step_ && steps >= kFineSteps &&
          since >= (newest_ns - present().now_ns()) / kSaveShare;
+}
+
+bool History::goes_back_between(TimeNs newest_ns, TimeNs until_ns) const {
+  return std::any_of(
+      marks_.begin(), marks_.begin() + static_cast<std::ptrdiff_t>(snapshot_count_),
+      [&](const Mark& one) { return one.kept_until_ns > newest_ns && one.kept_until_ns <= until_ns; });
 }
 
 void History::save(VerdictSink& sink, TimeNs kept_until_ns) {
