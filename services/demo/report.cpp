@@ -104,8 +104,9 @@ std::string status_line(double elapsed_s, const Observation& seen) {
   if (known(nav.latitude_rad)) {
     const double sigma =
         std::sqrt(std::max(nav.position_covariance_N_m2[0], nav.position_covariance_N_m2[4]));
-    out += text("  %10.6f %11.6f  depth %5.1f m  yaw %5.1f deg  95%% %5.1f m", nav.latitude_rad * kDegrees,
-                nav.longitude_rad * kDegrees, nav.depth_m, nav.rpy_rad[2] * kDegrees, 2.45 * sigma);
+    out += text("  %10.6f %11.6f", nav.latitude_rad * kDegrees, nav.longitude_rad * kDegrees);
+    out += known(nav.depth_m) ? text("  depth %5.1f m", nav.depth_m) : "  depth     - m";
+    out += text("  yaw %5.1f deg  95%% %5.1f m", nav.rpy_rad[2] * kDegrees, 2.45 * sigma);
   }
   if (seen.error) out += text("  error %5.2f m", seen.error->horizontal_m);
   if (seen.monitor && seen.monitor->gps_outage_active)

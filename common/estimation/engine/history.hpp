@@ -102,7 +102,9 @@ class History {
   // history_snapshots.cpp
   /// Goes back to before the earliest event that came late, or lets the second navigator do it.
   void go_back();
-  /// Something may still come that is stamped just behind this snapshot.
+  /// Until when something is expected that is stamped just behind this snapshot; 0: nothing is.
+  [[nodiscard]] TimeNs expected_behind(const Mark& mark) const;
+  /// Something may still come that is stamped there.
   [[nodiscard]] bool is_awaited(const Mark& mark) const;
   /// The newest snapshot before an instant.
   [[nodiscard]] std::size_t snapshot_before(TimeNs stamp_ns) const;

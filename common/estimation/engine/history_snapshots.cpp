@@ -64,10 +64,13 @@ void History::go_back() {
   if (past_.on()) present_leg() = legs_[marks_[at].place];
 }
 
-bool History::is_awaited(const Mark& mark) const {
+TimeNs History::expected_behind(const Mark& mark) const {
   const ImuStep& next = steps_[mark.after_step % steps_.size()];
-  return steps_done_ < fine_until_step_ ||
-         anticipation_.expected_until_ns(mark.now_ns, next.to_ns - next.from_ns) != 0;
+  return anticipation_.expected_until_ns(mark.now_ns, next.to_ns - next.from_ns);
+}
+
+bool History::is_awaited(const Mark& mark) const {
+  return steps_done_ < fine_until_step_ || expected_behind(mark) != 0;
 }
 
 bool History::save_due(TimeNs newest_ns, TimeNs expected_until_ns) const {
@@ -84,9 +87,13 @@ bool History::save_due(TimeNs newest_ns, TimeNs expected_until_ns) const {
 }
 
 bool History::goes_back_between(TimeNs newest_ns, TimeNs until_ns) const {
-  return std::any_of(
-      marks_.begin(), marks_.begin() + static_cast<std::ptrdiff_t>(snapshot_count_),
-      [&](const Mark& one) { return one.kept_until_ns > newest_ns && one.kept_until_ns <= until_ns; });
+  return std::any_of(marks_.begin(), marks_.begin() + static_cast<std::ptrdiff_t>(snapshot_count_),
+                     [&](const Mark& one) {
+                       if (one.kept_until_ns <= newest_ns)
+                         return false;  // of most; what came meanwhile is not awaited
+                       const TimeNs expected_ns = expected_behind(one);
+                       return expected_ns > newest_ns && expected_ns <= until_ns;
+                     });
 }
 
 void History::save(VerdictSink& sink, TimeNs kept_until_ns) {
