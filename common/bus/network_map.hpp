@@ -7,7 +7,7 @@
 
 namespace fathom::bus {
 
-/// A reader or writer of another participant, as discovery knows it.
+/// A reader or writer, as discovery knows it. Those of this participant are among them, named by their GUID.
 struct NetworkEndpoint {
   Peer owner;
   std::string topic;
@@ -25,7 +25,7 @@ struct NetworkConflict {
   std::string requested;
 };
 
-/// What the others on the domain read and write, in the order of topic and owner.
+/// What is read and written on the domain, in the order of topic and owner.
 [[nodiscard]] std::vector<NetworkEndpoint> endpoints(Participant& participant);
 /// Every pair among them that the rules of DDS keep apart.
 [[nodiscard]] std::vector<NetworkConflict> conflicts(Participant& participant);

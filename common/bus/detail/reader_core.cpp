@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <map>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +17,7 @@
 #include "base/clock.hpp"
 #include "bus/detail/endpoint.hpp"
 #include "bus/detail/in_order.hpp"
+#include "bus/detail/key_deadlines.hpp"
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
@@ -53,6 +54,8 @@ Arrival arrival_of(const WriterGuid& guid, const dds::SampleInfo& info) {
 }  // namespace
 
 struct ReaderCore::Impl final : dds::DataReaderListener {
+  using Deadlines = KeyDeadlines<InstanceHandle_t>;
+
   Impl(Participant::Impl& bus_in, const TopicOps& ops_in, Handler handler_in, const ReaderOptions& options_in,
        bool raw_in)
       : bus(bus_in),
@@ -66,8 +69,9 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
                             qos.liveliness())) {
     slot.sample = create();
     slot.raw = raw;
-    open();
-    if (reader == nullptr) {
+    if (!make()) {
+      bus.work_queue.forget(this);
+      close();
       destroy()(slot.sample);
       throw BusError("reader of " + std::string(ops.topic) + ": Fast DDS could not create it" +
                      bus.why_not(ops.topic));
@@ -95,6 +99,24 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     return valid ? ops.key_text(typed.get()) : "an unknown key";
   }
 
+  /// Fast DDS calls back before it has returned the reader that it makes: work that such a call asks for
+  /// waits until the reader is known. Without that it would make a second one, and one of the two would be
+  /// left behind, which still calls back when we are gone.
+  void later(int kind, std::function<void()> work, milliseconds delay = milliseconds(0)) {
+    const auto locked = [this, work = std::move(work)] {
+      const std::lock_guard lock(reader_mutex);
+      work();
+    };
+    bus.work_queue.run(this, locked, kind, delay);
+  }
+
+  bool make() {
+    const std::lock_guard lock(reader_mutex);
+    open();
+    return reader != nullptr;
+  }
+
+  /// Precondition: reader_mutex held.
   void open() {
     dds::StatusMask mask = dds::StatusMask::data_available();
     mask << dds::StatusMask::subscription_matched() << dds::StatusMask::requested_deadline_missed()
@@ -103,10 +125,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     dds::Topic* topic = bus.topic(ops);
     closed = false;
     // Joined before Fast DDS knows it, for writers may be matched at once.
-    bus.delivery_watch->join(this, requested.ownership == dds::EXCLUSIVE_OWNERSHIP_QOS, [this] {
-      bus.work_queue.run(
-          this, [this] { renew(); }, kRenew);
-    });
+    bus.delivery_watch->join(this, requested.ownership == dds::EXCLUSIVE_OWNERSHIP_QOS,
+                             [this] { later(kRenew, [this] { renew(); }); });
     reader = bus.subscriber->create_datareader(topic, qos, this, mask);
     if (reader == nullptr) return bus.delivery_watch->leave(this);
     const WriterGuid guid = to_guid(reader->guid());
@@ -142,7 +162,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     bus.events.recovered(BusEventKind::sample_lost, ops.topic, "deaf");
   }
 
-  /// Precondition: on the thread of the work queue. `reader` is null where no other one could be made.
+  /// Precondition: reader_mutex held. `reader` is null where no other one could be made.
   void replace() {
     bus.delivery_watch->leave(this);
     close();
@@ -150,7 +170,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
       const std::lock_guard lock(mutex);
       order.all_unmatched();
       writers.clear();
-      instances.clear();
+      deadlines.clear();
       matched = 0;
     }
     {
@@ -182,7 +202,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
                           "no reader could be made that requests no more than is offered" + last_dds_error());
       }
     };
-    bus.work_queue.run(this, follow, kFollow);
+    later(kFollow, follow);
     return true;
   }
 
@@ -237,7 +257,11 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   /// Precondition: handler_mutex held.
   void hand_over(const Held& held, const void* sample) {
     handler(sample, held.info);
-    if (wants().deadline_ns != kForever) track_deadline(held.instance, held.info.writer_guid, sample);
+    const std::lock_guard lock(mutex);
+    if (requested.deadline_ns == kForever) return;
+    const auto text = [&] { return key_text(sample); };
+    const auto recovered = deadlines.heard(held.instance, held.info.writer_guid, text);
+    if (recovered) bus.events.recovered(BusEventKind::deadline_missed, ops.topic, *recovered);
   }
 
   /// Those kept for later whose turn has come. Precondition: handler_mutex held, and all that has arrived was
@@ -265,7 +289,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     const auto work = [this] {
       if (reader != nullptr) receive(reader);
     };
-    bus.work_queue.run(this, work, task, delay);
+    later(task, work, delay);
   }
 
   void on_subscription_matched(dds::DataReader*, const dds::SubscriptionMatchedStatus& status) override {
@@ -295,23 +319,20 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 
   void on_requested_deadline_missed(dds::DataReader*,
                                     const dds::RequestedDeadlineMissedStatus& status) override {
-    std::string key;
-    WriterGuid guid{};
     DurationNs deadline_ns = 0;
+    std::optional<Deadlines::Key> key;
     {
       const std::lock_guard lock(mutex);
       deadline_ns = requested.deadline_ns;
-      const auto found = instances.find(status.last_instance_handle);
       // A writer that left owes nothing any more; that it was lost is reported as such.
-      if (found == instances.end() || !writers.contains(found->second.writer)) return;
-      found->second.missed = true;
-      key = found->second.key;
-      guid = found->second.writer;
+      const auto owes = [&](const WriterGuid& writer) { return writers.contains(writer); };
+      key = deadlines.missed(status.last_instance_handle, owes);
     }
-    bus.events.report(
-        BusEventKind::deadline_missed, ops.topic, key,
-        bus.peers.name(guid) + " sent nothing about " + key + " for " + duration_text(deadline_ns),
-        status.total_count_change);
+    if (!key) return;
+    bus.events.report(BusEventKind::deadline_missed, ops.topic, key->text,
+                      bus.peers.name(key->writer) + " sent nothing about " + key->text + " for " +
+                          duration_text(deadline_ns),
+                      status.total_count_change);
   }
 
   void on_requested_incompatible_qos(dds::DataReader*,
@@ -342,35 +363,13 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
                       "this reader has no room for more samples or keys", status.total_count_change);
   }
 
-  struct Instance {
-    std::string key;
-    WriterGuid writer{};
-    bool missed = false;
-  };
-
-  /// Remembers whose sample an instance was last, and notices recovery.
-  void track_deadline(const InstanceHandle_t& handle, const WriterGuid& guid, const void* sample) {
-    std::string key;
-    {
-      const std::lock_guard lock(mutex);
-      Instance& instance = instances[handle];
-      if (instance.key.empty()) instance.key = key_text(sample);
-      instance.writer = guid;
-      if (!instance.missed) return;
-      instance.missed = false;
-      key = instance.key;
-    }
-    bus.events.recovered(BusEventKind::deadline_missed, ops.topic, key);
-  }
-
   Participant::Impl& bus;
   const TopicOps& ops;
   const bool raw;
   const SystemClock clock;
-  const bool follows;  // the deadline is the topic's slowest writer's
-  // Of the thread that makes readers.
-  ReaderOptions options;
-  dds::DataReaderQos qos;
+  const bool follows;      // the deadline is the topic's slowest writer's
+  ReaderOptions options;   // of whoever holds reader_mutex
+  dds::DataReaderQos qos;  // likewise
   std::atomic<bool> closed = false;
   std::atomic<int> matched = 0;
 
@@ -381,9 +380,10 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   std::mutex mutex;  // of what follows
   QosSummary requested;
   std::set<WriterGuid> writers;
-  std::map<InstanceHandle_t, Instance> instances;
+  Deadlines deadlines;
   InOrder<Held> order;
 
+  std::mutex reader_mutex;  // taken before the other two; of what follows, as long as work may be left
   dds::DataReader* reader = nullptr;
   std::optional<std::chrono::steady_clock::time_point> renewed;
 };

@@ -1,8 +1,11 @@
 // What goes wrong on a network is counted, and reported once with names.
 
+#include <algorithm>
+
 #include <fastcdr/Cdr.h>
 
 #include "bus/detail/endpoint.hpp"
+#include "bus/network_map.hpp"
 #include "bus/writer.hpp"
 #include "samples/dvl.hpp"
 #include "samples/imu.hpp"
@@ -66,6 +69,28 @@ TEST(Trouble, AReaderWithoutADeadlineOfItsOwnFollowsAFusionThatPublishesLessOfte
     std::this_thread::sleep_for(milliseconds(2500));
     EXPECT_TRUE(at_a.of(BusEventKind::incompatible_qos).empty());
     EXPECT_TRUE(at_b.of(BusEventKind::incompatible_qos).empty());
+  }
+}
+
+// Fast DDS tells of such a writer before it has returned the reader that is being made.
+TEST(Trouble, AReaderThatFollowsAWriterItKnewLeavesNoOtherBehind) {
+  bus::Participant a(options(110, "fusion"));
+  bus::Participant b(options(110, "guidance"));
+  bus::WriterOptions slow;
+  slow.deadline_ns = 60 * kNsPerMillisecond;
+  const bus::Writer<NavState> writer(a, slow);
+  ASSERT_TRUE(eventually([&] { return !bus::endpoints(b).empty(); }));
+  const auto readers = [&] {
+    const auto known = bus::endpoints(a);
+    return std::count_if(known.begin(), known.end(), [](const auto& one) { return !one.writes; });
+  };
+  for (int i = 0; i < 40; ++i) {
+    {
+      const bus::Reader<NavState> reader(b, [](const NavState&, const bus::SampleInfo&) {});
+      ASSERT_TRUE(eventually([&] { return reader.matched_writers() == 1 && writer.matched_readers() == 1; }));
+      ASSERT_TRUE(eventually([&] { return readers() == 1; })) << "at the reader " << i;
+    }
+    ASSERT_TRUE(eventually([&] { return readers() == 0; })) << "after the reader " << i;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "bus/detail/event_book.hpp"
+#include "bus/detail/key_deadlines.hpp"
 #include "bus/detail/network/peer_book.hpp"
 
 namespace fathom::bus::detail {
@@ -155,6 +156,32 @@ TEST(PeerBook, NamesWhoIsInConflict) {
   EXPECT_EQ(book.type_conflicts("t", "T"), (std::vector<std::string>{"type 'Other' of one"}));
   book.writer_gone(guid(2, 1));
   EXPECT_EQ(book.writers_in_conflict("t", Policy::deadline, requested), (std::set<std::string>{}));
+}
+
+TEST(KeyDeadlines, TellOnceThatAKeyRecovered) {
+  KeyDeadlines<int> deadlines;
+  const WriterGuid left{1};
+  const WriterGuid right{2};
+  const auto text = [] { return std::string("left"); };
+  const auto owes = [](const WriterGuid&) { return true; };
+  EXPECT_FALSE(deadlines.missed(7, owes)) << "nothing was ever heard of it";
+  EXPECT_FALSE(deadlines.heard(7, left, text));
+  EXPECT_FALSE(deadlines.heard(7, right, [] { return std::string("asked for once"); }));
+  const auto missed = deadlines.missed(7, owes);
+  ASSERT_TRUE(missed);
+  EXPECT_EQ(missed->text, "left");
+  EXPECT_EQ(missed->writer, right);
+  EXPECT_EQ(deadlines.heard(7, right, text), "left");
+  EXPECT_FALSE(deadlines.heard(7, right, text));
+}
+
+TEST(KeyDeadlines, AreNotMissedByAWriterThatLeft) {
+  KeyDeadlines<int> deadlines;
+  const WriterGuid left{1};
+  const auto text = [] { return std::string("depth"); };
+  EXPECT_FALSE(deadlines.heard(7, left, text));
+  EXPECT_FALSE(deadlines.missed(7, [&](const WriterGuid& writer) { return writer != left; }));
+  EXPECT_FALSE(deadlines.heard(7, left, text)) << "what was not missed did not recover";
 }
 
 TEST(Qos, ConflictsAsTheStandardSays) {
