@@ -25,7 +25,7 @@ constexpr double kMeasuredS = 20.0;
 class ConsoleBench : public ConsoleTest {};
 
 TEST_F(ConsoleBench, FourHundredHertzAndThreeBrowsers) {
-  start_and_wait(221);
+  start_and_wait(33);
   std::array<std::atomic<int>, 3> ticks{};
   std::atomic<bool> over{false};
   std::vector<std::thread> threads;
@@ -82,8 +82,8 @@ TEST_F(ConsoleBench, TwelveHours) {
   constexpr double kVehicleS = 12.0 * 3600.0;
   const TimeNs epoch_ns = clock.utc_ns();
   const ScaledClock fast(epoch_ns, kRate);
-  start_and_wait(222, {"clock.rate=100.0", "clock.epoch_ns=" + std::to_string(epoch_ns)});
-  VehicleNetwork vehicle(222, fast, "fast_vehicle");
+  start_and_wait(34, {"clock.rate=100.0", "clock.epoch_ns=" + std::to_string(epoch_ns)});
+  VehicleNetwork vehicle(34, fast, "fast_vehicle");
   ASSERT_TRUE(wait_until([&] { return vehicle.nav_heard_by_someone(); }, kPatienceS));
   std::atomic<bool> over{false};
   std::thread browser([&] {

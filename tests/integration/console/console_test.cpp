@@ -11,7 +11,7 @@ using nlohmann::json;
 const std::string kLive = "GET /api/live HTTP/1.1\r\nConnection: close\r\nHost: ";
 
 TEST_F(ConsoleTest, ThePageComesWholeAndWithItsGuards) {
-  start_and_wait(210);
+  start_and_wait(10);
   const HttpAnswer page = get("/");
   for (const char* header :
        {"Content-Security-Policy: default-src 'none'; script-src 'self'", "frame-ancestors 'none'",
@@ -39,7 +39,7 @@ TEST_F(ConsoleTest, ThePageComesWholeAndWithItsGuards) {
 }
 
 TEST_F(ConsoleTest, ABrowserSeesWhatDdsSays) {
-  start_and_wait(211);
+  start_and_wait(11);
   HttpPeer peer(port);
   peer.say(kLive + host() + "\r\n\r\n");
   const auto snapshot = peer.event("snapshot");
@@ -88,7 +88,7 @@ TEST_F(ConsoleTest, ABrowserSeesWhatDdsSays) {
 }
 
 TEST_F(ConsoleTest, APositionFarAwayAsksForItsConfirmation) {
-  start_and_wait(209, {"access.orders=true"});
+  start_and_wait(9, {"access.orders=true"});
   std::mutex mutex;
   std::vector<Command> heard;
   const bus::Reader<Command> ear(network->participant(), [&](const Command& command, const bus::SampleInfo&) {
@@ -124,7 +124,7 @@ TEST_F(ConsoleTest, APositionFarAwayAsksForItsConfirmation) {
 }
 
 TEST_F(ConsoleTest, OrdersNeedAnOperatorAndLeaveATrace) {
-  start_and_wait(212, {"access.orders=true"});
+  start_and_wait(12, {"access.orders=true"});
   std::mutex mutex;
   std::vector<Command> heard;
   const bus::Reader<Command> ear(network->participant(), [&](const Command& command, const bus::SampleInfo&) {
@@ -165,7 +165,7 @@ TEST_F(ConsoleTest, OrdersNeedAnOperatorAndLeaveATrace) {
 }
 
 TEST_F(ConsoleTest, OrdersAreOffUnlessSwitchedOn) {
-  start_and_wait(213);
+  start_and_wait(13);
   EXPECT_EQ(order({{"kind", "realign"}}, kOperatorToken).status, 403);
   const auto session =
       json::parse(get("/api/session", std::string("Authorization: Bearer ") + kOperatorToken + "\r\n").body);
@@ -177,7 +177,7 @@ TEST_F(ConsoleTest, SeeingMayNeedATokenAsWell) {
   const auto tiles = std::filesystem::temp_directory_path() / ("fathom-tiles-" + std::to_string(getpid()));
   std::filesystem::create_directories(tiles / "3/2");
   std::ofstream(tiles / "3/2/1.png") << "PNG";
-  start_and_wait(214, {"access.view_needs_token=true", "map.tiles_dir=" + tiles.string()});
+  start_and_wait(14, {"access.view_needs_token=true", "map.tiles_dir=" + tiles.string()});
   const std::string viewer = std::string("Authorization: Bearer ") + kViewerToken + "\r\n";
   EXPECT_EQ(get("/tiles/3/2/1.png").status, 401) << "where the vehicle is, tiles say as well";
   const HttpAnswer tile = get("/tiles/3/2/1.png", viewer);
@@ -196,7 +196,7 @@ TEST_F(ConsoleTest, SeeingMayNeedATokenAsWell) {
 }
 
 TEST_F(ConsoleTest, APortThatIsTakenIsTriedAgain) {
-  start(215);
+  start(15);
   console->kill(SIGTERM);
   (void)console->wait();
   const int taken = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -210,7 +210,7 @@ TEST_F(ConsoleTest, APortThatIsTakenIsTriedAgain) {
   ASSERT_EQ(listen(taken, 1), 0);
   network.reset();
   std::filesystem::remove(token_file);
-  start(215);
+  start(15);
   EXPECT_TRUE(wait_until(
       [&] { return console->err().find("cannot listen at 127.0.0.1") != std::string::npos; }, kPatienceS))
       << console->err();
@@ -226,7 +226,7 @@ TEST(Console, ATokenFileThatOthersMayReadEndsIt) {
   setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
   Process console("fathom-console",
                   {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/console.json", "--set",
-                   "bus.domain=216", "--set", "access.token_file=" + file.string()});
+                   "bus.domain=16", "--set", "access.token_file=" + file.string()});
   EXPECT_EQ(console.wait(), 2);
   EXPECT_NE(console.err().find("expected mode 0600"), std::string::npos) << console.err();
   std::filesystem::remove(file);

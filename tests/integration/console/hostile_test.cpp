@@ -35,7 +35,7 @@ class HostileTest : public ConsoleTest {
 };
 
 TEST_F(HostileTest, EachKindIsRefusedWithItsStatusLoggedAndCounted) {
-  start_and_wait(217, {"access.orders=true"});
+  start_and_wait(17, {"access.orders=true"});
   listen();
   struct Attack {
     int status;
@@ -90,7 +90,7 @@ TEST_F(HostileTest, EachKindIsRefusedWithItsStatusLoggedAndCounted) {
 }
 
 TEST_F(HostileTest, SlowOnesAreGivenUp) {
-  start_and_wait(218);
+  start_and_wait(18);
   HttpPeer silent(port);
   HttpPeer slow_head(port);
   slow_head.say("GET / HTTP/1.1\r\nHost: ");
@@ -105,8 +105,7 @@ TEST_F(HostileTest, SlowOnesAreGivenUp) {
 }
 
 TEST_F(HostileTest, TooManyConnectionsLeaveRoomLater) {
-  start_and_wait(219,
-                 {"http.most_connections=12", "http.most_connections_per_peer=8", "http.most_streams=4"});
+  start_and_wait(19, {"http.most_connections=12", "http.most_connections_per_peer=8", "http.most_streams=4"});
   std::vector<std::unique_ptr<HttpPeer>> crowd;
   for (int i = 0; i < 40; ++i) {
     crowd.push_back(std::make_unique<HttpPeer>(port));
@@ -121,7 +120,7 @@ TEST_F(HostileTest, TooManyConnectionsLeaveRoomLater) {
 }
 
 TEST_F(HostileTest, OneViewerLeavesStreamsToOthers) {
-  start_and_wait(231, {"access.orders=true"});
+  start_and_wait(31, {"access.orders=true"});
   keep_navigating(true);
   const std::string live = "GET /api/live HTTP/1.1\r\nConnection: close\r\nHost: " + host() + "\r\n";
   std::vector<std::unique_ptr<HttpPeer>> crowd;
@@ -160,7 +159,7 @@ TEST_F(HostileTest, OneViewerLeavesStreamsToOthers) {
 }
 
 TEST_F(HostileTest, OneThatNeverReadsHarmsNobody) {
-  start_and_wait(220);
+  start_and_wait(20);
   keep_navigating(true);
   HttpPeer deaf(port, 2048);
   HttpPeer quick(port);

@@ -36,14 +36,14 @@ class RouteTest : public ConsoleTest {
 };
 
 TEST_F(RouteTest, WhatGuidanceFollowsIsOnThePageAndGrowsOldWhenItIsGone) {
-  start_and_wait(230, {R"(map.waypoints=[{"name": "mark", "lat_deg": 1.0, "lon_deg": 2.0}])"});
+  start_and_wait(30, {R"(map.waypoints=[{"name": "mark", "lat_deg": 1.0, "lon_deg": 2.0}])"});
   keep_navigating(true);
   const auto guide = [] {
     return std::make_unique<Process>(
         "fathom-guidance-example",
         std::vector<std::string>{"--config",
                                  std::string(FATHOM_SOURCE_DIR) + "/deploy/config/guidance_example.json",
-                                 "--set", "bus.domain=230", "--set", "waypoints.1.name=turn"});
+                                 "--set", "bus.domain=30", "--set", "waypoints.1.name=turn"});
   };
   auto guidance = guide();
   open_page();
@@ -77,7 +77,7 @@ TEST_F(RouteTest, WhatGuidanceFollowsIsOnThePageAndGrowsOldWhenItIsGone) {
 }
 
 TEST_F(RouteTest, HostileRoutesAreRefusedLoggedAndCountedByReason) {
-  start_and_wait(231);
+  start_and_wait(31);
   std::mutex mutex;
   ServiceStatus status;
   const bus::Reader<ServiceStatus> ear(network->participant(),

@@ -52,7 +52,7 @@ class TlsTest : public ConsoleTest {
 TEST_F(TlsTest, PageLiveStreamAndOrdersGoThroughIt) {
   const Certificate own;
   use(own);
-  start_and_wait(221, {"access.orders=true", "access.view_needs_token=true"});
+  start_and_wait(21, {"access.orders=true", "access.view_needs_token=true"});
   EXPECT_TRUE(will_be_logged("console at https://127.0.0.1:" + std::to_string(port) + "/")) << console->err();
   EXPECT_FALSE(logged("in clear")) << console->err();
   const HttpAnswer page = get("/");
@@ -93,7 +93,7 @@ TEST_F(TlsTest, PageLiveStreamAndOrdersGoThroughIt) {
 TEST_F(TlsTest, ItsBrowsersKeepTheirConnection) {
   const Certificate own;
   use(own);
-  start_and_wait(222);
+  start_and_wait(22);
   const auto kept = peer();
   const std::string request = "GET /api/session HTTP/1.1\r\nHost: " + host() + "\r\n\r\n";
   kept->say(request + request);  // both in one record: the second is there before the first is answered
@@ -110,7 +110,7 @@ TEST_F(TlsTest, ItsBrowsersKeepTheirConnection) {
 TEST_F(TlsTest, OnlyModernVersionsAreSpoken) {
   const Certificate own;
   use(own);
-  start_and_wait(223);
+  start_and_wait(23);
   const HttpPeer newest(port, {own.certificate(), TLS1_3_VERSION});
   EXPECT_TRUE(newest.connected());
   EXPECT_EQ(newest.version(), "TLSv1.3");
@@ -127,7 +127,7 @@ TEST_F(TlsTest, OnlyModernVersionsAreSpoken) {
 TEST_F(TlsTest, PlainHttpAndGarbageAreRefusedLoggedAndCounted) {
   const Certificate own;
   use(own);
-  start_and_wait(224);
+  start_and_wait(24);
   listen();
   ASSERT_TRUE(wait_until([&] { return status().pid != 0; }, kPatienceS));
   const HttpAnswer plain = HttpPeer(port).exchange("GET / HTTP/1.1\r\nHost: " + host() + "\r\n\r\n");
@@ -147,8 +147,7 @@ TEST_F(TlsTest, PlainHttpAndGarbageAreRefusedLoggedAndCounted) {
 TEST_F(TlsTest, StalledHandshakesAreGivenUpAndOccupyNothing) {
   const Certificate own;
   use(own);
-  start_and_wait(225,
-                 {"http.most_connections=12", "http.most_connections_per_peer=8", "http.most_streams=4"});
+  start_and_wait(25, {"http.most_connections=12", "http.most_connections_per_peer=8", "http.most_streams=4"});
   std::vector<std::unique_ptr<HttpPeer>> stalled;
   for (int i = 0; i < 6; ++i) {
     stalled.push_back(std::make_unique<HttpPeer>(port));
@@ -168,7 +167,7 @@ TEST_F(TlsTest, StalledHandshakesAreGivenUpAndOccupyNothing) {
 TEST_F(TlsTest, OneThatNeverReadsHarmsNobodyAndOneThatLeavesNeither) {
   const Certificate own;
   use(own);
-  start_and_wait(226);
+  start_and_wait(26);
   keep_navigating(true);
   const std::string live = "GET /api/live HTTP/1.1\r\nHost: " + host() + "\r\n\r\n";
   const auto deaf = peer();
@@ -183,7 +182,7 @@ TEST_F(TlsTest, OneThatNeverReadsHarmsNobodyAndOneThatLeavesNeither) {
 TEST_F(TlsTest, ACertificateThatEndsSoonIsWarnedOf) {
   const Certificate own(-300, 12);
   use(own);
-  start_and_wait(227);
+  start_and_wait(27);
   listen();
   ASSERT_TRUE(
       wait_until([&] { return status().text.find("The TLS certificate expires in 1") != std::string::npos; },
@@ -197,7 +196,7 @@ TEST_F(TlsTest, ACertificateThatEndsSoonIsWarnedOf) {
 
 TEST_F(TlsTest, AnExpiredOneIsShownAllTheSameAndSaid) {
   const Certificate own(-300, -2);
-  start(228, {"tls.certificate_file=" + own.certificate(), "tls.key_file=" + own.key()});
+  start(28, {"tls.certificate_file=" + own.certificate(), "tls.key_file=" + own.key()});
   listen();
   ASSERT_TRUE(wait_until([&] { return status().state == ServiceState::degraded; }, kPatienceS))
       << console->err();
@@ -207,7 +206,7 @@ TEST_F(TlsTest, AnExpiredOneIsShownAllTheSameAndSaid) {
 }
 
 TEST_F(TlsTest, TokensInClearAreWarnedOf) {
-  start(229, {"http.address=0.0.0.0", "access.orders=true"});
+  start(29, {"http.address=0.0.0.0", "access.orders=true"});
   EXPECT_TRUE(wait_until([&] { return logged("tokens pass over the network in clear"); }, kPatienceS));
   EXPECT_TRUE(will_be_logged("Set tls.certificate_file")) << console->err();
   listen();

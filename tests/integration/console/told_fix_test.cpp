@@ -22,7 +22,7 @@
 namespace fathom::test {
 namespace {
 
-constexpr std::uint32_t kDomain = 216;
+constexpr std::uint32_t kDomain = 32;
 constexpr double kRate = 10.0;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 

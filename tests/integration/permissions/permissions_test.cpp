@@ -18,7 +18,7 @@
 namespace fathom::test {
 namespace {
 
-constexpr std::uint32_t kDomain = 219;
+constexpr std::uint32_t kDomain = 61;
 
 // Read by a fusion only while it lacks what another one knows.
 constexpr std::string_view kForAMoment = "fathom/v1/engine_state";

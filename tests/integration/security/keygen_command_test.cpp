@@ -87,7 +87,7 @@ TEST(KeygenCommand, AServiceSaysWhatIsWrongWithItsCredentials) {
   const std::string dir = folder / "credentials";
   const auto bridge = [&](const std::string& security) {
     return run("fathom-gps-bridge", {"--config", FATHOM_SOURCE_DIR "/deploy/config/gps_bridge.json", "--set",
-                                     "bus.domain=228", "--set", "bus.security=" + security});
+                                     "bus.domain=58", "--set", "bus.security=" + security});
   };
   expect_refusal(bridge(R"({"folder": ")" + dir + R"("})"), "bus.security: " + dir + ": is no folder");
   ASSERT_EQ(keygen({dir}).code, 0);

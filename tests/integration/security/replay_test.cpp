@@ -101,7 +101,7 @@ void expect_each_once(const std::vector<std::uint64_t>& sequences) {
 
 class Replay : public testing::Test {
  protected:
-  static constexpr std::uint32_t kDomain = 229;
+  static constexpr std::uint32_t kDomain = 59;
   static constexpr std::uint16_t kFirst = 7400 + 250 * kDomain;  // the ports of the domain, RTPS 9.6.1.1
   static constexpr std::uint16_t kLast = kFirst + 249;
 

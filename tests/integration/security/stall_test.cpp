@@ -11,10 +11,10 @@ namespace fathom::test {
 namespace {
 
 TEST(Stall, AServiceThatWasGivenUpEndsAndIsMetAgainWhenStartedAnew) {
-  SecureNetwork network(217);
+  SecureNetwork network(60);
   setenv("FATHOM_DDS_DIR", FATHOM_SOURCE_DIR "/deploy/dds", 1);
   const std::vector<std::string> arguments{"--config", FATHOM_SOURCE_DIR "/deploy/config/gps_bridge.json",
-                                           "--set",    "bus.domain=217",
+                                           "--set",    "bus.domain=60",
                                            "--set",    "bus.security.folder=" + network.credentials()};
   const auto met = [&] {
     const auto peers = network.guidance->peers();

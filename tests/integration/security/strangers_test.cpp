@@ -46,7 +46,7 @@ void expect_a_stranger(SecureNetwork& network, const std::optional<Disguise>& di
 }
 
 TEST(Strangers, GoodOnesMeetAndAreCalledByName) {
-  SecureNetwork network(220);
+  SecureNetwork network(50);
   ASSERT_TRUE(network.goes_on());
   ASSERT_EQ(network.guidance->peers().size(), 1U);
   EXPECT_EQ(network.guidance->peers()[0].name, "fusion");
@@ -58,28 +58,28 @@ TEST(Strangers, GoodOnesMeetAndAreCalledByName) {
 }
 
 TEST(Strangers, SignedMessagesPassAsWell) {
-  SecureNetwork network(220, security::MessageProtection::sign);
+  SecureNetwork network(50, security::MessageProtection::sign);
   EXPECT_TRUE(network.goes_on());
 }
 
 // What the other tests' attacker can do where nothing keeps it from it.
 TEST(Strangers, WhoHasTheRightCredentialsIsHeardAndHears) {
-  SecureNetwork network(220);
+  SecureNetwork network(50);
   ASSERT_TRUE(network.goes_on());
   {
-    const Attacker writes(220, Aim::writes, honest(network.files(), "fusion"), true);
+    const Attacker writes(50, Aim::writes, honest(network.files(), "fusion"), true);
     EXPECT_TRUE(eventually([&] { return network.forged() > 50; }, kPatience)) << writes.error();
   }
-  const Attacker reads(220, Aim::reads, honest(network.files(), "monitor"), false);
+  const Attacker reads(50, Aim::reads, honest(network.files(), "monitor"), false);
   EXPECT_TRUE(eventually([&] { return reads.progress()["received"] > 50; }, kPatience)) << reads.error();
 }
 
 TEST(Strangers, OneWithoutSecurityGetsNothing) {
-  SecureNetwork network(221);
+  SecureNetwork network(51);
   const Events events(*network.guidance);
   ASSERT_TRUE(network.goes_on());
   expect_a_stranger(network, std::nullopt, false);
-  const Attacker attacker(221, Aim::reads, std::nullopt, false);
+  const Attacker attacker(51, Aim::reads, std::nullopt, false);
   ASSERT_TRUE(eventually([&] { return !network.guidance->strangers().empty(); }, kPatience));
   const std::string name = network.guidance->strangers()[0].name;
   EXPECT_EQ(name, bus::detail::kAnnouncesStrangers ? "attacker" : "");
@@ -96,17 +96,17 @@ TEST(Strangers, OneWithoutSecurityGetsNothing) {
 }
 
 TEST(Strangers, OneOfAForeignAuthorityGetsNothing) {
-  SecureNetwork network(222);
+  SecureNetwork network(52);
   ASSERT_TRUE(network.goes_on());
   security::KeygenOptions foreign;
   foreign.folder = network.scratch("foreign");
-  foreign.domains = {222, 222};
+  foreign.domains = {52, 52};
   security::make_credentials(foreign, SystemClock().utc_ns());
   expect_a_stranger(network, honest(security::CredentialFolder(foreign.folder), "fusion"), true);
 }
 
 TEST(Strangers, OneWhoseCertificateExpiredGetsNothing) {
-  SecureNetwork network(223);
+  SecureNetwork network(53);
   ASSERT_TRUE(network.goes_on());
   const security::CredentialFolder files = network.files();
   const TimeNs now = SystemClock().utc_ns();
@@ -125,7 +125,7 @@ TEST(Strangers, OneWhoseCertificateExpiredGetsNothing) {
 }
 
 TEST(Strangers, OneThatSignedItsOwnPermissionsGetsNothing) {
-  SecureNetwork network(224);
+  SecureNetwork network(54);
   ASSERT_TRUE(network.goes_on());
   const TimeNs now = SystemClock().utc_ns();
   // A valid identity with permissions to do everything, of an authority that bears the right name.
@@ -139,22 +139,22 @@ TEST(Strangers, OneThatSignedItsOwnPermissionsGetsNothing) {
   disguise.permissions_ca = network.scratch("permissions_ca.pem");
   security::write_text(disguise.permissions_ca, security::to_pem(authority));
   disguise.governance =
-      sign("governance", security::governance_xml({224, 224}, security::MessageProtection::encrypt));
+      sign("governance", security::governance_xml({54, 54}, security::MessageProtection::encrypt));
   disguise.permissions = sign("permissions", security::permissions_xml({"gps_bridge",
                                                                         "CN=gps_bridge,OU=auv,O=fathom",
                                                                         {now - 2 * kDay, now + 2 * kDay},
-                                                                        {224, 224},
+                                                                        {54, 54},
                                                                         {"*"},
                                                                         {"*"}}));
   expect_a_stranger(network, disguise, true);
 }
 
 TEST(Strangers, AnIdentityWithoutPermissionIsNotHeardEvenWhenItsOwnSideLetsIt) {
-  SecureNetwork network(225);
+  SecureNetwork network(55);
   const Events at_guidance(*network.guidance);
   ASSERT_TRUE(network.goes_on());
   for (const Aim aim : {Aim::reads, Aim::writes}) {
-    const Attacker attacker(225, aim, honest(network.files(), "gps_bridge"), true);
+    const Attacker attacker(55, aim, honest(network.files(), "gps_bridge"), true);
     // It may publish fixes, which nobody here reads.
     expect_nothing(network, attacker);
   }
@@ -166,7 +166,7 @@ TEST(Strangers, AnIdentityWithoutPermissionIsNotHeardEvenWhenItsOwnSideLetsIt) {
 }
 
 TEST(Strangers, AConsoleMayNotPublishASensor) {
-  SecureNetwork network(226);
+  SecureNetwork network(56);
   std::atomic<std::size_t> fixes = 0;
   std::atomic<std::size_t> forged = 0;
   bus::Reader<GpsSample> reader(*network.fusion, [&](const GpsSample& fix, const bus::SampleInfo&) {
@@ -186,7 +186,7 @@ TEST(Strangers, AConsoleMayNotPublishASensor) {
     EXPECT_THAT(error.what(), HasSubstr("do not allow fathom/v1/gps"));
   }
   // ... and where it does not, nobody listens.
-  const Attacker attacker(226, Aim::writes, honest(network.files(), "console"), true);
+  const Attacker attacker(56, Aim::writes, honest(network.files(), "console"), true);
   ASSERT_TRUE(eventually([&] { return attacker.progress()["rounds"] > 200; }, kPatience)) << attacker.error();
   EXPECT_EQ(forged, 0U);
   EXPECT_EQ(network.forged(), 0U);
@@ -200,12 +200,12 @@ TEST(Strangers, AConsoleMayNotPublishASensor) {
 }
 
 TEST(Strangers, CredentialsAreCheckedBeforeAnythingIsSent) {
-  const SecureNetwork network(227);
+  const SecureNetwork network(57);
   bus::ParticipantOptions missing = network.options("nobody");
   EXPECT_THROW(bus::Participant{missing}, bus::CredentialsError);
   missing.security.identity = "cli";  // another name than the identity's is fine
   EXPECT_NO_THROW(bus::Participant{missing});
-  missing.domain = 228;  // Fast DDS would join it and protect nothing
+  missing.domain = 58;  // Fast DDS would join it and protect nothing
   EXPECT_THROW(bus::Participant{missing}, bus::CredentialsError);
 }
 
