@@ -70,6 +70,9 @@ struct Participant::Impl final : detail::DiscoveryListener {
   detail::PeerBook peers;
   const std::shared_ptr<detail::DeliveryWatch> delivery_watch = std::make_shared<detail::DeliveryWatch>();
   detail::WorkQueue work_queue;
+  /// How much longer the ends of all writers together wait for readers: one on a machine that is busy takes
+  /// its time, and one that died is not known to have died.
+  std::atomic<DurationNs> patience_ns = 2 * kNsPerSecond;
   detail::StrangerBook strangers;
   std::optional<detail::Scheduling> samples_as;      ///< of threads that carry samples; nothing: as chores
   std::optional<security::Credentials> credentials;  ///< nothing: the network is not protected

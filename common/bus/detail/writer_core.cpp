@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -29,8 +30,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-// How long a writer's end may wait for its readers: two heartbeats of the profiles and the answer.
-constexpr std::uint32_t kLastWords_ns = 150'000'000;
+// How long a writer's end waits for its readers at least: two heartbeats of the profiles and the answer.
+constexpr DurationNs kLastWords_ns = 150 * kNsPerMillisecond;
 
 // What is done about a successor is looked at so often.
 constexpr milliseconds kLook(50);
@@ -87,6 +88,11 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   ~Impl() override {
     closing = true;
     bus.work_queue.forget(this);
+    if (const DurationNs patience_ns = bus.patience_ns; offered.reliability > 0 && patience_ns > 0) {
+      const auto began = steady_clock::now();
+      (void)all_arrived(*writer.load(), patience_ns);
+      bus.patience_ns -= std::chrono::nanoseconds(steady_clock::now() - began).count();
+    }
     retire(old);
     retire(next);
     retire(writer);
@@ -110,8 +116,8 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   void retire(dds::DataWriter* old) {
     if (old == nullptr) return;
     // The news that a writer left travels apart from its samples and may overtake the last of them, which the
-    // reader would then ignore. A reader that died is not waited for any longer.
-    if (offered.reliability > 0) old->wait_for_acknowledgments({0, kLastWords_ns});
+    // reader would then ignore.
+    if (offered.reliability > 0) (void)all_arrived(*old, kLastWords_ns);
     old->set_listener(nullptr);
     // What a dead reader never took would be released one by one while the heartbeat still walks over it,
     // which may then never end (Fast DDS 2.9.1).
@@ -127,7 +133,9 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   }
 
   static bool all_arrived(dds::DataWriter& of, DurationNs within_ns) {
-    return done(of.wait_for_acknowledgments({0, static_cast<std::uint32_t>(within_ns)}));
+    const auto [seconds, rest_ns] = std::lldiv(within_ns, kNsPerSecond);
+    return done(of.wait_for_acknowledgments(
+        {static_cast<std::int32_t>(seconds), static_cast<std::uint32_t>(rest_ns)}));
   }
 
   using Step = void (Impl::*)();

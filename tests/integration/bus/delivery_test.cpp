@@ -13,6 +13,7 @@
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
+#include "samples/verdict.hpp"
 #include "support.hpp"
 
 namespace fathom::test {
@@ -288,6 +289,24 @@ TEST(Delivery, ASlowReaderHoldsNobodyUp) {
   EXPECT_EQ(slow_count, 1);
   release.set_value();
   EXPECT_TRUE(eventually([&] { return slow_count > 1; }));
+}
+
+// A machine that is busy for half a second as the writer ends.
+TEST(Delivery, TheLastWordsOfAWriterReachAReaderThatIsHeldUp) {
+  bus::Participant listens(options(101, "listens"));
+  std::atomic<int> heard = 0;
+  bus::Reader<Verdict> reader(listens, [&](const Verdict&, const bus::SampleInfo&) {
+    if (heard++ == 1) let_pass(milliseconds(700));
+  });
+  {
+    bus::Participant speaks(options(101, "speaks"));
+    bus::Writer<Verdict> writer(speaks);
+    ASSERT_TRUE(eventually([&] { return writer.matched_readers() == 1 && reader.matched_writers() == 1; }));
+    EXPECT_TRUE(writer.write(Verdict{}));
+    ASSERT_TRUE(eventually([&] { return heard == 1; }));
+    for (int i = 0; i < 200; ++i) EXPECT_TRUE(writer.write(Verdict{}));
+  }
+  EXPECT_TRUE(eventually([&] { return heard == 201; })) << heard;
 }
 
 TEST(Delivery, NoHandlerRunsOnceTheReaderIsGone) {
