@@ -257,14 +257,14 @@ TEST(Cyclone, HearsASuccessionOfTheNavigationState) {
 }
 
 TEST(Cyclone, PublishesGpsToUs) {
-  bus::Participant participant(options(132));
+  bus::Participant participant(options(68));
   std::mutex mutex;
   std::optional<GpsSample> received;
   bus::Reader<GpsSample> reader(participant, [&](const GpsSample& sample, const bus::SampleInfo&) {
     const std::lock_guard lock(mutex);
     received = sample;
   });
-  const CyclonePeer peer("gps", 132);
+  const CyclonePeer peer("gps", 68);
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   const auto arrived = [&] {
     const std::lock_guard lock(mutex);

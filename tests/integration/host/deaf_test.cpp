@@ -20,7 +20,7 @@
 namespace fathom::test {
 namespace {
 
-constexpr int kDomain = 189;
+constexpr int kDomain = 65;
 constexpr double kPatience_s = 60.0;
 /// Of the first participant of a domain: discovery and samples (RTPS 9.6.2.3).
 constexpr std::array<std::uint16_t, 2> kPorts{7400 + 250 * kDomain + 10, 7400 + 250 * kDomain + 11};

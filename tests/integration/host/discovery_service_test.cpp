@@ -19,7 +19,7 @@ namespace fathom::test {
 namespace {
 
 constexpr double kPatience_s = 60.0;
-constexpr std::uint32_t kDomain = 182;
+constexpr std::uint32_t kDomain = 64;
 const std::string kServer = "127.0.0.1:21812";
 
 std::unique_ptr<Process> start(const std::string& program, const std::string& file,

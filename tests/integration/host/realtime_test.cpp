@@ -99,7 +99,7 @@ TEST_F(RealtimeService, SchedulesAllOfItsThreadsAsAsked) {
   if (!refused.empty()) GTEST_SKIP() << "CAP_SYS_NICE or RLIMIT_RTPRIO is missing: " << refused.front();
   if (!host::kernel_calls().may_lock_all())
     GTEST_SKIP() << "CAP_IPC_LOCK or an unlimited RLIMIT_MEMLOCK is missing";
-  listen(180);
+  listen(62);
   const auto service = start();
   ASSERT_TRUE(wait_until([&] { return heard(); }, kPatience_s)) << service->err();
   const Threads threads = threads_of(service->pid());
@@ -112,7 +112,7 @@ TEST_F(RealtimeService, SchedulesAllOfItsThreadsAsAsked) {
 }
 
 TEST_F(RealtimeService, SaysWhatItIsRefusedAndGoesOn) {
-  listen(181);
+  listen(63);
   std::unique_ptr<Process> service;
   bool may_still = false;
   // The thread's own bounding set and the process's limits are what the service inherits.
