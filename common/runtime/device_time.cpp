@@ -17,7 +17,17 @@ DeviceTimeTracker::DeviceTimeTracker(const TimeConfig& config) : config_(config)
 
 void DeviceTimeTracker::reset() {
   anchored_ = false;
+  foreseen_ns_.reset();
   suspects_ = 0;
+}
+
+void DeviceTimeTracker::foresee(const DeviceTime& device, const Arrival& arrival) {
+  const auto clock = device.clock_ns ? device.clock_ns : device.utc_ns;
+  if (config_.mode != TimeMode::device_clock || anchored_ || !clock) return;
+  const DurationNs offset = arrival.monotonic_ns - (*clock + wrapped_ns_);
+  // Frames do not gather for longer than delays last: such a one was damaged, or the counter began anew.
+  if (foreseen_ns_ && std::abs(offset - *foreseen_ns_) > from_seconds(config_.window_s)) return;
+  foreseen_ns_ = std::min(foreseen_ns_.value_or(offset), offset);
 }
 
 Stamp DeviceTimeTracker::stamp(const DeviceTime& device, const Arrival& arrival) {
@@ -99,8 +109,8 @@ std::optional<DurationNs> DeviceTimeTracker::track(TimeNs device_ns, TimeNs arri
   const DurationNs offset = arrival_ns - now_device;
   const DurationNs minimum = from_seconds(config_.minimum_latency_s);
   if (!anchored_) {
-    anchor(offset, now_device, arrival_ns);
-    return minimum;
+    anchor(std::min(offset, foreseen_ns_.value_or(offset)), now_device, arrival_ns);
+    return minimum + (offset - applied_ns_);
   }
 
   const DurationNs jump = from_seconds(config_.jump_s);

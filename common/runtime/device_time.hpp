@@ -63,6 +63,11 @@ class DeviceTimeTracker {
 
   [[nodiscard]] Stamp stamp(const DeviceTime& device, const Arrival& arrival);
 
+  /// A frame of a new connection that arrived with others, before any of them is stamped. They gathered while
+  /// nobody read: the youngest of them tells the offset best, and the first one is as old as its clock says.
+  /// Without this they would all be stamped as the youngest.
+  void foresee(const DeviceTime& device, const Arrival& arrival);
+
   /// The connection is new: the device may have been exchanged or restarted.
   void reset();
 
@@ -82,6 +87,7 @@ class DeviceTimeTracker {
 
   // device_clock: all in the host's monotonic time or the unwrapped device time.
   bool anchored_ = false;
+  std::optional<DurationNs> foreseen_ns_;  ///< the smallest offset of the frames that arrived together
   TimeNs last_raw_ns_ = 0;
   DurationNs wrapped_ns_ = 0;  ///< added by roll-overs so far
   TimeNs last_device_ns_ = 0;  ///< unwrapped

@@ -24,8 +24,8 @@ class Backlog {
     const auto periods = static_cast<DurationNs>(count);
     return 2 * *since_ns >= (2 * periods - 1) * period_ns_ ? period_ns_ : 0;
   }
-  /// What comes next is of a new connection.
-  void reset() { before_ns_.reset(); }
+  /// What comes next is of a new connection, made at `now_ns`: nothing gathered before.
+  void begin(TimeNs now_ns) { before_ns_ = now_ns; }
 
  private:
   DurationNs period_ns_;

@@ -56,7 +56,7 @@ struct SensorChannel::Impl : codec::Sink {
         log(log_in),
         outlet(outlet_in),
         tracker(plan.sensor.time),
-        stamped_by_arrival(plan.sensor.time.mode == runtime::TimeMode::arrival && !paced()),
+        read_by_read(plan.sensor.time.mode != runtime::TimeMode::device_utc && !paced()),
         backlogs(kSampleKinds, Backlog(plan.intermittent ? 0.0 : plan.sensor.rate_hz)),
         health(plan.intermittent ? 0.0 : plan.sensor.rate_hz, config::stale_after_s(plan.sensor),
                plan.sensor.first_sample_s, clock.monotonic_ns()),
@@ -94,8 +94,9 @@ struct SensorChannel::Impl : codec::Sink {
   codec::Totals before;  ///< of the codec, as already counted
   runtime::DeviceTimeTracker tracker;
   Arrival arrival;
-  const bool stamped_by_arrival;
-  std::vector<codec::Decoded> waiting;  ///< stamped by arrival: until all of one read are decoded
+  const bool read_by_read;              ///< what arrived together is stamped together
+  std::vector<codec::Decoded> waiting;  ///< until all of one read are decoded
+  bool is_new = true;                   ///< nothing was connected yet, or no more
   std::vector<Backlog> backlogs;        ///< of each kind of sample
   std::array<std::uint64_t, kSampleKinds> sequence{};
   std::array<Burst, kRejectReasons> said_rejected;
@@ -138,8 +139,11 @@ void SensorChannel::Impl::publish_waiting() {
   for (const codec::Decoded& decoded : waiting) ++left[decoded.sample.index()];
   std::array<DurationNs, kSampleKinds> spacing_ns{};
   for (std::size_t kind = 0; kind < kSampleKinds; ++kind) {
-    if (left[kind] > 0) spacing_ns[kind] = backlogs[kind].spacing(left[kind], arrival.monotonic_ns);
+    if (left[kind] > 0 && plan.sensor.time.mode == runtime::TimeMode::arrival) {
+      spacing_ns[kind] = backlogs[kind].spacing(left[kind], arrival.monotonic_ns);
+    }
   }
+  for (const codec::Decoded& decoded : waiting) tracker.foresee(decoded.time, arrival);
   for (const codec::Decoded& decoded : waiting) {
     const std::size_t kind = decoded.sample.index();
     const DurationNs ago_ns = static_cast<DurationNs>(--left[kind]) * spacing_ns[kind];
@@ -167,13 +171,15 @@ void SensorChannel::Impl::on_event(const SourceEvent& event) {
     // Half a frame of the old connection must not meet half a frame of the new one.
     codec->finish(*this);
     publish_waiting();
-    for (Backlog& backlog : backlogs) backlog.reset();
     add_totals();
     new_codec();
     before = {};
     tracker.reset();
     for (auto& burst : said_rejected) burst.forget();
     for (auto& burst : said_refused) burst.forget();
+    is_new = true;
+  } else if (event.state == SourceState::connected && std::exchange(is_new, false)) {
+    for (Backlog& backlog : backlogs) backlog.begin(clock.monotonic_ns());
   }
 }
 
@@ -210,7 +216,7 @@ void SensorChannel::Impl::on_sample(const codec::Decoded& decoded) {
     ++counters.ignored;
     return;
   }
-  if (stamped_by_arrival) {
+  if (read_by_read) {
     waiting.push_back(decoded);
     return;
   }

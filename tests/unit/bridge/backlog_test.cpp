@@ -34,12 +34,19 @@ TEST(Backlog, WhatTheInstrumentSendsTogetherStaysTogether) {
   EXPECT_EQ(backlog.spacing(2, 2 * kPeriod), 0);
 }
 
-TEST(Backlog, TheFirstReadAndAnUnknownRateTellNothing) {
+TEST(Backlog, TheFirstReadGatheredSinceTheConnectionWasMade) {
+  bridge::Backlog backlog(10.0);
+  backlog.begin(kNsPerSecond);
+  bridge::Backlog at_once = backlog;
+  EXPECT_EQ(backlog.spacing(5, kNsPerSecond + 5 * kPeriod), kPeriod);
+  EXPECT_EQ(at_once.spacing(5, kNsPerSecond + kPeriod), 0);
+}
+
+TEST(Backlog, AnUnknownBeginOrRateTellsNothing) {
   bridge::Backlog first(10.0);
   EXPECT_EQ(first.spacing(5, kNsPerSecond), 0);
-  first.reset();
-  EXPECT_EQ(first.spacing(5, 9 * kNsPerSecond), 0);
   bridge::Backlog unknown(0.0);
+  unknown.begin(0);
   (void)unknown.spacing(1, 0);
   EXPECT_EQ(unknown.spacing(2, kNsPerSecond), 0);
 }

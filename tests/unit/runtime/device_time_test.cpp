@@ -179,6 +179,28 @@ TEST(DeviceClock, ABurstAfterAStallKeepsTheDevicesSpacing) {
   }
 }
 
+TEST(DeviceClock, FramesThatGatheredBeforeTheFirstReadKeepTheDevicesSpacing) {
+  DeviceTimeTracker tracker(tracked());
+  const TimeNs read = kStart + 85 * kMs;
+  for (int i = 0; i < 8; ++i) tracker.foresee(clock_of(5 * kNsPerSecond + i * 10 * kMs), at(read));
+  for (int i = 0; i < 8; ++i) {
+    const Stamp stamp = tracker.stamp(clock_of(5 * kNsPerSecond + i * 10 * kMs), at(read));
+    EXPECT_EQ(stamp.utc_ns, read - 2 * kMs - (7 - i) * 10 * kMs) << i;
+    EXPECT_FALSE(stamp.from_arrival);
+  }
+  // What arrives later is no news of the first ones.
+  tracker.foresee(clock_of(7 * kNsPerSecond), at(read + 10 * kMs));
+  EXPECT_EQ(tracker.stamp(clock_of(5 * kNsPerSecond + 80 * kMs), at(read + 10 * kMs)).utc_ns, read + 8 * kMs);
+}
+
+TEST(DeviceClock, ADamagedTimeAmongTheFirstIsNotForeseen) {
+  DeviceTimeTracker tracker(tracked());
+  tracker.foresee(clock_of(5 * kNsPerSecond), at(kStart));
+  tracker.foresee(clock_of(4'000 * kNsPerSecond), at(kStart));
+  tracker.foresee(clock_of(5 * kNsPerSecond + 10 * kMs), at(kStart));
+  EXPECT_EQ(tracker.stamp(clock_of(5 * kNsPerSecond), at(kStart)).utc_ns, kStart - 12 * kMs);
+}
+
 TEST(DeviceClock, FirstFrameThatWasDelayedCausesNoStampAfterArrivalAndNoReversal) {
   DeviceTimeTracker tracker(tracked());
   TimeNs last = 0;
