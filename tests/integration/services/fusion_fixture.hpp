@@ -186,6 +186,19 @@ class FusionEar {
       return n;
     });
   }
+  /// What was said of the measurements of that stamp, for messages.
+  [[nodiscard]] std::string told(TimeNs stamp_ns) const {
+    return with([&] {
+      std::string out;
+      for (const Verdict& v : verdicts) {
+        if (v.header.stamp_ns != stamp_ns || v.source == SourceKind::imu) continue;
+        out += "\n  " + std::string(to_string(v.source)) + " #" + std::to_string(v.header.sequence) + " " +
+               std::string(to_string(v.kind)) + ", revision " + std::to_string(v.revision) +
+               (v.is_final ? ", final" : "");
+      }
+      return out;
+    });
+  }
   /// Who wrote what was judged.
   [[nodiscard]] std::set<std::string> writers(SourceKind source) const {
     return with([&] {

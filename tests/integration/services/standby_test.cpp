@@ -116,7 +116,7 @@ TEST_F(Standby, TakesOverWithTheStateOfTheOneThatDied) {
   int missing = 0;
   for (int tick = died - 700; tick <= died + 160; tick += 20) {
     const auto [gps, dvl] = finals(tick);
-    EXPECT_LE(std::max(gps, dvl), 1) << tick - died;
+    EXPECT_LE(std::max(gps, dvl), 1) << tick - died << ear->told(kStart_ns + tick * kPeriod_ns);
     missing += (gps == 0 ? 1 : 0) + (dvl == 0 ? 1 : 0);
   }
   EXPECT_LE(missing, 1);
