@@ -110,6 +110,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     bus.work_queue.run(this, locked, kind, delay);
   }
 
+  /// The first one. False: Fast DDS made none.
   bool make() {
     const std::lock_guard lock(reader_mutex);
     open();
