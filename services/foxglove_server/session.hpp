@@ -179,9 +179,10 @@ class Session final : public Client, public std::enable_shared_from_this<Session
       self->writing_ = false;
       if (!self->waiting_.empty()) self->write();
     };
-    if (item.is_text) return ws_.async_write(boost::asio::buffer(item.text), std::move(written));
-    const std::array<boost::asio::const_buffer, 2> parts{boost::asio::buffer(item.head),
-                                                         boost::asio::buffer(*item.bytes)};
+    using boost::asio::buffer;
+    using boost::asio::const_buffer;
+    std::array<const_buffer, 2> parts{buffer(item.text)};
+    if (!item.is_text) parts = {buffer(item.head), buffer(*item.bytes)};
     ws_.async_write(parts, std::move(written));
   }
   void gone() {
@@ -190,7 +191,7 @@ class Session final : public Client, public std::enable_shared_from_this<Session
   }
 
   Host& host_;
-  websocket::stream<Next> ws_;
+  websocket::stream<Next, false> ws_;  // nothing is compressed
   beast::flat_buffer buffer_;
   http::request_parser<http::empty_body> parser_;
   std::deque<Item> waiting_;

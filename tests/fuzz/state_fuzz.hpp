@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "support/engine_states.hpp"
+#include "support/vehicles/engine_states.hpp"
 
 namespace fathom::fuzz {
 

@@ -14,7 +14,7 @@ namespace fathom::test {
 
 /// Numerical vectors by name; an empty object when tests/vectors lacks the file.
 inline nlohmann::json load_vectors() {
-  std::ifstream in(std::string(FATHOM_VECTORS) + "/strapdown_and_aiding.json");
+  std::ifstream in(FATHOM_VECTORS "/strapdown_and_aiding.json");
   nlohmann::json by_name = nlohmann::json::object();
   if (!in) return by_name;
   const nlohmann::json all = nlohmann::json::parse(in);

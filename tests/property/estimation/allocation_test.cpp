@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/orders.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace {
 std::atomic<long> g_allocations{0};

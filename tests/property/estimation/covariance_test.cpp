@@ -3,7 +3,7 @@
 
 #include "estimation/aiding/registry.hpp"
 #include "estimation/navigator/navigator.hpp"
-#include "support/analytic_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::estimation {
 namespace {

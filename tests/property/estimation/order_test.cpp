@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

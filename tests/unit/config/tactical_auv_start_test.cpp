@@ -13,7 +13,7 @@
 #include "estimation/engine/fusion_engine.hpp"
 #include "sim/random.hpp"
 #include "sim/simulation.hpp"
-#include "support/simulated_drive.hpp"
+#include "support/vehicles/simulated_drive.hpp"
 
 namespace fathom::config {
 namespace {

@@ -5,7 +5,7 @@
 #include "estimation/alignment/rest_window.hpp"
 #include "estimation/engine/forecaster.hpp"
 #include "support/orders.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

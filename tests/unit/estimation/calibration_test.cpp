@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "geo/so3.hpp"
-#include "support/analytic_vehicle.hpp"
-#include "support/small_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
+#include "support/vehicles/small_vehicle.hpp"
 
 namespace fathom::estimation::hydro {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "estimation/engine/fusion_engine.hpp"
 #include "estimation/filter/error_filter.hpp"
-#include "support/analytic_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/aiding/non_holonomic.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

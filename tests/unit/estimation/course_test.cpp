@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/navigator/navigator.hpp"
-#include "support/road_run.hpp"
+#include "support/vehicles/road_run.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/drop_run.hpp"
 #include "support/orders.hpp"
+#include "support/vehicles/drop_run.hpp"
 
 namespace fathom::estimation {
 namespace {

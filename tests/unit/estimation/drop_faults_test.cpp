@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "estimation/alignment/stability_gate.hpp"
-#include "support/drop_run.hpp"
 #include "support/orders.hpp"
+#include "support/vehicles/drop_run.hpp"
 
 namespace fathom::estimation {
 namespace {

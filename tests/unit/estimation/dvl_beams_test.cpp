@@ -4,7 +4,7 @@
 
 #include "estimation/aiding/registry.hpp"
 #include "estimation/filter/gate.hpp"
-#include "support/analytic_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::estimation {
 namespace {

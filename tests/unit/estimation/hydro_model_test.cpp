@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "estimation/hydro/vehicle_model.hpp"
-#include "support/analytic_vehicle.hpp"
-#include "support/small_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
+#include "support/vehicles/small_vehicle.hpp"
 
 namespace fathom::estimation::hydro {
 namespace {

@@ -7,7 +7,7 @@
 #include "estimation/aiding/zero_velocity.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/filter/strapdown.hpp"
-#include "support/analytic_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "health/vehicle_health.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "estimation/engine/fusion_engine.hpp"
 #include "estimation/hydro/water_velocity.hpp"
-#include "support/small_vehicle.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/small_vehicle.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

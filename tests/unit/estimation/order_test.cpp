@@ -7,7 +7,7 @@
 
 #include "estimation/engine/fusion_engine.hpp"
 #include "support/orders.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

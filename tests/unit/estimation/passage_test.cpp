@@ -9,7 +9,7 @@
 
 #include "estimation/smoothing/filter_log.hpp"
 #include "geo/so3.hpp"
-#include "support/analytic_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::estimation {
 namespace {

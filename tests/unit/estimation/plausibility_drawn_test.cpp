@@ -11,7 +11,7 @@
 
 #include "estimation/navigator/plausibility/plausibility.hpp"
 #include "sim/random.hpp"
-#include "support/plausibility_run.hpp"
+#include "support/vehicles/plausibility_run.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -7,7 +7,7 @@
 #include "archive/covariance.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "support/orders.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "support/drop_run.hpp"
-#include "support/engine_states.hpp"
+#include "support/vehicles/drop_run.hpp"
+#include "support/vehicles/engine_states.hpp"
 
 namespace fathom::estimation {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "estimation/engine/order.hpp"
 #include "support/orders.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

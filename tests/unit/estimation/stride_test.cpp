@@ -11,7 +11,7 @@
 #include "estimation/fields/navigator.hpp"
 #include "estimation/fields/state_head.hpp"
 #include "estimation/navigator/estimate.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

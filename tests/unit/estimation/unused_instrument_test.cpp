@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/navigator/setup.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

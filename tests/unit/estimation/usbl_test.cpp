@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/engine/fusion_engine.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
 namespace {

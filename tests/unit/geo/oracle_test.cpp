@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "geo/wgs84.hpp"
-#include "support/analytic_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::geo {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "fusion/checkpoint/file.hpp"
 #include "fusion/checkpoint/start.hpp"
-#include "support/survey_run.hpp"
 #include "support/temporary_folder.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::fusion {
 namespace {

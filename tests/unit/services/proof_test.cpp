@@ -14,7 +14,7 @@
 
 #include "archive/digest.hpp"
 #include "config/fusion/fusion_config.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom {
 namespace {

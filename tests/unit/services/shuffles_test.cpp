@@ -11,7 +11,7 @@
 
 #include "cli/record/difference.hpp"
 #include "config/fusion/fusion_config.hpp"
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/analytic_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::study::fixed_gain {
 namespace {

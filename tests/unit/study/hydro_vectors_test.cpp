@@ -5,8 +5,8 @@
 #include "estimation/hydro/runge_kutta.hpp"
 #include "study/baselines/embedded_dynamics.hpp"
 #include "study/baselines/ukf.hpp"
-#include "support/hydro_vehicle.hpp"
 #include "support/vectors.hpp"
+#include "support/vehicles/hydro_vehicle.hpp"
 
 namespace fathom::study::hydro {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-#include "support/analytic_vehicle.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::study {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "support/survey_run.hpp"
+#include "support/vehicles/survey_run.hpp"
 
 namespace fathom::test {
 

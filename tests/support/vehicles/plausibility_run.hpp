@@ -11,7 +11,7 @@
 #include "samples/alignment/help.hpp"
 #include "sim/random.hpp"
 #include "sim/simulation.hpp"
-#include "support/simulated_drive.hpp"
+#include "support/vehicles/simulated_drive.hpp"
 
 namespace fathom::test {
 

@@ -1,42 +1,26 @@
-#pragma once
+#include "engine_states.hpp"
 
-#include <cstddef>
-#include <variant>
-#include <vector>
-
-#include "estimation/engine/fusion_engine.hpp"
-#include "support/drop_run.hpp"
-#include "support/small_vehicle.hpp"
-#include "support/survey_run.hpp"
+#include "drop_run.hpp"
+#include "small_vehicle.hpp"
+#include "survey_run.hpp"
 
 namespace fathom::test {
 
-/// A state that an engine saved, and what it hears next: for those who forge it.
-struct EngineState {
-  using Heard = std::variant<ImuSample, GpsSample, DvlSample, DepthSample, HeadingSample, UsblSample,
-                             AirspeedSample, PropulsionSample, FinsSample, Command>;
-
-  estimation::EngineConfig config;
-  std::vector<std::byte> image;
-  std::vector<Heard> next;  ///< of the first second after it
-
-  void feed_to(estimation::FusionEngine& engine) const {
-    for (const Heard& one : next) {
-      std::visit(
-          [&]<class T>(const T& sample) {
-            if constexpr (std::is_same_v<T, Command>) {
-              (void)engine.apply(sample);
-            } else {
-              engine.add(sample);
-            }
-          },
-          one);
-    }
+void EngineState::feed_to(estimation::FusionEngine& engine) const {
+  for (const Heard& one : next) {
+    std::visit(
+        [&]<class T>(const T& sample) {
+          if constexpr (std::is_same_v<T, Command>) {
+            (void)engine.apply(sample);
+          } else {
+            engine.add(sample);
+          }
+        },
+        one);
   }
-};
+}
 
-/// A survey with every instrument and most states, saved at an instant of the run.
-inline EngineState survey_state(double at_s) {
+EngineState survey_state(double at_s) {
   EngineState out;
   out.config = SurveyRun::config();
   (void)estimation::named_state_groups("full", out.config.groups);
@@ -102,8 +86,7 @@ inline EngineState survey_state(double at_s) {
   return out;
 }
 
-/// A drop while roll and pitch are being found.
-inline EngineState drop_state(double at_s) {
+EngineState drop_state(double at_s) {
   EngineState out;
   out.config = drop_config();
   out.config.horizon_s = 0.6;

@@ -1,27 +1,14 @@
-#pragma once
+#include "drop_run.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <variant>
-#include <vector>
 
-#include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
-#include "sim/simulation.hpp"
 
-/// A vehicle dropped from an aircraft: simulated, with the engine's configuration for it.
 namespace fathom::test {
 
-using estimation::EngineConfig;
-using estimation::FusionEngine;
-using estimation::InitialState;
-using estimation::SensorConfig;
-
-inline constexpr double kDegree = 0.017453292519943295;
-inline constexpr TimeNs kEpoch = 1'700'000'000 * kNsPerSecond;
-
-inline sim::Scenario drop() {
+sim::Scenario drop() {
   sim::Scenario out;
   out.vehicle.kind = sim::VehicleConfig::Kind::air_drop;
   out.environment.turbulence_m_s = 0.03;
@@ -55,7 +42,7 @@ inline sim::Scenario drop() {
   return out;
 }
 
-inline EngineConfig drop_config() {
+EngineConfig drop_config() {
   EngineConfig config;
   config.alignment.mode = estimation::StartMode::air_drop;
   config.imu.accel_bias_sigma_m_s2 = 0.011;
@@ -75,7 +62,7 @@ inline EngineConfig drop_config() {
   return config;
 }
 
-inline InitialState release() {
+InitialState release() {
   InitialState state;
   state.latitude_rad = 0.6;
   state.longitude_rad = 2.0;
@@ -90,22 +77,18 @@ inline InitialState release() {
   return state;
 }
 
-struct Fall {
-  explicit Fall(double until_s, std::uint64_t seed = 1) {
-    sim::Simulation simulation(drop(), {kEpoch, seed, "auv"});
-    while (simulation.time_s() < until_s - 1e-9) {
-      simulation.advance(samples);
-      truth.push_back(simulation.truth());
-    }
-    std::stable_sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
-      return header_of(a).received_ns < header_of(b).received_ns;
-    });
+Fall::Fall(double until_s, std::uint64_t seed) {
+  sim::Simulation simulation(drop(), {kEpoch, seed, "auv"});
+  while (simulation.time_s() < until_s - 1e-9) {
+    simulation.advance(samples);
+    truth.push_back(simulation.truth());
   }
-  std::vector<sim::Measurement> samples;
-  std::vector<Truth> truth;
-};
+  std::stable_sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return header_of(a).received_ns < header_of(b).received_ns;
+  });
+}
 
-inline void feed(FusionEngine& engine, const sim::Measurement& measurement) {
+void feed(FusionEngine& engine, const sim::Measurement& measurement) {
   std::visit([&engine](const auto& sample) { engine.add(sample); }, measurement);
 }
 
