@@ -83,6 +83,7 @@ struct ServiceHost::Impl {
         anchor(start.common.clock.anchor_file, SystemClock()),
         clock(make_clock(start.common.clock, anchor)),
         without_link(bus::without_link(start.common.bus.interfaces)),
+        awake_ns(SystemClock().monotonic_ns()),
         participant(participant_options(start)),
         status_writer(participant),
         deafness(start.common.bus.domain),
@@ -106,6 +107,7 @@ struct ServiceHost::Impl {
   std::unique_ptr<Clock> clock;
   runtime::StopSignal stop_signal;
   std::vector<bus::LocalAddress> without_link;  ///< as this service started
+  TimeNs awake_ns;  ///< monotonic, of the host. Others may meet this service, and give it up, before it runs
   bus::Participant participant;
   bus::Writer<ServiceStatus> status_writer;
   Deafness deafness;
@@ -119,7 +121,6 @@ struct ServiceHost::Impl {
   std::atomic<bool> stop_requested{false};
   std::atomic<int> exit_code{-1};
   std::string credentials_said;
-  TimeNs awake_ns = 0;  ///< monotonic, of the host
 };
 
 SampleHeader ServiceHost::Impl::header() const {
@@ -143,7 +144,7 @@ void ServiceHost::Impl::judge_credentials(ServiceStatus& status) {
 
 bool ServiceHost::Impl::given_up() {
   const TimeNs now = SystemClock().monotonic_ns();
-  const DurationNs stood_still_ns = awake_ns == 0 ? 0 : now - awake_ns;
+  const DurationNs stood_still_ns = now - awake_ns;
   awake_ns = now;
   const auto longest = participant.longest_silence_ns();
   if (!longest || stood_still_ns < *longest) return false;
