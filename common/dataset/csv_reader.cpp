@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <system_error>
 
@@ -19,11 +20,45 @@ namespace {
 // A row of the widest file has under 500 bytes; what exceeds this is not one of our files.
 constexpr std::size_t kLongestLine = 65'536;
 
+constexpr std::array<double, 19> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
+                                              1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
+
 std::string_view trim(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r";
+  const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
+  if (!text.empty() && !blank(text.front()) && !blank(text.back())) return text;
   const auto first = text.find_first_not_of(kBlanks);
   if (first == std::string_view::npos) return {};
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+// What std::from_chars makes of "-123.456", several times faster: a whole number and a power of ten that a
+// double holds exactly give the nearest double by one division. False, and nothing is said, for what is
+// written otherwise or has more digits.
+bool quick_number(std::string_view field, double& value) {
+  constexpr std::size_t kMostDigits = 18;
+  constexpr std::uint64_t kMostExact = 1ULL << 53U;
+  const bool negative = field.front() == '-';
+  if (negative) field.remove_prefix(1);
+  if (field.size() > kMostDigits + 1) return false;
+  std::uint64_t digits = 0;
+  std::size_t before = 0;
+  for (; before < field.size() && field[before] >= '0' && field[before] <= '9'; ++before)
+    digits = 10 * digits + static_cast<std::uint64_t>(field[before] - '0');
+  if (before == 0) return false;
+  std::size_t behind = 0;
+  if (before < field.size()) {
+    if (field[before] != '.') return false;
+    for (std::size_t i = before + 1; i < field.size(); ++i, ++behind) {
+      if (field[i] < '0' || field[i] > '9') return false;
+      digits = 10 * digits + static_cast<std::uint64_t>(field[i] - '0');
+    }
+    if (behind == 0) return false;
+  }
+  if (digits > kMostExact) return false;
+  const double magnitude = static_cast<double>(digits) / kPowersOfTen[behind];
+  value = negative ? -magnitude : magnitude;
+  return true;
 }
 
 // Field text in a message: short and printable whatever the file holds.
@@ -163,8 +198,9 @@ std::optional<CsvReader::Column> CsvReader::optional_column(std::string_view nam
 double CsvReader::number(Column column) const {
   std::string_view field = fields_[column];
   if (field.empty()) return kUnknown;
-  if (field.front() == '+') field.remove_prefix(1);
   double value = kUnknown;
+  if (quick_number(field, value)) return value;
+  if (field.front() == '+') field.remove_prefix(1);
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error == std::errc::result_out_of_range || error == std::errc::invalid_argument ||
       end != field.data() + field.size()) {

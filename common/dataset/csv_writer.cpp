@@ -25,116 +25,144 @@ constexpr double kMostScaled = 0x1p44;
 /// How near to a half that product must not be for the rounding of it to be sure.
 constexpr double kDoubtful = 0x1p-8;
 
-/// Of a whole number, at least `least` digits; returns the end.
-char* write_digits(std::uint64_t value, std::size_t least, char* out) {
-  std::array<char, 24> digits;
-  const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  const auto count = static_cast<std::size_t>(end - digits.data());
-  for (std::size_t i = count; i < least; ++i) *out++ = '0';
-  return std::copy_n(digits.data(), count, out);
+/// The longest field that fixed() writes the quick way: what is copied of it, whatever its length.
+constexpr std::size_t kQuickBytes = 32;
+/// The largest double has 309 digits before the point, and fixed() writes some behind it.
+constexpr std::size_t kLongestNumber = 400;
+
+/// The two digits of every whole number below a hundred, one pair after the other.
+constexpr std::array<char, 200> kPairs = [] {
+  std::array<char, 200> pairs{};
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    pairs[i] = static_cast<char>('0' + (i % 2 == 0 ? i / 20 : i / 2 % 10));
+  return pairs;
+}();
+
+/// Writes the last `count` digits of a whole number before `end`; returns where they begin.
+char* digits_before(char* end, std::uint64_t& value, std::size_t count) {
+  for (; count >= 2; count -= 2, value /= 100) std::memcpy(end -= 2, &kPairs[2 * (value % 100)], 2);
+  if (count == 1) {
+    *--end = static_cast<char>('0' + value % 10);
+    value /= 10;
+  }
+  return end;
+}
+
+/// Writes a whole number before `end`, without leading zeros; returns where it begins.
+char* whole_before(char* end, std::uint64_t value) {
+  while (value >= 100) end = digits_before(end, value, 2);
+  return digits_before(end, value, value >= 10 ? 2 : 1);
 }
 
 /// What std::to_chars writes with a fixed count of decimals, several times faster: one product, rounded to a
-/// whole number. Nothing where the product's own rounding might have decided.
-std::size_t quick_fixed(double value, int decimals, std::array<char, 32>& out) {
-  if (decimals < 1 || decimals >= static_cast<int>(kPowersOfTen.size())) return 0;
+/// whole number. Written before `end`, returns where it begins; `end` where the product's own rounding might
+/// have decided.
+char* quick_fixed(double value, int decimals, char* end) {
+  if (decimals < 1 || decimals >= static_cast<int>(kPowersOfTen.size())) return end;
   const double scaled = std::abs(value) * kPowersOfTen[static_cast<std::size_t>(decimals)];
-  if (!(scaled < kMostScaled)) return 0;
-  const auto rounded = static_cast<std::uint64_t>(scaled + 0.5);
-  const double off = std::abs(scaled - static_cast<double>(rounded));
-  if (off > 0.5 - kDoubtful) return 0;
-  char* at = out.data();
-  if (std::signbit(value)) *at++ = '-';
-  // One digit before the point at least; then the decimals move up by one place.
-  at = write_digits(rounded, static_cast<std::size_t>(decimals) + 1, at);
-  std::copy_backward(at - decimals, at, at + 1);
-  *(at - decimals) = '.';
-  return static_cast<std::size_t>(at + 1 - out.data());
+  if (!(scaled < kMostScaled)) return end;
+  const auto whole = static_cast<std::int64_t>(scaled + 0.5);
+  const double off = std::abs(scaled - static_cast<double>(whole));
+  if (off > 0.5 - kDoubtful) return end;
+  auto rounded = static_cast<std::uint64_t>(whole);
+  char* at = digits_before(end, rounded, static_cast<std::size_t>(decimals));
+  *--at = '.';
+  at = whole_before(at, rounded);
+  if (std::signbit(value)) *--at = '-';
+  return at;
 }
 
 }  // namespace
 
 CsvWriter::CsvWriter(const std::filesystem::path& path)
-    : file_(path.string()), out_(gzopen(path.c_str(), path.extension() == ".gz" ? "wb6" : "wbT")) {
+    : file_(path.string()),
+      out_(gzopen(path.c_str(), path.extension() == ".gz" ? "wb6" : "wbT")),
+      pending_(2 * kFlushBytes) {
   if (out_ == nullptr) throw DatasetError(file_ + ": cannot be written: " + std::strerror(errno));
 }
 
 CsvWriter::~CsvWriter() {
   if (out_ == nullptr) return;
-  gzwrite(out_, pending_.data(), static_cast<unsigned>(pending_.size()));
+  gzwrite(out_, pending_.data(), static_cast<unsigned>(used_));
   gzclose_w(out_);
 }
 
-void CsvWriter::separate() {
-  if (row_started_) pending_ += ',';
+char* CsvWriter::field(std::size_t most) {
+  if (pending_.size() - used_ <= most) pending_.resize(pending_.size() + most + kFlushBytes);
+  if (row_started_) pending_[used_++] = ',';
   row_started_ = true;
+  return &pending_[used_];
 }
 
 CsvWriter& CsvWriter::number(double value) {
-  separate();
+  char* const at = field(kLongestNumber);
   if (!known(value)) return *this;
-  std::array<char, 40> digits{};
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  pending_.append(digits.data(), result.ptr);
+  used_ += static_cast<std::size_t>(std::to_chars(at, at + kLongestNumber, value).ptr - at);
   return *this;
 }
 
 CsvWriter& CsvWriter::fixed(double value, int decimals) {
-  separate();
+  char* const at = field(kLongestNumber);
   if (!known(value)) return *this;
-  std::array<char, 32> quick;
-  if (const std::size_t length = quick_fixed(value, decimals, quick); length > 0) {
-    pending_.append(quick.data(), length);
+  std::array<char, 2 * kQuickBytes> quick{};
+  char* const end = quick.data() + kQuickBytes;
+  if (const char* const begin = quick_fixed(value, decimals, end); begin != end) {
+    std::memcpy(at, begin, kQuickBytes);  // a length that is known costs less than the right one
+    used_ += static_cast<std::size_t>(end - begin);
     return *this;
   }
-  std::array<char, 400> digits{};  // the largest double has 309 digits before the point
-  const auto result =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::fixed, decimals);
-  pending_.append(digits.data(), result.ptr);
+  const auto result = std::to_chars(at, at + kLongestNumber, value, std::chars_format::fixed, decimals);
+  used_ += static_cast<std::size_t>(result.ptr - at);
   return *this;
 }
 
 CsvWriter& CsvWriter::seconds(DurationNs duration) {
-  separate();
+  char* const at = field(kLongestNumber);
   const bool negative = duration < 0;
   const std::uint64_t magnitude =
       negative ? 0 - static_cast<std::uint64_t>(duration) : static_cast<std::uint64_t>(duration);
   constexpr std::uint64_t kPerSecond = kNsPerSecond;
-  std::array<char, 40> digits;
-  char* at = digits.data();
-  if (negative) *at++ = '-';
-  at = write_digits(magnitude / kPerSecond, 1, at);
-  *at++ = '.';
-  const char* const least = at + 2;
-  at = write_digits(magnitude % kPerSecond, 9, at);
-  while (at > least && *(at - 1) == '0') --at;
-  pending_.append(digits.data(), at);
+  std::array<char, 32> digits;
+  char* const end = digits.data() + digits.size();
+  constexpr std::size_t kDecimals = 9;
+  constexpr std::size_t kLeastDecimals = 2;
+  std::uint64_t below = magnitude % kPerSecond;
+  char* begin = digits_before(end, below, kDecimals);
+  const char* const least = begin + kLeastDecimals;
+  *--begin = '.';
+  begin = whole_before(begin, magnitude / kPerSecond);
+  if (negative) *--begin = '-';
+  const char* last = end;
+  while (last > least && *(last - 1) == '0') --last;
+  used_ += static_cast<std::size_t>(std::copy(static_cast<const char*>(begin), last, at) - at);
   return *this;
 }
 
 CsvWriter& CsvWriter::text(std::string_view word) {
-  separate();
-  pending_ += word;
+  std::copy(word.begin(), word.end(), field(word.size()));
+  used_ += word.size();
   return *this;
 }
 
 void CsvWriter::end_row() {
-  pending_ += '\n';
   row_started_ = false;
-  if (pending_.size() >= kFlushBytes) flush();
+  *field(1) = '\n';
+  ++used_;
+  row_started_ = false;
+  if (used_ >= kFlushBytes) flush();
 }
 
 void CsvWriter::line(std::string_view text) {
-  pending_ += text;
-  end_row();
+  row_started_ = false;
+  this->text(text).end_row();
 }
 
 void CsvWriter::flush() {
-  if (pending_.empty()) return;
-  if (gzwrite(out_, pending_.data(), static_cast<unsigned>(pending_.size())) <= 0) {
+  if (used_ == 0) return;
+  if (gzwrite(out_, pending_.data(), static_cast<unsigned>(used_)) <= 0) {
     throw DatasetError(file_ + ": cannot be written: " + std::strerror(errno));
   }
-  pending_.clear();
+  used_ = 0;
 }
 
 void CsvWriter::close() {

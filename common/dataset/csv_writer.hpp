@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/time.hpp"
 
@@ -35,12 +37,14 @@ class CsvWriter {
   void close();
 
  private:
-  void separate();
+  /// Where the next field begins, with room for `most` bytes.
+  char* field(std::size_t most);
   void flush();
 
   std::string file_;
   gzFile_s* out_;
-  std::string pending_;
+  std::vector<char> pending_;  ///< the first `used_` of them are not written yet
+  std::size_t used_ = 0;
   bool row_started_ = false;
 };
 

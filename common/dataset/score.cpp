@@ -21,29 +21,35 @@ double lerp_angle(double from_rad, double to_rad, double share) {
   return wrap_pi(from_rad + share * wrap_pi(to_rad - from_rad));
 }
 
-// e' P^-1 e for the leading n x n block of a row-major 3 x 3 covariance, by Cholesky; unknown when the block
-// is not positive definite.
-double mahalanobis2(const std::array<double, 3>& e, const std::array<double, 9>& covariance, std::size_t n) {
+/// e' P^-1 e for the leading 1 x 1, 2 x 2 and 3 x 3 block of a row-major 3 x 3 covariance, by Cholesky;
+/// unknown from the first block on that is not positive definite.
+std::array<double, 3> mahalanobis2(const std::array<double, 3>& e, const std::array<double, 9>& covariance) {
   std::array<double, 9> factor{};
   std::array<double, 3> whitened{};
+  std::array<double, 3> out{kUnknown, kUnknown, kUnknown};
   double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
+#pragma GCC unroll 3
+  for (std::size_t i = 0; i < 3; ++i) {
+#pragma GCC unroll 3
     for (std::size_t j = 0; j <= i; ++j) {
       double value = covariance[3 * i + j];
+#pragma GCC unroll 3
       for (std::size_t k = 0; k < j; ++k) value -= factor[3 * i + k] * factor[3 * j + k];
       if (i == j) {
-        if (!(value > 0.0)) return kUnknown;
+        if (!(value > 0.0)) return out;
         factor[3 * i + i] = std::sqrt(value);
       } else {
         factor[3 * i + j] = value / factor[3 * j + j];
       }
     }
     double value = e[i];
+#pragma GCC unroll 3
     for (std::size_t k = 0; k < i; ++k) value -= factor[3 * i + k] * whitened[k];
     whitened[i] = value / factor[3 * i + i];
     sum += whitened[i] * whitened[i];
+    out[i] = sum;
   }
-  return sum;
+  return out;
 }
 
 /// The attitude on the shortest turn between two. One of which an angle is unknown turns angle by angle.
@@ -202,9 +208,10 @@ NavError error_of(const NavState& state, const Truth& truth) {
     error.velocity_N_m_s[i] = state.velocity_N_m_s[i] - truth.velocity_N_m_s[i];
     error.rpy_rad[i] = wrap_pi(state.rpy_rad[i] - truth.rpy_rad[i]);
   }
-  error.nees_horizontal = mahalanobis2(error.position_N_m, state.position_covariance_N_m2, 2);
-  error.nees_position = mahalanobis2(error.position_N_m, state.position_covariance_N_m2, 3);
-  error.nees_velocity = mahalanobis2(error.velocity_N_m_s, state.velocity_covariance_N_m2_s2, 3);
+  const auto position = mahalanobis2(error.position_N_m, state.position_covariance_N_m2);
+  error.nees_horizontal = position[1];
+  error.nees_position = position[2];
+  error.nees_velocity = mahalanobis2(error.velocity_N_m_s, state.velocity_covariance_N_m2_s2)[2];
   return error;
 }
 

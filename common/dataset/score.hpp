@@ -96,6 +96,8 @@ struct Score {
 /// Collects errors and turns them into figures at the end.
 class Scorer {
  public:
+  /// Room for so many errors, for the sake of speed.
+  void reserve(std::size_t count) { errors_.reserve(count); }
   void add(const NavError& error);
   [[nodiscard]] const std::vector<NavError>& errors() const { return errors_; }
   [[nodiscard]] Score score() const;

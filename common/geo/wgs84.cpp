@@ -108,7 +108,7 @@ Geodetic moved_by(const Geodetic& from, const Eigen::Vector3d& delta_N_m) {
 }
 
 double wrap_pi(double angle_rad) {
-  if (angle_rad > -kPi && angle_rad <= kPi) return angle_rad;
+  if (!(angle_rad <= -kPi || angle_rad > kPi)) return angle_rad;  // an unknown angle as well
   const double wrapped = std::remainder(angle_rad, 2.0 * kPi);
   return wrapped <= -kPi ? wrapped + 2.0 * kPi : wrapped;
 }

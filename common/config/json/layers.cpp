@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
 #include <sys/stat.h>
@@ -36,12 +37,12 @@ std::string read_text(const std::string& file) {
   }
   std::ifstream in(file, std::ios::binary);
   if (!in) throw ConfigError(file, "cannot be read, expected a JSON configuration file");
-  std::string text(kMostBytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  const auto text = std::make_unique_for_overwrite<char[]>(kMostBytes + 1);
+  in.read(text.get(), kMostBytes + 1);
   if (in.bad()) throw ConfigError(file, "cannot be read, expected a JSON configuration file");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  if (text.size() > kMostBytes) throw ConfigError(file, "is larger, expected at most 4 MiB");
-  return text;
+  const auto size = static_cast<std::size_t>(in.gcount());
+  if (size > kMostBytes) throw ConfigError(file, "is larger, expected at most 4 MiB");
+  return {text.get(), size};
 }
 
 // Text in an override needs no quotes: what is not JSON is text, and so is a number that no double holds.

@@ -26,6 +26,8 @@ struct Antenna {
 /// Where a vehicle was, from its navigation states in the order of time.
 class Path {
  public:
+  /// Room for so many states, for the sake of speed.
+  void reserve(std::size_t count) { poses_.reserve(count); }
   /// States without a position leave a gap.
   void add(const NavState& state);
   /// Horizontal distance of the antenna from a fix at the fix's own instant, m; unknown where no two states

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "base/unknown.hpp"
 
 namespace fathom::dataset {
 namespace {
@@ -18,12 +21,13 @@ struct Number {
   int decimals;
 };
 
-/// One number a line, as the writer has it.
-std::vector<std::string> written(const std::vector<Number>& numbers) {
+/// The lines of a file that `write` fills.
+template <class Write>
+std::vector<std::string> written(Write write) {
   const std::string path = ::testing::TempDir() + "csv_writer_test.csv";
   {
     CsvWriter csv(path);
-    for (const Number& one : numbers) csv.fixed(one.value, one.decimals).end_row();
+    write(csv);
     csv.close();
   }
   std::ifstream file(path);
@@ -62,10 +66,34 @@ TEST(CsvWriter, FixedDecimalsAreThoseOfTheCLibrary) {
       near = std::nextafter(near, random() % 2 == 0 ? 1e308 : 0.0);
     numbers.push_back({near, decimals});
   }
-  const std::vector<std::string> lines = written(numbers);
+  const std::vector<std::string> lines = written([&](CsvWriter& csv) {
+    for (const Number& one : numbers) csv.fixed(one.value, one.decimals).end_row();
+  });
   ASSERT_EQ(lines.size(), numbers.size());
   for (std::size_t i = 0; i < numbers.size(); ++i)
     ASSERT_EQ(lines[i], expected(numbers[i])) << numbers[i].decimals << " decimals";
+}
+
+TEST(CsvWriter, SecondsAreExactWithTwoDecimalsAtLeast) {
+  EXPECT_EQ(written([](CsvWriter& csv) {
+              for (const DurationNs duration :
+                   {DurationNs{0}, DurationNs{1}, DurationNs{-1}, DurationNs{10'000'000},
+                    DurationNs{1'500'000'000}, DurationNs{-99'000'000'010},
+                    std::numeric_limits<DurationNs>::max(), std::numeric_limits<DurationNs>::min()})
+                csv.seconds(duration).end_row();
+            }),
+            (std::vector<std::string>{"0.00", "0.000000001", "-0.000000001", "0.01", "1.50", "-99.00000001",
+                                      "9223372036.854775807", "-9223372036.854775808"}));
+}
+
+TEST(CsvWriter, FieldsOfAnyLengthStandSideBySide) {
+  const std::string word(300'000, 'w');
+  EXPECT_EQ(written([&](CsvWriter& csv) {
+              csv.line("a,b,c");
+              csv.text(word).fixed(kUnknown, 3).text("").number(0.1).end_row();
+              csv.number(-1e300).number(kUnknown).end_row();
+            }),
+            (std::vector<std::string>{"a,b,c", word + ",,,0.1", "-1e+300,"}));
 }
 
 }  // namespace
