@@ -51,7 +51,11 @@ class FastSurvey {
     epoch_ns_ = epoch_ns;
     feeder_ = std::thread([this] { feed(); });
   }
-  [[nodiscard]] bool heard() const { return imu_.matched_readers() > 0 && dvl_.matched_readers() > 0; }
+  /// By fusion with each of its readers, and by the console, which reads positions as well.
+  [[nodiscard]] bool heard() const {
+    return imu_.matched_readers() > 0 && gps_.matched_readers() > 1 && dvl_.matched_readers() > 0 &&
+           depth_.matched_readers() > 0 && heading_.matched_readers() > 0 && verdicts_.matched_writers() > 0;
+  }
   [[nodiscard]] NavState state() const {
     const std::lock_guard lock(mutex_);
     return state_;
@@ -166,7 +170,7 @@ TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLin
   const auto wrong = tell({0.0, 1000.0, 0.0});
   EXPECT_EQ(wrong->wait(), 1) << wrong->err();
   const auto refused = nlohmann::json::parse(wrong->out());
-  EXPECT_EQ(refused.at("verdict"), "rejected") << wrong->out();
+  ASSERT_EQ(refused.at("verdict"), "rejected") << wrong->out() << fusion.err();
   EXPECT_NEAR(refused.at("east_m").get<double>(), -1000.0, 100.0);
   EXPECT_FALSE(refused.at("reason").get<std::string>().empty());
   const NavState before = survey.state();
