@@ -14,7 +14,7 @@ int leave(int exit_code) {
 }
 
 void abandon(int exit_code) {
-  std::fflush(nullptr);
+  std::fflush(stdout);  // standard error keeps nothing back, and a thread may hang in it
   std::_Exit(exit_code);
 }
 

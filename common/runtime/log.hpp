@@ -12,11 +12,12 @@ enum class LogLevel { trace, debug, info, warning, error };
 [[nodiscard]] bool parse_log_level(std::string_view word, LogLevel& level);
 
 /// A service's log: one line per event on standard error with UTC time, service and level. Thread-safe; the
-/// object is passed around by reference, there is no global one.
+/// object is passed around by reference, there is no global one. Nobody waits for standard error: a pipe that
+/// nobody reads or a disk that is busy costs lines, and how many is said afterwards.
 class Log {
  public:
   Log(std::string_view service, LogLevel level);
-  ~Log();
+  ~Log();  ///< flushes
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
 
@@ -26,6 +27,9 @@ class Log {
   void warning(std::string_view text);
   void error(std::string_view text);
   void write(LogLevel level, std::string_view text);
+
+  /// Waits until everything is written, a second at most; false: it is not.
+  bool flush();
 
  private:
   struct Impl;

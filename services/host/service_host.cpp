@@ -78,8 +78,8 @@ std::size_t append_bus_counters(const bus::BusCounters& counters, ServiceStatus&
 struct ServiceHost::Impl {
   explicit Impl(Start start_in)
       : start(std::move(start_in)),
-        log("fathom-" + start.info.name, log_level(start.common.log.level)),
         realtime_warnings(apply_realtime(start.common.realtime)),
+        log("fathom-" + start.info.name, log_level(start.common.log.level)),
         anchor(start.common.clock.anchor_file, SystemClock()),
         clock(make_clock(start.common.clock, anchor)),
         without_link(bus::without_link(start.common.bus.interfaces)),
@@ -101,8 +101,8 @@ struct ServiceHost::Impl {
   void leave_if_deaf();
 
   Start start;
+  std::vector<std::string> realtime_warnings;  ///< before all threads: they inherit what was asked for
   runtime::Log log;
-  std::vector<std::string> realtime_warnings;  ///< before the bus: its threads inherit what was asked for
   runtime::ClockAnchor anchor;
   std::unique_ptr<Clock> clock;
   runtime::StopSignal stop_signal;
@@ -174,6 +174,7 @@ void ServiceHost::Impl::leave_if_deaf() {
   log.error(
       "what arrives from the vehicle network has waited for 10 s and nothing takes it: a thread of Fast DDS "
       "stands still, and this service has to be started again");
+  log.flush();
   runtime::abandon(static_cast<int>(ExitCode::runtime_failure));
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -25,13 +26,16 @@ constexpr double kPatience_s = 60.0;
 /// Of the first participant of a domain: discovery and samples (RTPS 9.6.2.3).
 constexpr std::array<std::uint16_t, 2> kPorts{7400 + 250 * kDomain + 10, 7400 + 250 * kDomain + 11};
 
-/// Holds all threads of a process but the main one, and says which; none where that is not permitted.
+/// Holds all threads of a process but the main one and its log's, and says which; none where that is not
+/// permitted.
 std::vector<pid_t> hold_threads(pid_t process) {
   std::vector<pid_t> held;
   for (const auto& entry :
        std::filesystem::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
     const auto thread = static_cast<pid_t>(std::stol(entry.path().filename().string()));
-    if (thread == process) continue;
+    std::string name;
+    std::ifstream(entry.path() / "comm") >> name;
+    if (thread == process || name == "log") continue;
     if (ptrace(PTRACE_SEIZE, thread, nullptr, nullptr) != 0) return {};
     ptrace(PTRACE_INTERRUPT, thread, nullptr, nullptr);
     held.push_back(thread);

@@ -1,7 +1,11 @@
 #include <algorithm>
+#include <array>
+#include <sstream>
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "runtime/backoff.hpp"
 #include "runtime/build_info.hpp"
@@ -46,6 +50,46 @@ TEST(Log, AMessageIsOneLineOfPlainText) {
   EXPECT_EQ(std::count(written.begin(), written.end(), '\n'), 1);
   EXPECT_EQ(written.find('\x1b'), std::string::npos);
   EXPECT_NE(written.find("x?2026"), std::string::npos) << written;
+}
+
+TEST(Log, APipeThatNobodyReadsHoldsNobodyUp) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  const int own = dup(STDERR_FILENO);
+  ASSERT_EQ(dup2(ends[1], STDERR_FILENO), STDERR_FILENO);
+  close(ends[1]);
+  std::string written;
+  {
+    Log log("test", LogLevel::info);
+    for (int i = 0; i < 3000; ++i) log.info("line " + std::to_string(i) + std::string(100, '.'));
+    EXPECT_FALSE(log.flush());
+    std::thread reader([&] {
+      std::array<char, 4096> some{};
+      for (ssize_t got = 0; (got = read(ends[0], some.data(), some.size())) > 0;)
+        written.append(some.data(), static_cast<std::size_t>(got));
+    });
+    EXPECT_TRUE(log.flush());
+    log.info("afterwards");
+    EXPECT_TRUE(log.flush());
+    dup2(own, STDERR_FILENO);
+    reader.join();
+  }
+  close(own);
+  close(ends[0]);
+  EXPECT_NE(written.find(" line 2999."), std::string::npos);
+  // What is missing is said where it is missing.
+  std::istringstream lines(written);
+  int taken = 0;
+  int said_lost = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const auto lost = line.find(" lines of this log are lost");
+    if (lost == std::string::npos)
+      ++taken;
+    else
+      said_lost += std::stoi(line.substr(line.rfind(' ', lost - 1)));
+  }
+  EXPECT_GT(said_lost, 1000);
+  EXPECT_EQ(taken + said_lost, 3001);
 }
 
 TEST(BuildInfo, HashTellsTextsApart) {
