@@ -105,7 +105,7 @@ TEST_F(RealtimeService, SchedulesAllOfItsThreadsAsAsked) {
   const Threads threads = threads_of(service->pid());
   EXPECT_GE(threads.as_asked, 1);
   EXPECT_GT(threads.one_below, 3);  // Fast DDS's
-  EXPECT_EQ(threads.others, 1);  // the log's
+  EXPECT_EQ(threads.others, 1);     // the log's
   EXPECT_THAT(text(), ::testing::Not(::testing::AnyOf(HasSubstr("SCHED_FIFO"), HasSubstr("not locked"))));
   service->kill(SIGTERM);
   EXPECT_EQ(service->wait(), 0) << service->err();
