@@ -13,6 +13,7 @@
 
 #include "base/unknown.hpp"
 #include "dataset/dataset.hpp"
+#include "dataset/powers_of_ten.hpp"
 
 namespace fathom::dataset {
 namespace {
@@ -20,16 +21,11 @@ namespace {
 // A row of the widest file has under 500 bytes; what exceeds this is not one of our files.
 constexpr std::size_t kLongestLine = 65'536;
 
-constexpr std::array<double, 19> kPowersOfTen{1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8, 1e9,
-                                              1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
-
 std::string_view trim(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
   const auto blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
-  if (!text.empty() && !blank(text.front()) && !blank(text.back())) return text;
-  const auto first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  while (!text.empty() && blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 // What std::from_chars makes of "-123.456", several times faster: a whole number and a power of ten that a

@@ -12,14 +12,13 @@
 
 #include "base/unknown.hpp"
 #include "dataset/dataset.hpp"
+#include "dataset/powers_of_ten.hpp"
 
 namespace fathom::dataset {
 namespace {
 
 constexpr std::size_t kFlushBytes = 1U << 16U;
 
-constexpr std::array<double, 13> kPowersOfTen{1e0, 1e1, 1e2, 1e3,  1e4,  1e5, 1e6,
-                                              1e7, 1e8, 1e9, 1e10, 1e11, 1e12};
 /// Below it the product of a double and a power of ten is off by 2^-10 at most.
 constexpr double kMostScaled = 0x1p44;
 /// How near to a half that product must not be for the rounding of it to be sure.
@@ -87,11 +86,19 @@ CsvWriter::~CsvWriter() {
   gzclose_w(out_);
 }
 
+char* CsvWriter::room(std::size_t most) {
+  if (pending_.size() - used_ < most) pending_.resize(pending_.size() + most + kFlushBytes);
+  return pending_.data() + used_;
+}
+
 char* CsvWriter::field(std::size_t most) {
-  if (pending_.size() - used_ <= most) pending_.resize(pending_.size() + most + kFlushBytes);
-  if (row_started_) pending_[used_++] = ',';
+  char* const at = room(most + 1);
+  const bool first = !row_started_;
   row_started_ = true;
-  return &pending_[used_];
+  if (first) return at;
+  *at = ',';
+  ++used_;
+  return at + 1;
 }
 
 CsvWriter& CsvWriter::number(double value) {
@@ -145,16 +152,16 @@ CsvWriter& CsvWriter::text(std::string_view word) {
 }
 
 void CsvWriter::end_row() {
-  row_started_ = false;
-  *field(1) = '\n';
+  *room(1) = '\n';
   ++used_;
   row_started_ = false;
   if (used_ >= kFlushBytes) flush();
 }
 
 void CsvWriter::line(std::string_view text) {
-  row_started_ = false;
-  this->text(text).end_row();
+  std::copy(text.begin(), text.end(), room(text.size()));
+  used_ += text.size();
+  end_row();
 }
 
 void CsvWriter::flush() {

@@ -37,7 +37,9 @@ class CsvWriter {
   void close();
 
  private:
-  /// Where the next field begins, with room for `most` bytes.
+  /// Where the next byte goes, with room for `most`.
+  char* room(std::size_t most);
+  /// Where the next field goes, its comma written.
   char* field(std::size_t most);
   void flush();
 
