@@ -73,6 +73,10 @@ class Process {
   }
   [[nodiscard]] std::string out() const { return contents(out_); }
   [[nodiscard]] std::string err() const { return contents(err_); }
+  /// True as soon as standard error holds `text`: a service's log is written after what it tells of.
+  [[nodiscard]] bool says(const std::string& text, double seconds = 10.0) const {
+    return wait_until([&] { return err().find(text) != std::string::npos; }, seconds);
+  }
 
  private:
   static int temporary() {

@@ -36,10 +36,6 @@ class TlsTest : public ConsoleTest {
   [[nodiscard]] bool logged(const std::string& text) const {
     return console->err().find(text) != std::string::npos;
   }
-  /// The log comes after what it tells of.
-  [[nodiscard]] bool will_be_logged(const std::string& text) const {
-    return wait_until([&] { return logged(text); }, kPatienceS);
-  }
   void TearDown() override {
     ear.reset();
     ConsoleTest::TearDown();
@@ -53,7 +49,7 @@ TEST_F(TlsTest, PageLiveStreamAndOrdersGoThroughIt) {
   const Certificate own;
   use(own);
   start_and_wait(21, {"access.orders=true", "access.view_needs_token=true"});
-  EXPECT_TRUE(will_be_logged("console at https://127.0.0.1:" + std::to_string(port) + "/")) << console->err();
+  EXPECT_TRUE(console->says("console at https://127.0.0.1:" + std::to_string(port) + "/")) << console->err();
   EXPECT_FALSE(logged("in clear")) << console->err();
   const HttpAnswer page = get("/");
   EXPECT_EQ(page.status, 200);
@@ -83,7 +79,7 @@ TEST_F(TlsTest, PageLiveStreamAndOrdersGoThroughIt) {
   EXPECT_EQ(order({{"kind", "realign"}}, kViewerToken).status, 403);
   EXPECT_EQ(order({{"kind", "realign"}}, "wrong-0123456789012").status, 401);
   EXPECT_EQ(order({{"kind", "realign"}}, kOperatorToken).status, 200);
-  EXPECT_TRUE(will_be_logged("passed on an order of bridge (operator) from 127.0.0.1")) << console->err();
+  EXPECT_TRUE(console->says("passed on an order of bridge (operator) from 127.0.0.1")) << console->err();
   const std::string forged = "POST /api/order HTTP/1.1\r\nHost: " + host() + "\r\nOrigin: http://" + host() +
                              "\r\nContent-Type: application/json\r\nAuthorization: Bearer " + kOperatorToken +
                              "\r\nContent-Length: 18\r\n\r\n{\"kind\":\"realign\"}";
@@ -119,7 +115,7 @@ TEST_F(TlsTest, OnlyModernVersionsAreSpoken) {
   EXPECT_EQ(floor.version(), "TLSv1.2");
   const HttpPeer old(port, {own.certificate(), TLS1_1_VERSION});
   EXPECT_FALSE(old.connected());
-  EXPECT_TRUE(wait_until([&] { return logged("tls_handshake (400)"); }, kPatienceS)) << console->err();
+  EXPECT_TRUE(console->says("tls_handshake (400)")) << console->err();
   const Certificate another;
   EXPECT_FALSE(HttpPeer(port, {another.certificate()}).connected()) << "the test would notice a wrong one";
 }
@@ -135,11 +131,11 @@ TEST_F(TlsTest, PlainHttpAndGarbageAreRefusedLoggedAndCounted) {
   EXPECT_NE(plain.body.find("https"), std::string::npos) << "a person is told what to do";
   EXPECT_EQ(plain.head.find("Strict-Transport-Security"), std::string::npos) << "not to be said in clear";
   EXPECT_EQ(plain.body.find("<html"), std::string::npos);
-  EXPECT_TRUE(will_be_logged("plain_http (400)")) << console->err();
+  EXPECT_TRUE(console->says("plain_http (400)")) << console->err();
   EXPECT_EQ(HttpPeer(port).exchange(std::string(100000, '\x80')).status, 400);
   // What begins like a handshake and is none.
   (void)HttpPeer(port).exchange("\x16\x03\x01\xff\xff" + std::string(70000, 'z'));
-  EXPECT_TRUE(wait_until([&] { return logged("tls_handshake (400)"); }, kPatienceS)) << console->err();
+  EXPECT_TRUE(console->says("tls_handshake (400)")) << console->err();
   EXPECT_TRUE(wait_until([&] { return counter("requests_refused") >= 3; }, kPatienceS));
   EXPECT_EQ(get("/").status, 200);
 }
@@ -156,7 +152,7 @@ TEST_F(TlsTest, StalledHandshakesAreGivenUpAndOccupyNothing) {
   }
   EXPECT_EQ(get("/").status, 200) << "nobody waits for them";
   for (const auto& one : stalled) EXPECT_EQ(one->hear().status, 0) << "closed by the console";
-  EXPECT_TRUE(will_be_logged("tls_too_slow (408)")) << console->err();
+  EXPECT_TRUE(console->says("tls_too_slow (408)")) << console->err();
   EXPECT_EQ(get("/").status, 200);
   // One that gets through the handshake and then drips its head is given up as it is in clear.
   const auto slow = peer();
@@ -191,7 +187,7 @@ TEST_F(TlsTest, ACertificateThatEndsSoonIsWarnedOf) {
   EXPECT_EQ(status().state, ServiceState::healthy);
   EXPECT_GE(counter("certificate_days_left"), 11U);
   EXPECT_LE(counter("certificate_days_left"), 12U);
-  EXPECT_TRUE(will_be_logged("The TLS certificate expires in 1")) << console->err();
+  EXPECT_TRUE(console->says("The TLS certificate expires in 1")) << console->err();
 }
 
 TEST_F(TlsTest, AnExpiredOneIsShownAllTheSameAndSaid) {
@@ -201,14 +197,14 @@ TEST_F(TlsTest, AnExpiredOneIsShownAllTheSameAndSaid) {
   ASSERT_TRUE(wait_until([&] { return status().state == ServiceState::degraded; }, kPatienceS))
       << console->err();
   EXPECT_NE(status().text.find("expired at"), std::string::npos) << status().text;
-  EXPECT_TRUE(will_be_logged("The TLS certificate expired at")) << console->err();
+  EXPECT_TRUE(console->says("The TLS certificate expired at")) << console->err();
   EXPECT_FALSE(HttpPeer(port, {own.certificate()}).connected()) << "whoever checks refuses it";
 }
 
 TEST_F(TlsTest, TokensInClearAreWarnedOf) {
   start(29, {"http.address=0.0.0.0", "access.orders=true"});
-  EXPECT_TRUE(wait_until([&] { return logged("tokens pass over the network in clear"); }, kPatienceS));
-  EXPECT_TRUE(will_be_logged("Set tls.certificate_file")) << console->err();
+  EXPECT_TRUE(console->says("tokens pass over the network in clear"));
+  EXPECT_TRUE(console->says("Set tls.certificate_file")) << console->err();
   listen();
   EXPECT_TRUE(wait_until(
       [&] { return status().text.find("tokens pass over the network") != std::string::npos; }, kPatienceS))

@@ -255,7 +255,7 @@ TEST_F(MonitorTest, ATakenPortAndAnImpossibleJournalAreSaidAndTheMonitorGoesOn) 
   command_line.insert(command_line.end(), {"--set", "journal.path=/dev/null"});
   monitor = std::make_unique<Process>("fathom-monitor", command_line);
   ASSERT_TRUE(drive([&] { network->gps(true); }, [&] { return ear->active("journal_failed"); }));
-  EXPECT_NE(monitor->err().find("regular file"), std::string::npos) << monitor->err();
+  EXPECT_TRUE(monitor->says("regular file")) << monitor->err();
 }
 
 TEST_F(MonitorTest, ASecondWriterIsNamedByServiceProcessAndHost) {
