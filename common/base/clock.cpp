@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace fathom {
 
@@ -13,6 +14,12 @@ TimeNs SystemClock::utc_ns() const {
 TimeNs SystemClock::monotonic_ns() const {
   using std::chrono::duration_cast;
   return duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+TimeNs SystemClock::boottime_ns() const {
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  return now.tv_sec * kNsPerSecond + now.tv_nsec;
 }
 
 ScaledClock::ScaledClock(TimeNs epoch_utc_ns, double rate) : epoch_utc_ns_(epoch_utc_ns), rate_(rate) {

@@ -20,6 +20,8 @@ class SystemClock : public Clock {
  public:
   [[nodiscard]] TimeNs utc_ns() const override;
   [[nodiscard]] TimeNs monotonic_ns() const override;
+  /// Monotonic, and it goes on while the host sleeps.
+  [[nodiscard]] TimeNs boottime_ns() const;
 };
 
 /// UTC as it was at an instant, carried on by the monotonic clock: who sets the host's UTC afterwards moves

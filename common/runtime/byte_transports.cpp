@@ -95,22 +95,23 @@ asio::awaitable<void> ByteSource::Impl::serve_serial() {
 }
 
 asio::awaitable<void> ByteSource::Impl::serve_tcp_client() {
-  tcp::socket socket(io);
+  const auto socket = std::make_shared<tcp::socket>(io);
   const tcp::endpoint device(asio::ip::make_address(config.address),
                              static_cast<asio::ip::port_type>(config.port));
   // An address that nobody answers for would hold the attempt for minutes.
   asio::steady_timer timeout(io, std::chrono::nanoseconds(from_seconds(kConnectTimeout_s)));
-  timeout.async_wait([&socket](const asio::error_code& error) {
-    if (!error) socket.close();
+  timeout.async_wait([socket](const asio::error_code& error) {  // it may run after an attempt that has failed
+    asio::error_code ignored;
+    if (!error) socket->close(ignored);
   });
-  co_await socket.async_connect(device, asio::use_awaitable);
+  co_await socket->async_connect(device, asio::use_awaitable);
   timeout.cancel();
-  keep_alive(socket);
+  keep_alive(*socket);
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": connected");
   if (!config.greeting.empty())
-    co_await asio::async_write(socket, asio::buffer(config.greeting), asio::use_awaitable);
-  co_await read_all(socket);
+    co_await asio::async_write(*socket, asio::buffer(config.greeting), asio::use_awaitable);
+  co_await read_all(*socket);
 }
 
 asio::awaitable<void> ByteSource::Impl::serve_tcp_server() {

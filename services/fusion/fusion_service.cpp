@@ -357,7 +357,6 @@ struct FusionService::Impl {
 
   host::ServiceHost& host;
   const Name vehicle;
-
   const archive::CheckpointLabel label;
 
   std::mutex forecast_mutex;  // guards the taken forecast; locked before the other mutex
@@ -381,6 +380,9 @@ struct FusionService::Impl {
 
   std::unique_ptr<ReplicaLink> link;  // none where this is the only fusion
   VerdictPublisher verdicts;
+  // The link ends here: its hooks use everything above.
+  const std::unique_ptr<ReplicaLink, void (*)(ReplicaLink*)> link_end{link.get(),
+                                                                      [](auto* it) { it->end(); }};
 
   // Readers end first: their handlers use everything above.
   std::vector<std::shared_ptr<void>> aiding_readers;

@@ -83,7 +83,7 @@ struct ServiceHost::Impl {
         anchor(start.common.clock.anchor_file, SystemClock()),
         clock(make_clock(start.common.clock, anchor)),
         without_link(bus::without_link(start.common.bus.interfaces)),
-        awake_ns(SystemClock().monotonic_ns()),
+        awake_ns(SystemClock().boottime_ns()),
         participant(participant_options(start)),
         status_writer(participant),
         deafness(start.common.bus.domain),
@@ -107,7 +107,7 @@ struct ServiceHost::Impl {
   std::unique_ptr<Clock> clock;
   runtime::StopSignal stop_signal;
   std::vector<bus::LocalAddress> without_link;  ///< as this service started
-  TimeNs awake_ns;  ///< monotonic, of the host. Others may meet this service, and give it up, before it runs
+  TimeNs awake_ns;  ///< since the host's start. Others may meet this service, and give it up, before it runs
   bus::Participant participant;
   bus::Writer<ServiceStatus> status_writer;
   Deafness deafness;
@@ -143,7 +143,7 @@ void ServiceHost::Impl::judge_credentials(ServiceStatus& status) {
 }
 
 bool ServiceHost::Impl::given_up() {
-  const TimeNs now = SystemClock().monotonic_ns();
+  const TimeNs now = SystemClock().boottime_ns();
   const DurationNs stood_still_ns = now - awake_ns;
   awake_ns = now;
   const auto longest = participant.longest_silence_ns();

@@ -60,43 +60,35 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
        bool raw_in)
       : bus(bus_in),
         ops(ops_in),
-        raw(raw_in),
+        place{ops_in, raw_in},
         follows(!options_in.deadline_ns),
         options(options_in),
         qos(reader_qos(*bus.subscriber, ops.topic, options)),
         handler(std::move(handler_in)),
         requested(summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(),
                             qos.liveliness())) {
-    slot.sample = create();
-    slot.raw = raw;
+    slot.sample = place.create();
+    slot.raw = raw_in;
     if (!make()) {
-      bus.work_queue.forget(this);
-      close();
-      destroy()(slot.sample);
+      end();
       throw BusError("reader of " + std::string(ops.topic) + ": Fast DDS could not create it" +
                      bus.why_not(ops.topic));
     }
     bus.check_types(ops.topic);
   }
 
-  ~Impl() override {
-    bus.delivery_watch->leave(this);
-    stop();
-    bus.work_queue.forget(this);
-    close();
-    destroy()(slot.sample);
-  }
+  ~Impl() override { end(); }
 
-  [[nodiscard]] void* create() const { return raw ? new RawSample() : ops.create(); }
-  using Destroy = void (*)(void* sample);
-  [[nodiscard]] Destroy destroy() const {
-    return raw ? [](void* sample) { delete static_cast<RawSample*>(sample); } : ops.destroy;
-  }
-  [[nodiscard]] std::string key_text(const void* sample) const {
-    if (!raw) return ops.key_text(sample);
-    const std::unique_ptr<void, Destroy> typed(ops.create(), ops.destroy);
-    const bool valid = decode(ops, *static_cast<const RawSample*>(sample), typed.get());
-    return valid ? ops.key_text(typed.get()) : "an unknown key";
+  /// A callback may ask for work until Fast DDS has given its reader up.
+  void end() {
+    {
+      const std::lock_guard lock(reader_mutex);
+      ended = true;
+    }
+    bus.delivery_watch->leave(this);
+    close();
+    bus.work_queue.forget(this);
+    place.destroy()(slot.sample);
   }
 
   /// Fast DDS calls back before it has returned the reader that it makes: work that such a call asks for
@@ -105,7 +97,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   void later(int kind, std::function<void()> work, milliseconds delay = milliseconds(0)) {
     const auto locked = [this, work = std::move(work)] {
       const std::lock_guard lock(reader_mutex);
-      work();
+      if (!ended) work();
     };
     bus.work_queue.run(this, locked, kind, delay);
   }
@@ -135,13 +127,9 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   }
 
   /// Whoever is in the handler now is waited for; whoever comes later sees `closed`.
-  void stop() {
-    closed = true;
-    const std::scoped_lock wait(handler_mutex, mutex);
-  }
-
   void close() {
-    stop();
+    closed = true;
+    { const std::scoped_lock wait(handler_mutex, mutex); }
     if (reader == nullptr) return;
     reader->set_listener(nullptr);
     bus.subscriber->delete_datareader(reader);
@@ -217,10 +205,21 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     receive(from);
   }
 
+  /// Fast DDS holds its reader while it calls back, and to take a sample that reader is needed: who calls
+  /// back does not wait for who takes. Whoever is taking looks again.
   void receive(dds::DataReader* from) {
-    const std::lock_guard lock(handler_mutex);
+    arrived = true;
+    while (arrived && handler_mutex.try_lock()) {
+      const std::lock_guard lock(handler_mutex, std::adopt_lock);
+      arrived = false;
+      take_all(*from);
+    }
+  }
+
+  /// Precondition: handler_mutex held.
+  void take_all(dds::DataReader& from) {
     dds::SampleInfo info;
-    while (!closed && done(from->take_next_sample(&slot, &info))) {
+    while (!closed && done(from.take_next_sample(&slot, &info))) {
       const WriterGuid guid = to_guid(info.sample_identity.writer_guid());
       bus.delivery_watch->heard(this, guid);
       if (!info.valid_data) continue;  // an instance ended
@@ -249,8 +248,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     const std::lock_guard lock(mutex);
     if (order.may_pass(arrival)) return true;
     Held kept = held;
-    kept.sample = {slot.sample, destroy()};
-    slot.sample = create();
+    kept.sample = {slot.sample, place.destroy()};
+    slot.sample = place.create();
     order.keep(arrival, std::move(kept), clock.monotonic_ns());
     return false;
   }
@@ -260,7 +259,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     handler(sample, held.info);
     const std::lock_guard lock(mutex);
     if (requested.deadline_ns == kForever) return;
-    const auto text = [&] { return key_text(sample); };
+    const auto text = [&] { return place.key_text(sample); };
     const auto recovered = deadlines.heard(held.instance, held.info.writer_guid, text);
     if (recovered) bus.events.recovered(BusEventKind::deadline_missed, ops.topic, *recovered);
   }
@@ -286,7 +285,6 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 
   /// Precondition: mutex held.
   void hand_over_later(int task, milliseconds delay) {
-    if (closed) return;
     const auto work = [this] {
       if (reader != nullptr) receive(reader);
     };
@@ -366,7 +364,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
 
   Participant::Impl& bus;
   const TopicOps& ops;
-  const bool raw;
+  const SamplePlace place;
   const SystemClock clock;
   const bool follows;      // the deadline is the topic's slowest writer's
   ReaderOptions options;   // of whoever holds reader_mutex
@@ -374,7 +372,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   std::atomic<bool> closed = false;
   std::atomic<int> matched = 0;
 
-  std::mutex handler_mutex;  // held while samples are handed over
+  std::atomic<bool> arrived = false;  // something that nobody has looked at
+  std::mutex handler_mutex;           // held while samples are taken and handed over
   Handler handler;
   SampleSlot slot;
 
@@ -385,6 +384,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   InOrder<Held> order;
 
   std::mutex reader_mutex;  // taken before the other two; of what follows, as long as work may be left
+  bool ended = false;
   dds::DataReader* reader = nullptr;
   std::optional<std::chrono::steady_clock::time_point> renewed;
 };

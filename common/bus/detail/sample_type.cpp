@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <memory>
 #include <new>
 #include <stdexcept>
 
@@ -45,6 +46,21 @@ bool decode_from(const TopicOps& ops, std::span<char> bytes, void* sample) {
 }
 
 }  // namespace
+
+void* SamplePlace::create() const {
+  return raw ? new RawSample() : ops.create();
+}
+
+SamplePlace::Destroy SamplePlace::destroy() const {
+  return raw ? [](void* sample) { delete static_cast<RawSample*>(sample); } : ops.destroy;
+}
+
+std::string SamplePlace::key_text(const void* sample) const {
+  if (!raw) return ops.key_text(sample);
+  const std::unique_ptr<void, Destroy> typed(ops.create(), ops.destroy);
+  const bool valid = decode(ops, *static_cast<const RawSample*>(sample), typed.get());
+  return valid ? ops.key_text(typed.get()) : "an unknown key";
+}
 
 SampleType::SampleType(const TopicOps& ops) : TopicType(ops.type_name, ops.max_size), ops_(ops) {}
 

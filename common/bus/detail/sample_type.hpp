@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "bus/detail/topic_ops.hpp"
@@ -19,6 +20,18 @@ struct SampleSlot {
   const std::vector<std::uint8_t>* wire = nullptr;  ///< writing: the bytes of `sample`, sent as they are
 };
 using RawSample = std::vector<std::uint8_t>;
+
+/// What a slot's sample is made of.
+struct SamplePlace {
+  using Destroy = void (*)(void* sample);
+
+  const TopicOps& ops;
+  bool raw = false;  ///< a RawSample
+
+  [[nodiscard]] void* create() const;
+  [[nodiscard]] Destroy destroy() const;
+  [[nodiscard]] std::string key_text(const void* sample) const;
+};
 
 /// Teaches Fast DDS one topic's type. Unlike generated type supports it is safe to share between threads, and
 /// no bytes from the network make it throw.

@@ -96,6 +96,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
     retire(old);
     retire(next);
     retire(writer);
+    bus.work_queue.forget(this);  // what a callback asked for meanwhile
   }
 
   [[nodiscard]] bool exclusive() const { return qos.ownership().kind == dds::EXCLUSIVE_OWNERSHIP_QOS; }

@@ -77,13 +77,16 @@ struct ReplicaLink::Impl {
             [this](const NavState& state, const bus::SampleInfo& info) { on_heard(state, info); },
             nav_state_options(host, config)) {}
 
-  ~Impl() {
+  ~Impl() { end(); }
+
+  void end() {
     {
       const std::lock_guard lock(thread_mutex);
       stop = true;
     }
     wake.notify_all();
     if (thread.joinable()) thread.join();
+    taker.reset();  // whoever takes a state over is waited for
   }
 
   [[nodiscard]] bool mine(const SampleHeader& header) const { return header.sensor == Name(host.name()); }
@@ -327,6 +330,10 @@ ReplicaLink::~ReplicaLink() = default;
 
 void ReplicaLink::begin() {
   impl_->thread = std::thread([impl = impl_.get()] { impl->run(); });
+}
+
+void ReplicaLink::end() {
+  impl_->end();
 }
 
 bool ReplicaLink::own(const NavState& state) {

@@ -50,6 +50,8 @@ class ReplicaLink {
 
   /// Starts the thread that publishes, listens and calls the hooks.
   void begin();
+  /// Ends that thread. No hook runs any more, and none is called again.
+  void end();
 
   /// Takes a new state of the engine. Returns whether to publish it.
   [[nodiscard]] bool own(const NavState& state);

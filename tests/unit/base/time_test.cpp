@@ -86,6 +86,14 @@ TEST(Clock, ManualClockStepsUtcAlone) {
   EXPECT_EQ(clock.utc_ns(), 1005 - 3600 * kNsPerSecond);
 }
 
+TEST(SystemClock, BootTimeIsNeverBehindTheMonotonicOne) {
+  const SystemClock host;
+  const TimeNs monotonic_ns = host.monotonic_ns();
+  const TimeNs boottime_ns = host.boottime_ns();
+  EXPECT_GE(boottime_ns, monotonic_ns) << "it also counts what the host slept";
+  EXPECT_GE(host.boottime_ns(), boottime_ns);
+}
+
 TEST(Name, KeepsThirtyOneBytesInPlace) {
   const Name name("0123456789012345678901234567890123456789");
   EXPECT_EQ(name.view(), "0123456789012345678901234567890");
