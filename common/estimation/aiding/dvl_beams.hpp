@@ -40,7 +40,7 @@ class DvlBeams {
     if (known(sample.beam_angle_rad) && !(sample.beam_angle_rad > 0.05 && sample.beam_angle_rad < 1.4))
       return Usable::out_of_range;
     for (const double beam : sample.beam_velocity_m_s)
-      if (known(beam) && !(std::abs(beam) < 50.0)) return Usable::out_of_range;
+      if (known(beam) && !(std::abs(beam) < kMostDvlSpeed_m_s)) return Usable::out_of_range;
     if (sample.mode == DvlMode::water && !s.index.has(Group::current)) return Usable::not_estimated;
     return Usable::yes;
   }

@@ -5,6 +5,9 @@
 
 namespace fathom::estimation {
 
+/// A component that is greater is none that a DVL can measure.
+inline constexpr double kMostDvlSpeed_m_s = 50.0;
+
 /// What an instrument of this kind has where its configuration says nothing.
 inline void set_defaults(SensorConfig& sensor, const DvlSample* /*kind*/) {
   sensor.sigma = {0.01, 0.01, 0.01};
@@ -71,7 +74,7 @@ class DvlVelocity {
   [[nodiscard]] static Usable usable(const AidingState& s, const DvlSample& sample) {
     bool any = false;
     for (const double v : sample.velocity_D_m_s) {
-      if (known(v) && !(std::abs(v) < 50.0)) return Usable::out_of_range;
+      if (known(v) && !(std::abs(v) < kMostDvlSpeed_m_s)) return Usable::out_of_range;
       any = any || known(v);
     }
     if (!any) return Usable::out_of_range;

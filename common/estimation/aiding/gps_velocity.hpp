@@ -4,6 +4,9 @@
 
 namespace fathom::estimation {
 
+/// A component that is greater is no velocity of a vehicle.
+inline constexpr double kMostGpsSpeed_m_s = 1000.0;
+
 /// Velocity of the GPS antenna along N (AID-GPSV-1..2). What the latency state does to the swing of the lever
 /// is left out.
 class GpsVelocity {
@@ -43,7 +46,7 @@ class GpsVelocity {
       return Usable::out_of_range;
     bool any = false;
     for (const double v : sample.velocity_N_m_s) {
-      if (known(v) && !(std::abs(v) < 1000.0)) return Usable::out_of_range;
+      if (known(v) && !(std::abs(v) < kMostGpsSpeed_m_s)) return Usable::out_of_range;
       any = any || known(v);
     }
     return any ? Usable::yes : Usable::out_of_range;

@@ -20,8 +20,10 @@ std::size_t step_capacity(const EngineConfig& config) {
 }
 
 std::size_t snapshot_capacity(const EngineConfig& config) {
-  // Beside the regular ones those that stand closer: eight for each factor of e in age.
-  return static_cast<std::size_t>(std::ceil(config.horizon_s / config.snapshot_interval_s)) + 4 + kYoung;
+  // Beside the regular ones those that stand closer: eight for each factor of e in age. Late measurements may
+  // leave two in each interval.
+  const auto regular = static_cast<std::size_t>(std::ceil(config.horizon_s / config.snapshot_interval_s));
+  return std::max(regular + kYoung, 2 * regular) + 4;
 }
 
 }  // namespace

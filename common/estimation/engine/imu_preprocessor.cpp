@@ -10,6 +10,8 @@ using Eigen::Vector3d;
 
 /// Intervals longer than this many nominal ones have lost samples in them.
 constexpr double kLostFactor = 1.5;
+/// Of the jitter that is remembered, from sample to sample: a clock that runs off by 0.7 % fills nothing in.
+constexpr double kKept = 63.0 / 64.0;
 
 bool finite(const Vector3d& v) {
   return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
@@ -38,6 +40,19 @@ bool ImuPreprocessor::read(const ImuSample& sample) {
   rate_ = turn * rate_;
   force_ = turn * force_;
   return true;
+}
+
+double ImuPreprocessor::stretch_to_fill_s(double dt_s) {
+  // The stamps jitter, the increments do not. A sample that is late looks as if one before it were lost; when
+  // the next ones follow too soon, nothing was.
+  uncovered_s_ = kKept * uncovered_s_ + dt_s - covered_s_;
+  const double most_s = (kLostFactor - 1.0) * covered_s_;
+  double fill_s = 0.0;
+  if (uncovered_s_ > most_s) fill_s = uncovered_s_;
+  if (uncovered_s_ < -most_s) fill_s = std::max(uncovered_s_, -filled_s_);
+  uncovered_s_ -= fill_s;
+  filled_s_ += fill_s;
+  return fill_s;
 }
 
 ImuPreprocessor::Result ImuPreprocessor::take(const ImuSample& sample) {
@@ -79,6 +94,7 @@ ImuPreprocessor::Result ImuPreprocessor::take(const ImuSample& sample) {
     const double silent = static_cast<double>(sample.header.received_ns - last_received_ns_) * 1e-9;
     result.unobserved_s = std::clamp(silent, 0.0, 1e6);
     has_before_ = false;
+    uncovered_s_ = filled_s_ = 0.0;
     settle();
     result.outcome = Outcome::rebased;
     return result;
@@ -92,8 +108,7 @@ ImuPreprocessor::Result ImuPreprocessor::take(const ImuSample& sample) {
   const Vector3d rate_between = 0.5 * (last_rate_ + rate_);
   const Vector3d force_between = 0.5 * (last_force_ + force_);
   if (covered_s_ > 0.0) {
-    // The stamps jitter, the increments do not; only a stretch that they do not cover is filled in.
-    const double missing = dt > kLostFactor * covered_s_ ? dt - covered_s_ : 0.0;
+    const double missing = stretch_to_fill_s(dt);
     in.dtheta_rad = covered_s_ * rate_ + missing * rate_between;
     in.dv_m_s = covered_s_ * force_ + missing * force_between;
   } else {

@@ -37,6 +37,9 @@ class ImuPreprocessor {
 
   /// Mean rate and force of a sample along B; false when it is not usable.
   bool read(const ImuSample& sample);
+  /// The stretch of an interval that its increments do not cover. Negative: as much was filled in before and
+  /// proves to be theirs.
+  [[nodiscard]] double stretch_to_fill_s(double dt_s);
 
   const Setup* setup_;
   bool started_ = false;
@@ -50,6 +53,10 @@ class ImuPreprocessor {
   Eigen::Vector3d mean_rate_before_ = Eigen::Vector3d::Zero();  ///< over the last interval
   Eigen::Vector3d mean_force_before_ = Eigen::Vector3d::Zero();
   bool has_before_ = false;
+  // Of increments: by how much the stamps are ahead of what they and the filled stretches cover, which fades,
+  // and how long those stretches are together.
+  double uncovered_s_ = 0.0;
+  double filled_s_ = 0.0;
   ImuFault fault_ = ImuFault::none;  ///< since the last sample that was taken
   TimeNs refused_ns_ = 0;
   int refused_in_a_row_ = 0;

@@ -23,6 +23,10 @@ void ImuPreprocessor::fields(Archive& archive, Self& self) {
   archive("fault", self.fault_, ImuFault::stale);
   archive("refused_ns", self.refused_ns_, fathom::archive::kInstant);
   archive("refused_in_a_row", self.refused_in_a_row_, fathom::archive::Whole{0, kNewAxis - 1});
+  if (archive.since(10)) {
+    archive("uncovered_s", self.uncovered_s_, fathom::archive::finite());
+    archive("filled_s", self.filled_s_, fathom::archive::finite());
+  }
 }
 
 }  // namespace fathom::estimation

@@ -227,6 +227,7 @@ void Navigator::fields(Archive& archive, Self& self) {
   if (archive.since(6)) archive("plausibility", self.plausibility_);
   if (archive.since(8)) Plausibility::later_fields(archive, self.plausibility_);
   if (archive.since(9)) archive("stride", self.estimate_.stride);
+  if (archive.since(10)) archive("gap_ns", self.usage_.gap_ns, fathom::archive::kInstant);
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

@@ -112,6 +112,17 @@ void Estimate::settle_biases(const Setup& setup, ErrorFilter& covariance, double
   widen_group(Group::accel_bias, imu.accel_bias_settling_m_s2);
 }
 
+bool Estimate::is_sound() const {
+  constexpr double kPole_rad = 1.5707963267948966;
+  constexpr int kKinematic = 9;
+  const NavSolution& nav = state.nav;
+  const auto& q = nav.q_NB;
+  double sum =
+      q.w + q.x + q.y + q.z + nav.v_N_m_s.sum() + nav.position.longitude_rad + nav.position.altitude_m;
+  for (int i = 0; i < kKinematic; ++i) sum += filter(i, i);
+  return std::isfinite(sum) && std::abs(nav.position.latitude_rad) <= kPole_rad;
+}
+
 void Estimate::widen(const GapSigma& sigma) {
   for (int i = 0; i < 3; ++i) {
     filter.widen(i, sigma.position_m * sigma.position_m);

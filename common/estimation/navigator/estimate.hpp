@@ -34,6 +34,8 @@ struct Estimate {
   [[nodiscard]] double since(TimeNs stamp_ns) const {
     return stamp_ns == 0 ? kUnknown : to_seconds(now_ns - stamp_ns);
   }
+  /// All of it are numbers, and the position is one on Earth.
+  [[nodiscard]] bool is_sound() const;
   /// Integrates within the interval, from now_ns until an instant in it. The filter follows in strides.
   void advance(const Setup& setup, const ImuStep& step, TimeNs until_ns);
   /// Lets the filter follow to now: before anything is done with its covariance but to show it.

@@ -17,6 +17,8 @@ constexpr double kMostRoom = 1e6;
 /// A position that somebody tells moves the estimate between two of its own corrections: further than this,
 /// whoever steers by it is told of a step.
 constexpr double kNoticed_m = 1.0;
+/// For so long a time without inertial samples may be why nothing fits.
+constexpr double kGapMatters_s = 120.0;
 
 VerdictKind verdict_of(Usable usable) {
   switch (usable) {
@@ -88,7 +90,11 @@ Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
   if (!admit(trial) || !observe(trial)) return trial.judgement;
   gate(trial);
   reacquire(trial);
-  if (update(trial)) account(trial);
+  if (update(trial)) {
+    account(trial);
+  } else if (motion_is_lost(trial)) {
+    lose_attitude();
+  }
   return trial.judgement;
 }
 
@@ -266,6 +272,19 @@ bool Navigator::is_frozen(Trial& trial) const {
 bool Navigator::is_on_probation(const Trial& trial) const {
   const bool in_outage = gps_outage_s() > setup_->config.gps_timeout_s;
   return trial.fix && Reacquisition::on_probation(trial.config, trial.whole, in_outage);
+}
+
+bool Navigator::motion_is_lost(const Trial& trial) const {
+  const double patience_s = trial.config.reacquire_s;
+  const bool gap = estimate_.since(usage_.gap_ns) <= kGapMatters_s;
+  // Comparisons with NaN are false: nothing else ever measured a velocity over ground.
+  const bool alone = !(estimate_.since(usage_.bottom_used_ns) <= patience_s) &&
+                     !setup_->config.constraints.non_holonomic.enabled;
+  const bool starts_again =
+      setup_->config.alignment.mode != StartMode::at_rest && !waits_for_state() && starter_.goes_fast();
+  return gap && alone && starts_again && patience_s > 0.0 && trial.judgement.kind == VerdictKind::disputed &&
+         trial.policy.fix == Fix::satellite &&
+         estimate_.since(trial.instrument.candidate.since_ns) < 0.5 * patience_s;
 }
 
 VelocityOver Navigator::velocity_along(const AidingPolicy& policy) const {

@@ -14,6 +14,7 @@ constexpr DurationNs kJudged_ns = 50'000'000;
 Navigator::Navigator(const Setup& setup) : setup_(&setup), estimate_(setup), instruments_(setup) {}
 
 void Navigator::finish(const ImuStep& step) {
+  if (estimate_.navigating && !estimate_.is_sound()) lose_all();
   if (step.gap_s > 0.0) finish_gap(step.gap_s);
   plausibility_.add(*setup_, step, estimate_.now_ns);
   if (!estimate_.navigating) {
@@ -33,6 +34,7 @@ void Navigator::finish(const ImuStep& step) {
 
 void Navigator::finish_gap(double gap_s) {
   estimate_.follow(*setup_);
+  usage_.gap_ns = estimate_.now_ns;
   if (gap_s > setup_->config.imu.lost_gap_s) {
     if (!descent_.resume(*setup_, gap_s, estimate_, alignment_)) lose_attitude();
   } else if (estimate_.navigating) {
@@ -180,6 +182,13 @@ void Navigator::lose_attitude() {
   starter_.forget();
   alignment_.enter(AlignmentPhase::lost, estimate_.now_ns);
   alignment_.waiting_since_ns = estimate_.now_ns;
+}
+
+void Navigator::lose_all() {
+  lose_attitude();
+  const TimeNs now_ns = estimate_.now_ns;
+  estimate_ = Estimate(*setup_);
+  estimate_.now_ns = now_ns;
 }
 
 bool Navigator::waits_for_state() const {

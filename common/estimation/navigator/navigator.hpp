@@ -121,6 +121,8 @@ class Navigator {
   void account(Trial& trial);
   [[nodiscard]] bool is_frozen(Trial& trial) const;
   [[nodiscard]] bool is_on_probation(const Trial& trial) const;
+  /// (GATE-6)
+  [[nodiscard]] bool motion_is_lost(const Trial& trial) const;
   /// What is measured along the vehicle's own axes: over ground while a DVL does, else through the water.
   [[nodiscard]] VelocityOver velocity_along(const AidingPolicy& policy) const;
 
@@ -133,6 +135,8 @@ class Navigator {
   void finish_gap(double gap_s);
   void align(const ImuStep& step);
   void lose_attitude();
+  /// Nothing of the estimate is worth anything: it is no number, or beyond a pole.
+  void lose_all();
   [[nodiscard]] StartInputs start_inputs() const { return {*setup_, estimate_, ordered_}; }
   /// No instant that is remembered lies after now.
   [[nodiscard]] bool remembers_the_past_only() const;

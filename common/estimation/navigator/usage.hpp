@@ -15,6 +15,7 @@ struct Usage {
   TimeNs dvl_used_ns = 0;
   TimeNs bottom_used_ns = 0;  ///< of its velocities those over ground
   TimeNs velocity_used_ns = 0;
+  TimeNs gap_ns = 0;  ///< the last end of a time without inertial samples
 
   /// A measurement was used; `with_position`: its first row is one of a position.
   void note(const AidingPolicy& brought, bool with_position, TimeNs now_ns);
@@ -32,6 +33,7 @@ struct Usage {
     visit(self.dvl_used_ns);
     visit(self.bottom_used_ns);
     visit(self.velocity_used_ns);
+    visit(self.gap_ns);
   }
 };
 

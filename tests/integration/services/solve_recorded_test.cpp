@@ -81,5 +81,27 @@ TEST_F(SolveRecorded, GrossMistakesAreNamedAndDoNotAlign) {
   }
 }
 
+// An aircraft in the middle of aerobatics whose inertial unit is silent: where down is cannot be told behind
+// it.
+TEST_F(SolveRecorded, ATimeWithoutInertialSamplesIsLivedThrough) {
+  const fs::path datasets = FATHOM_DATASETS;
+  if (!fs::exists(datasets)) FATHOM_DATA_IS_MISSING(datasets << " is not there");
+  const dataset::Dataset whole = dataset::read(datasets / "thor75");
+  const TimeNs begin_ns = whole.of<ImuSample>().front().header.stamp_ns;
+  for (const double at_s : {240.0, 480.0}) {
+    for (const double gap_s : {6.0, 8.0, 9.5}) {
+      dataset::Dataset data = whole;
+      std::erase_if(data.of<ImuSample>(), [&](const ImuSample& sample) {
+        const double t_s = to_seconds(sample.header.stamp_ns - begin_ns);
+        return t_s > at_s && t_s < at_s + gap_s;
+      });
+      const auto metrics = solved(data, "mems_fixed_wing");
+      // Of eleven minutes one may be bad.
+      EXPECT_LT(metrics["horizontal_error_m"]["p95"], 10.0) << gap_s << " s at " << at_s;
+      EXPECT_LT(metrics["horizontal_error_m"]["end"], 3.0) << gap_s << " s at " << at_s;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fathom::test

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimation/aiding/gps_position.hpp"
+#include "estimation/aiding/gps_velocity.hpp"
 #include "estimation/aiding/heading.hpp"
 
 namespace fathom::estimation {
@@ -41,11 +42,13 @@ void Starter::collect_gps(const Setup& setup, const Estimate& estimate, const Se
   if (!std::isfinite(gps.latitude_rad) || !std::isfinite(gps.longitude_rad)) return;
   if (std::abs(gps.latitude_rad) > 1.5708 || std::abs(gps.longitude_rad) > 6.2832) return;
   Vector3d v = geo::vec(gps.velocity_N_m_s);
-  if (!std::isfinite(v.x()) || !std::isfinite(v.y())) v.head<2>().setConstant(kUnknown);
+  for (int i = 0; i < 3; ++i)
+    if (!(std::abs(v(i)) < kMostGpsSpeed_m_s)) v(i) = kUnknown;
+  if (!known(v.x()) || !known(v.y())) v.head<2>().setConstant(kUnknown);
   const double speed = std::hypot(v.x(), v.y());
   gps_speed_m_s_ = speed;
   const double fast_m_s = setup.config.alignment.in_motion_speed_m_s;
-  const bool fast = fast_m_s > 0.0 && speed > fast_m_s && speed < 1000.0;
+  const bool fast = fast_m_s > 0.0 && speed > fast_m_s && speed < kMostGpsSpeed_m_s;
   fast_fixes_ = fast ? fast_fixes_ + 1 : 0;
   gps_seen_ns_ = estimate.now_ns;
   const bool high = std::abs(gps.altitude_m) < 5e4;  // false where it is unknown

@@ -58,6 +58,8 @@ class Starter {
   /// a fresh velocity of GPS.
   [[nodiscard]] double course_sigma_rad(const StartInputs& in) const;
   [[nodiscard]] double gps_speed_m_s() const { return gps_speed_m_s_; }
+  /// By the speed of GPS a start under way would be possible.
+  [[nodiscard]] bool goes_fast() const { return fast_fixes_ >= kFastFixes; }
 
   template <class Self, class Visit>
   static void for_each_instant(Self& self, Visit&& visit) {
@@ -127,6 +129,7 @@ class Starter {
   Eigen::Vector3d gps_velocity_N_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gps_sigma_N_m_ = Eigen::Vector3d::Zero();
   double gps_speed_m_s_ = kUnknown;
+  static constexpr int kFastFixes = 2;
   int fast_fixes_ = 0;
   VelocityWindow velocities_;
   UnderWay under_way_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/aiding/dvl_velocity.hpp"
 #include "estimation/aiding/heading.hpp"
 #include "estimation/aiding/usbl_station.hpp"
 #include "estimation/alignment/moving_start.hpp"
@@ -17,7 +18,6 @@ using Eigen::Vector3d;
 
 constexpr double kFreshVelocity_s = 1.0;
 constexpr double kVelocitySigma_m_s = 0.3;
-constexpr int kFastFixes = 2;
 /// A DVL's velocity this old is still that of the vehicle, but for what it may have gained meanwhile.
 constexpr double kSameMotion_s = 0.5;
 constexpr double kGain_m_s2 = 0.2;
@@ -68,7 +68,8 @@ void Starter::collect_under_way(const Setup& setup, const Estimate& estimate, co
     under_way_.heading_ns = estimate.now_ns;
   } else if (const auto* dvl = std::get_if<DvlSample>(&measurement.sample)) {
     const Vector3d v_D = geo::vec(dvl->velocity_D_m_s);
-    if (dvl->mode != DvlMode::bottom || !v_D.allFinite()) return;
+    const bool sound = v_D.allFinite() && v_D.cwiseAbs().maxCoeff() < kMostDvlSpeed_m_s;
+    if (dvl->mode != DvlMode::bottom || !sound) return;
     under_way_.dvl_velocity_B_m_s = geo::to_matrix(geo::from_rpy(geo::vec(config.mounting_rpy_rad))) * v_D;
     under_way_.dvl_lever_B_m = geo::vec(config.lever_B_m);
     const double own = *std::max_element(config.sigma.begin(), config.sigma.end());
@@ -130,7 +131,7 @@ bool Starter::hears_compass(const StartInputs& in) const {
 
 bool Starter::can_start_in_motion(const StartInputs& in) const {
   if (!(in.estimate.since(gps_seen_ns_) <= 1.0) || !velocities_.complete()) return false;
-  if (in.setup.config.alignment.in_motion_speed_m_s > 0.0 && fast_fixes_ >= kFastFixes) return true;
+  if (goes_fast()) return true;
   if (hears_compass(in)) return false;
   // The first velocity must not be one of rest: an outlier alone is no motion.
   const VelocityMark& first = velocities_.first();
@@ -160,7 +161,7 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   inputs.heading_rad = heading_rad;
   inputs.heading_sigma_rad = heading_sigma_rad;
   bool by_dvl = false;
-  const bool by_speed = setup.config.alignment.in_motion_speed_m_s > 0.0 && fast_fixes_ >= kFastFixes;
+  const bool by_speed = goes_fast();
   if (!heading_rad && !by_speed) {
     const VelocityMark& last = velocities_.last();
     const Course found = course(setup, gps_seen_ns_, last.v_N_m_s, last.sigma_m_s, last.rate_B_rad_s);
