@@ -14,18 +14,17 @@
 #include "bus/writer.hpp"
 #include "console/http/http_server.hpp"
 #include "console/http/precautions.hpp"
-#include "console/http/refusal_log.hpp"
 #include "console/site.hpp"
 #include "console/view/vehicle_view.hpp"
 #include "console/view/vehicle_view_json.hpp"
 #include "health/text.hpp"
+#include "runtime/refusal_log.hpp"
 
 namespace fathom::console {
 namespace {
 
 constexpr int kFirstPort = 8420;
 constexpr DurationNs kRetryNs = 3 * kNsPerSecond;
-constexpr DurationNs kRefusalPeriodNs = 10 * kNsPerSecond;
 constexpr DurationNs kDayNs = 24 * std::int64_t{3600} * kNsPerSecond;
 // Ten seconds at ten updates a second: more than a browser that is busy with itself takes to come back.
 constexpr std::size_t kQueueDepth = 100;
@@ -134,7 +133,8 @@ struct ConsoleService::Impl {
     const auto fault = view.add(route, now());
     lock.unlock();
     if (!fault) return;
-    if (const auto line = bad_routes.add({0, *fault}, writer, monotonic.monotonic_ns()))
+    if (const auto line = bad_routes.add(*fault, "refused a route from " + writer + ": " + *fault,
+                                         monotonic.monotonic_ns()))
       host.log().warning(*line);
   }
 
@@ -219,7 +219,10 @@ struct ConsoleService::Impl {
   }
 
   void say_refused(const Refusal& refusal, const std::string& peer) {
-    if (const auto line = refusals.add(refusal, peer, monotonic.monotonic_ns())) host.log().warning(*line);
+    std::string line = "refused a request from " + peer + ": " + refusal.reason + " (" +
+                       std::to_string(refusal.status) + ")";
+    if (const auto due = refusals.add(refusal.reason, std::move(line), monotonic.monotonic_ns()))
+      host.log().warning(*due);
   }
 
   void fill(ServiceStatus& status) {
@@ -282,8 +285,8 @@ struct ConsoleService::Impl {
   VehicleView view;
   std::string said;  ///< why nobody can reach the console; empty: all is well
   TimeNs tried_ns = 0;
-  RefusalLog refusals{kRefusalPeriodNs, "a request"};
-  RefusalLog bad_routes{kRefusalPeriodNs, "a route"};
+  runtime::RefusalLog refusals;
+  runtime::RefusalLog bad_routes;
   std::atomic<std::uint64_t> orders_given{0};
   std::atomic<std::uint64_t> orders_refused{0};
   std::atomic<std::uint64_t> sequence{0};

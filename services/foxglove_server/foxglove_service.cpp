@@ -12,6 +12,7 @@
 #include "foxglove_server/ws_server.hpp"
 #include "record/idl.hpp"
 #include "runtime/build_info.hpp"
+#include "runtime/refusal_log.hpp"
 
 namespace fathom::foxglove {
 namespace {
@@ -126,7 +127,9 @@ struct FoxgloveService::Impl {
       const std::lock_guard lock(mutex);
       if (!is_ending) readers[channel] = std::move(reader);
     } catch (const bus::BusError& error) {  // e.g. without permission for it
-      host.log().warning("not shown: " + std::string(error.what()));
+      const auto line =
+          not_shown.add(topic, "not shown: " + std::string(error.what()), host.clock().monotonic_ns());
+      if (line) host.log().warning(*line);
     }
   }
   void take(std::uint32_t channel, const std::string& topic, bool is_latched,
@@ -171,6 +174,7 @@ struct FoxgloveService::Impl {
   std::mutex mutex;
   bool is_ending = false;
   std::map<std::uint32_t, std::unique_ptr<bus::RawReader>> readers;
+  runtime::RefusalLog not_shown;
   WsServer server;
 };
 

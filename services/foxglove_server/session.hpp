@@ -37,7 +37,8 @@ class Host {
   virtual void came(class Client* client) = 0;
   virtual void went(class Client* client) = 0;
   virtual void wish(class Client* client, const Wish& wish) = 0;
-  virtual void complaint(const std::string& text) = 0;
+  /// A line for the log about what a client does; there are few reasons.
+  virtual void complain(const std::string& reason, const std::string& text) = 0;
   virtual void count_dropped() = 0;
 };
 
@@ -78,9 +79,22 @@ class Session final : public Client, public std::enable_shared_from_this<Session
     }
   }
 
-  void send_text(std::string text) override { enqueue({true, {}, std::move(text), nullptr}); }
+  void send_text(std::string text) override {
+    if (over_) return;
+    // What a client has to know is never left out: who asks for more and more of it and takes none goes.
+    if (text_bytes_ > host_.options().queue_bytes) {
+      host_.complain("deaf", "a client takes none of what it asks for: it is let go");
+      return end();
+    }
+    text_bytes_ += text.size();
+    texts_.push_back({{}, std::move(text), nullptr});
+    settle();
+  }
   void send_message(std::uint32_t subscription, const Message& message) override {
-    enqueue({false, message_head(subscription, message.received_ns), {}, message.bytes});
+    if (over_) return;
+    messages_.push_back({message_head(subscription, message.received_ns), {}, message.bytes});
+    message_bytes_ += messages_.back().size();
+    settle();
   }
   void end() override {
     over_ = true;
@@ -90,11 +104,11 @@ class Session final : public Client, public std::enable_shared_from_this<Session
 
  private:
   struct Item {
-    bool is_text = false;
     MessageHead head{};
     std::string text;
     Payload bytes;
-    [[nodiscard]] std::size_t size() const { return is_text ? text.size() : head.size() + bytes->size(); }
+    [[nodiscard]] bool is_text() const { return bytes == nullptr; }
+    [[nodiscard]] std::size_t size() const { return is_text() ? text.size() : head.size() + bytes->size(); }
   };
 
   void read_request() {
@@ -144,45 +158,41 @@ class Session final : public Client, public std::enable_shared_from_this<Session
     const auto bytes = buffer_.cdata();
     const auto wish = wish_of({static_cast<const char*>(bytes.data()), bytes.size()});
     if (!wish) {
-      host_.complaint(wish.error().message);
+      host_.complain("wish", "a client says what is no wish: " + wish.error().message);
       send_text(warning(wish.error().message));
       return;
     }
     host_.wish(this, wish.value());
   }
 
-  void enqueue(Item item) {
-    if (over_) return;
-    waiting_bytes_ += item.size();
-    waiting_.push_back(std::move(item));
-    const std::size_t leaving = writing_ ? 1 : 0;
-    for (auto oldest = waiting_.begin() + static_cast<std::ptrdiff_t>(leaving);
-         waiting_bytes_ > host_.options().queue_bytes && oldest != waiting_.end();) {
-      if (oldest->is_text) {  // what a client has to know is never left out
-        ++oldest;
-        continue;
-      }
-      waiting_bytes_ -= oldest->size();
-      oldest = waiting_.erase(oldest);
+  /// The oldest messages give way. Then what waits may leave.
+  void settle() {
+    while (!messages_.empty() &&
+           leaving_.size() + text_bytes_ + message_bytes_ > host_.options().queue_bytes) {
+      message_bytes_ -= messages_.front().size();
+      messages_.pop_front();
       host_.count_dropped();
     }
-    if (!writing_ && !waiting_.empty()) write();
+    if (!writing_) write();
   }
+  /// Texts go first: a message makes sense to those only who know what was said before.
   void write() {
-    writing_ = true;
-    const Item& item = waiting_.front();
-    ws_.text(item.is_text);
+    auto& from = texts_.empty() ? messages_ : texts_;
+    writing_ = !from.empty();
+    if (!writing_) return;
+    leaving_ = std::move(from.front());
+    from.pop_front();
+    (leaving_.is_text() ? text_bytes_ : message_bytes_) -= leaving_.size();
+    ws_.text(leaving_.is_text());
     auto written = [self = this->shared_from_this()](const beast::error_code& error, std::size_t) {
       if (error || self->over_) return self->gone();
-      self->waiting_bytes_ -= self->waiting_.front().size();
-      self->waiting_.pop_front();
-      self->writing_ = false;
-      if (!self->waiting_.empty()) self->write();
+      self->leaving_ = {};
+      self->write();
     };
     using boost::asio::buffer;
     using boost::asio::const_buffer;
-    std::array<const_buffer, 2> parts{buffer(item.text)};
-    if (!item.is_text) parts = {buffer(item.head), buffer(*item.bytes)};
+    std::array<const_buffer, 2> parts{buffer(leaving_.text)};
+    if (!leaving_.is_text()) parts = {buffer(leaving_.head), buffer(*leaving_.bytes)};
     ws_.async_write(parts, std::move(written));
   }
   void gone() {
@@ -191,11 +201,14 @@ class Session final : public Client, public std::enable_shared_from_this<Session
   }
 
   Host& host_;
-  websocket::stream<Next, false> ws_;  // nothing is compressed
+  websocket::stream<Next, false> ws_;  // nothing is comsettleed
   beast::flat_buffer buffer_;
   http::request_parser<http::empty_body> parser_;
-  std::deque<Item> waiting_;
-  std::size_t waiting_bytes_ = 0;
+  Item leaving_;  // while it is written
+  std::deque<Item> texts_;
+  std::deque<Item> messages_;
+  std::size_t text_bytes_ = 0;
+  std::size_t message_bytes_ = 0;
   bool writing_ = false;
   bool over_ = false;
   bool is_gone_ = false;

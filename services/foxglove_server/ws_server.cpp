@@ -12,7 +12,9 @@
 #include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 
+#include "base/clock.hpp"
 #include "foxglove_server/session.hpp"
+#include "runtime/refusal_log.hpp"
 
 namespace fathom::foxglove {
 namespace {
@@ -190,8 +192,9 @@ struct WsServer::Impl final : Host {
     subscribers[channel].erase({client, id});
     if (subscribers[channel].empty()) handlers.wanted(channel, false);
   }
-  void complaint(const std::string& text) override {
-    handlers.say(true, "a client says what is no wish: " + text);
+  void complain(const std::string& reason, const std::string& text) override {
+    if (const auto line = complaints.add(reason, text, SystemClock().monotonic_ns()))
+      handlers.say(true, *line);
   }
   void count_dropped() override {
     const std::lock_guard lock(mutex);
@@ -221,6 +224,7 @@ struct WsServer::Impl final : Host {
   asio::executor_work_guard<asio::io_context::executor_type> work{io.get_executor()};
   tcp::acceptor acceptor{io};
   asio::steady_timer timer{io};
+  runtime::RefusalLog complaints;
   std::set<Client*> clients;
   std::map<std::uint32_t, std::set<std::pair<Client*, std::uint32_t>>> subscribers;
   mutable std::mutex mutex;

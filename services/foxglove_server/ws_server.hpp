@@ -19,7 +19,8 @@ struct Message {
 };
 
 /// Tells clients of the Foxglove protocol what they subscribe to, on one thread. A slow client loses its
-/// oldest messages, one that takes nothing for 30 s is let go, and nobody else notices.
+/// oldest messages, one that takes nothing for 30 s or asks for more than it takes is let go, and nobody else
+/// notices.
 class WsServer {
  public:
   struct Options {

@@ -1,8 +1,10 @@
-// A client of Foxglove's own library: client.mjs read|stuck|count URL SECONDS
+// A client of Foxglove's own library: client.mjs read|stuck|count|babble|deaf URL SECONDS
 //   read   subscribes to every channel and writes a line for each message: topic, and the values of all fields in the
 //          order of their text
 //   count  subscribes to the navigation state and writes how many came, and how old the last one was, in ms
 //   stuck  subscribes to everything and reads nothing
+//   babble says 3000 times what is no wish, and hears what the server says to that
+//   deaf   asks for what is not on offer, again and again, and reads nothing, until it is let go
 // Ends with 3 when the server does not let it in.
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -26,7 +28,11 @@ const decoders = new Map();
 let count = 0;
 let age_ms = NaN;
 client.on("error", (error) => console.error(String(error)));
-client.on("status", (status) => console.error(`status: ${status.message}`));
+let answers = 0;
+client.on("status", (status) => {
+  if (mode !== "babble") return console.error(`status: ${status.message}`);
+  if (++answers === 3000) process.exit(0);
+});
 client.on("serverInfo", (info) => console.error(`server: ${info.name}`));
 client.on("advertise", (channels) => {
   for (const channel of channels) {
@@ -41,8 +47,17 @@ client.on("advertise", (channels) => {
     });
   }
   console.error(`subscribed to ${decoders.size}`);
+  if (mode === "babble") for (let i = 0; i < 3000; i++) socket.send("{}");
+  if (mode === "deaf") nag();
   if (mode === "stuck") setTimeout(() => socket.pause(), 300);
 });
+function nag() {
+  socket.pause();
+  const subscriptions = Array.from({ length: 1000 }, (_, id) => ({ id, channelId: 4000000000 }));
+  const wish = JSON.stringify({ op: "subscribe", subscriptions });
+  const again = (error) => (error ? process.exit(0) : socket.send(wish, again));
+  again();
+}
 client.on("message", ({ subscriptionId, timestamp, data }) => {
   const decoder = decoders.get(subscriptionId);
   count++;
@@ -53,6 +68,7 @@ client.on("message", ({ subscriptionId, timestamp, data }) => {
   console.log(`${decoder.topic} ${out.sort().join(" ")}`);
 });
 setTimeout(() => {
+  if (mode === "babble" || mode === "deaf") process.exit(4);
   if (mode === "count") console.log(`${count} ${age_ms.toFixed(0)}`);
   process.exit(0);
 }, 1000 * Number(seconds));

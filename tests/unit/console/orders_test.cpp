@@ -8,8 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "console/http/refusal_log.hpp"
-
 namespace fathom::console {
 namespace {
 
@@ -69,15 +67,6 @@ TEST(Orders, OnlyOperatorsAndOnlyWhereOrdersAreOn) {
   ASSERT_TRUE(given.order);
   EXPECT_EQ(std::get<Command>(*given.order).kind, CommandKind::realign);
   EXPECT_FALSE(judge_order(order, {}, true).order);
-}
-
-TEST(RefusalLog, OneLineAPeriodAndKind) {
-  RefusalLog log(10 * kNsPerSecond, "a request");
-  EXPECT_EQ(*log.add({400, "path"}, "10.0.0.1", 0), "refused a request from 10.0.0.1: path (400)");
-  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(log.add({400, "path"}, "10.0.0.1", kNsPerSecond));
-  EXPECT_TRUE(log.add({401, "wrong_token"}, "10.0.0.1", kNsPerSecond)) << "another kind";
-  EXPECT_EQ(*log.add({400, "path"}, "10.0.0.2", 11 * kNsPerSecond),
-            "refused a request from 10.0.0.2: path (400), 1001 of them since it was last said");
 }
 
 }  // namespace

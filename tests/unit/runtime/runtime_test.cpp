@@ -11,6 +11,7 @@
 #include "runtime/build_info.hpp"
 #include "runtime/byte_source.hpp"
 #include "runtime/log.hpp"
+#include "runtime/refusal_log.hpp"
 
 namespace fathom::runtime {
 namespace {
@@ -90,6 +91,15 @@ TEST(Log, APipeThatNobodyReadsHoldsNobodyUp) {
   }
   EXPECT_GT(said_lost, 1000);
   EXPECT_EQ(taken + said_lost, 3001);
+}
+
+TEST(RefusalLog, OneLineAPeriodAndReason) {
+  RefusalLog log(10 * kNsPerSecond);
+  EXPECT_EQ(*log.add("path", "10.0.0.1: path", 0), "10.0.0.1: path");
+  for (int i = 0; i < 1000; ++i) EXPECT_FALSE(log.add("path", "10.0.0.1: path", kNsPerSecond));
+  EXPECT_TRUE(log.add("token", "10.0.0.1: token", kNsPerSecond)) << "another reason";
+  EXPECT_EQ(*log.add("path", "10.0.0.2: path", 11 * kNsPerSecond),
+            "10.0.0.2: path, 1001 of them since it was last said");
 }
 
 TEST(BuildInfo, HashTellsTextsApart) {
