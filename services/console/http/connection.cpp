@@ -8,7 +8,6 @@
 #include <openssl/ssl.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "console/http/tls.hpp"
 
@@ -37,10 +36,6 @@ bool wait_for(int socket, short events, SteadyTime deadline) {
 
 void Connection::FreeTls::operator()(ssl_st* tls) const {
   SSL_free(tls);
-}
-
-Connection::~Connection() {
-  close(socket_);
 }
 
 std::optional<unsigned char> Connection::peek(SteadyTime deadline) const {

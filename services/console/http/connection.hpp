@@ -14,16 +14,15 @@ namespace fathom::console {
 class TlsIdentity;
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// One accepted TCP connection, closed with the object, in clear or, after secure(), by TLS. Reading and
-/// writing have deadlines, and no more is read than is asked for: a peer that is slow, silent or endless
-/// costs its thread for a known time and no memory.
+/// One accepted TCP connection, in clear or, after secure(), by TLS. Reading and writing have deadlines, and
+/// no more is read than is asked for: a peer that is slow, silent or endless costs its thread for a known
+/// time and no memory.
 class Connection {
  public:
   enum class Outcome { complete, closed, timed_out };
 
-  /// Takes over a non-blocking socket.
+  /// Of a non-blocking socket, which outlives it.
   explicit Connection(int socket) : socket_(socket) {}
-  ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 

@@ -58,7 +58,8 @@ struct HttpServer::Impl {
     close(wake);
   }
 
-  /// One accepted connection with its thread. Its socket is shut down to end it from outside.
+  /// One accepted connection with its thread. Its socket is shut down to end it from outside, and closed
+  /// when its thread is over.
   struct Session {
     std::thread thread;
     int socket = -1;
@@ -72,16 +73,22 @@ struct HttpServer::Impl {
   }
 
   void accept_loop() {
+    bool exhausted = false;  // then who connects waits until another one has left
     while (!stopping) {
-      pollfd watched[2]{{listener, POLLIN, 0}, {wake, POLLIN, 0}};
-      poll(watched, 2, 1000);
+      pollfd watched[2]{{wake, POLLIN, 0}, {listener, POLLIN, 0}};
+      poll(watched, exhausted ? 1 : 2, exhausted ? 100 : 1000);
       reap();
-      if (stopping || (watched[0].revents & POLLIN) == 0) continue;
+      exhausted = false;
+      if (stopping || (watched[1].revents & POLLIN) == 0) continue;
       sockaddr_in from{};
       socklen_t size = sizeof from;
       const int socket =
           accept4(listener, reinterpret_cast<sockaddr*>(&from), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
-      if (socket < 0) continue;
+      if (socket < 0) {
+        exhausted = errno != EAGAIN && errno != EINTR && errno != ECONNABORTED;
+        if (exhausted) refused({503, "no_descriptors"}, "a client that waits");
+        continue;
+      }
       const int on = 1;
       setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
       std::array<char, INET_ADDRSTRLEN> text{};
@@ -111,8 +118,7 @@ struct HttpServer::Impl {
       session.thread = std::thread([this, &session] {
         ignore_broken_pipes();
         {
-          // The session keeps a descriptor of its own: it can be shut down without a race with its closing.
-          Connection connection(dup(session.socket));
+          Connection connection(session.socket);
           converse(connection, session.peer);
         }
         shutdown(session.socket, SHUT_RDWR);

@@ -1,9 +1,13 @@
 // Requests that no browser makes. Whatever they are, the console refuses them, counts them, and goes on.
+#include <filesystem>
 #include <memory>
 #include <vector>
 
+#include <sys/resource.h>
+
 #include "bus/reader.hpp"
 #include "console_fixture.hpp"
+#include "support/process_usage.hpp"
 
 namespace fathom::test {
 namespace {
@@ -115,6 +119,23 @@ TEST_F(HostileTest, TooManyConnectionsLeaveRoomLater) {
   EXPECT_TRUE(console->says("too_many_connections (503)"));
   EXPECT_TRUE(console->says("too_many_clients (503)"));
   crowd.clear();
+  EXPECT_TRUE(wait_until([&] { return get("/").status == 200; }, kPatienceS)) << console->err();
+}
+
+TEST_F(HostileTest, WithoutDescriptorsItWaitsForOneAtRest) {
+  start_and_wait(33);
+  const std::string descriptors = "/proc/" + std::to_string(console->pid()) + "/fd/";
+  rlim_t free = 0;  // what it opens next
+  while (std::filesystem::exists(std::filesystem::symlink_status(descriptors + std::to_string(free)))) ++free;
+  const rlimit few{free + 4, free + 4};
+  ASSERT_EQ(prlimit(console->pid(), RLIMIT_NOFILE, &few, nullptr), 0);
+  std::vector<std::unique_ptr<HttpPeer>> silent;
+  for (int i = 0; i < 40; ++i) silent.push_back(std::make_unique<HttpPeer>(port));
+  ASSERT_TRUE(console->says("no_descriptors", kPatienceS)) << console->err();
+  const double before_s = processor_s(console->pid());
+  std::this_thread::sleep_for(std::chrono::seconds(2));  // a busy loop would take most of them
+  EXPECT_LT(processor_s(console->pid()) - before_s, 0.8);
+  silent.clear();
   EXPECT_TRUE(wait_until([&] { return get("/").status == 200; }, kPatienceS)) << console->err();
 }
 
