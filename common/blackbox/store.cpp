@@ -322,9 +322,11 @@ fs::path Store::next_path(TimeNs now_ns) {
 std::vector<fs::path> recordings_in(const fs::path& folder) {
   std::vector<fs::path> out;
   std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("fathom-") && name.ends_with(".mcap")) out.push_back(entry.path());
+  // A range-for would throw at an error of the disk.
+  for (fs::directory_iterator at(folder, failed); !failed && at != fs::directory_iterator();
+       at.increment(failed)) {
+    const std::string name = at->path().filename().string();
+    if (name.starts_with("fathom-") && name.ends_with(".mcap")) out.push_back(at->path());
   }
   std::sort(out.begin(), out.end());
   return out;

@@ -28,11 +28,11 @@ Enclosure process_of(const ServiceStatus& status, TimeNs now_ns) {
 std::vector<Enclosure> qos_profiles(const std::string& configured, TimeNs now_ns) {
   std::vector<Enclosure> out;
   std::error_code failed;
-  for (const auto& entry : std::filesystem::directory_iterator(bus::profiles_folder(configured), failed)) {
-    if (entry.path().extension() != ".xml") continue;
-    if (auto bytes = read_enclosed(entry.path().string()))
-      out.push_back(
-          {"qos/" + entry.path().filename().string(), "application/xml", now_ns, std::move(*bytes)});
+  std::filesystem::directory_iterator at(bus::profiles_folder(configured), failed);
+  for (; !failed && at != std::filesystem::directory_iterator(); at.increment(failed)) {
+    if (at->path().extension() != ".xml") continue;
+    if (auto bytes = read_enclosed(at->path().string()))
+      out.push_back({"qos/" + at->path().filename().string(), "application/xml", now_ns, std::move(*bytes)});
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return out;

@@ -62,8 +62,9 @@ bool Deafness::look(TimeNs monotonic_ns) {
   bool deaf = false;
   for (auto& [inode, waiting] : sockets_) waiting.seen = false;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd", error)) {
-    const std::string name = entry.path().filename().string();
+  std::filesystem::directory_iterator at("/proc/self/fd", error);
+  for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
+    const std::string name = at->path().filename().string();
     int fd = -1;
     if (std::from_chars(name.data(), name.data() + name.size(), fd).ec != std::errc{}) continue;
     const auto port = udp_port(fd);

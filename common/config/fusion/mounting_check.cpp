@@ -57,10 +57,10 @@ template <class Bridge, class Sample, class Look>
 void for_each_bridge(const fs::path& folder, Look look) {
   std::vector<fs::path> files;
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder, none)) {
-    const std::string stem = entry.path().stem().string();
-    if (entry.path().extension() == ".json" && stem.starts_with(KindOf<Sample>::kRole))
-      files.push_back(entry.path());
+  for (fs::directory_iterator at(folder, none); !none && at != fs::directory_iterator(); at.increment(none)) {
+    const std::string stem = at->path().stem().string();
+    if (at->path().extension() == ".json" && stem.starts_with(KindOf<Sample>::kRole))
+      files.push_back(at->path());
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {

@@ -79,8 +79,9 @@ std::vector<std::string> catalogue_models() {
   std::error_code error;
   const std::string folder = catalogue_directory();
   if (folder.empty()) return models;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".json") models.push_back(entry.path().stem().string());
+  for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
+       at.increment(error)) {
+    if (at->path().extension() == ".json") models.push_back(at->path().stem().string());
   }
   std::sort(models.begin(), models.end());
   return models;

@@ -9,8 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "blackbox/queue.hpp"
+#include "blackbox/surroundings.hpp"
 #include "record/reader.hpp"
 #include "record/recover.hpp"
+#include "support/failing_readdir.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -242,6 +244,20 @@ TEST(Store, RemovesTheOldestForTheQuota) {
   EXPECT_TRUE(std::filesystem::exists(folder / "fathom-3.mcap"));
   EXPECT_TRUE(std::filesystem::exists(folder / "other.mcap")) << "not ours";
   EXPECT_EQ(store.counts().removed, 2U);
+}
+
+TEST(Store, AFolderThatTheDiskFailsInIsReadAsFarAsItGoes) {
+  const test::TemporaryFolder folder;
+  for (int i = 0; i < 9; ++i) std::ofstream(folder / ("fathom-" + std::to_string(i) + ".mcap")) << "1";
+  const std::string profiles = FATHOM_SOURCE_DIR "/deploy/dds";
+  const std::size_t all = blackbox::qos_profiles(profiles, kBegin).size();
+  constexpr int kSome = 4;  // "." and ".." may be among them
+  test::entries_until_failure = kSome;
+  EXPECT_LT(blackbox::recordings_in(folder.path()).size(), 9U);
+  test::entries_until_failure = kSome;
+  EXPECT_LT(blackbox::qos_profiles(profiles, kBegin).size(), all);
+  test::entries_until_failure = -1;
+  EXPECT_EQ(blackbox::recordings_in(folder.path()).size(), 9U);
 }
 
 TEST(Queue, DropsWhatFindsNoRoomAndCountsIt) {

@@ -9,6 +9,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "support/failing_readdir.hpp"
+
 namespace fathom::host {
 namespace {
 
@@ -91,6 +93,16 @@ TEST(Deafness, LittleThatWaitsIsNotLookedAt) {
   socket.send(3);
   Deafness deafness(kDomain);
   EXPECT_FALSE(deaf_within(deafness, 60, [] {}));
+}
+
+TEST(Deafness, ALookThatTheKernelCutsShortFindsNothing) {
+  Socket socket(kPort);
+  socket.send(100);
+  Deafness deafness(kDomain);
+  test::entries_until_failure = 4;
+  EXPECT_FALSE(deafness.look(kBegin));
+  test::entries_until_failure = -1;
+  EXPECT_TRUE(deaf_within(deafness, 12, [] {}));
 }
 
 TEST(Deafness, PortsOfOthersAreTheirBusiness) {

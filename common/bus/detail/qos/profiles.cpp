@@ -70,8 +70,9 @@ std::string find_profiles_dir(const std::string& configured) {
 void load_profiles(const std::string& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
-  for (const auto& entry : fs::directory_iterator(folder, failed)) {
-    if (entry.path().extension() == ".xml") files.push_back(fs::weakly_canonical(entry.path()));
+  for (fs::directory_iterator at(folder, failed); !failed && at != fs::directory_iterator();
+       at.increment(failed)) {
+    if (at->path().extension() == ".xml") files.push_back(fs::weakly_canonical(at->path()));
   }
   if (failed || files.empty()) throw BusError(folder + ": expected a folder with QoS profiles (*.xml)");
   std::sort(files.begin(), files.end());
