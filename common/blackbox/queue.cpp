@@ -7,6 +7,8 @@ namespace fathom::blackbox {
 namespace {
 
 constexpr std::uint64_t kOverhead = 128;  // of an item, beside its bytes
+// Events and enclosures are few, and much is lost with one: this part of the room more is theirs alone.
+constexpr std::uint64_t kReserve = 4;
 
 }  // namespace
 
@@ -18,33 +20,40 @@ std::uint32_t Queue::add(Origin origin) {
 }
 
 void Queue::put(Sample sample) {
-  const std::uint64_t bytes = sample.bytes.size() + sample.key.size() + kOverhead;
-  {
-    const std::lock_guard lock(mutex_);
-    if (bytes_ + bytes > most_bytes_) {
-      Dropped& dropped = dropped_[topics_.at(sample.origin)];
-      if (dropped.count++ == 0) dropped.first_ns = sample.log_ns;
-      dropped.last_ns = sample.log_ns;
-      ++dropped_total_;
-      return;
-    }
-  }
-  put(Item(std::move(sample)), bytes);
+  const std::uint64_t bytes = sample.bytes.size() + sample.key.size();
+  const TimeNs time_ns = sample.log_ns;
+  put(Item(std::move(sample)), bytes, time_ns);
 }
 
 void Queue::put(Event event) {
-  put(Item(std::move(event)), kOverhead);
+  const std::uint64_t bytes = event.kind.size() + event.text.size();
+  const TimeNs time_ns = event.time_ns;
+  put(Item(std::move(event)), bytes, time_ns);
 }
 
 void Queue::put(Enclosure enclosure) {
-  const std::uint64_t bytes = enclosure.data.size() + kOverhead;
-  put(Item(std::move(enclosure)), bytes);
+  const std::uint64_t bytes = enclosure.data.size() + enclosure.name.size();
+  const TimeNs time_ns = enclosure.created_ns;
+  put(Item(std::move(enclosure)), bytes, time_ns);
 }
 
-void Queue::put(Item item, std::uint64_t bytes) {
+void Queue::put(Item item, std::uint64_t bytes, TimeNs time_ns) {
+  bytes += kOverhead;
   bool half = false;
   {
     const std::lock_guard lock(mutex_);
+    const auto* sample = std::get_if<Sample>(&item);
+    const std::uint64_t room = sample != nullptr ? most_bytes_ : most_bytes_ + most_bytes_ / kReserve;
+    if (bytes_ + bytes > room) {
+      const bool is_event = std::holds_alternative<Event>(item);
+      Dropped& dropped = dropped_[sample != nullptr ? topics_.at(sample->origin)
+                                  : is_event        ? "events"
+                                                    : "enclosures"];
+      if (dropped.count++ == 0) dropped.first_ns = time_ns;
+      dropped.last_ns = time_ns;
+      ++dropped_total_;
+      return;
+    }
     half = bytes_ <= most_bytes_ / 2 && bytes_ + bytes > most_bytes_ / 2;
     bytes_ += bytes;
     items_.push_back(std::move(item));

@@ -14,7 +14,7 @@
 
 namespace fathom::blackbox {
 
-/// Samples of a topic that found no room, and from when to when.
+/// Samples of a topic, or events, or enclosures, that found no room, and from when to when.
 struct Dropped {
   std::uint64_t count = 0;
   TimeNs first_ns = 0;
@@ -37,7 +37,7 @@ class Queue {
 
   struct Batch {
     std::deque<Item> items;
-    std::map<std::string, Dropped> dropped;  ///< by topic, since the last batch
+    std::map<std::string, Dropped> dropped;  ///< by topic, "events" or "enclosures", since the last batch
     bool ended = false;
   };
   /// All that waits, after `patience_ns` or when half of the room is taken or at the end.
@@ -48,7 +48,8 @@ class Queue {
   [[nodiscard]] std::uint64_t dropped() const;
 
  private:
-  void put(Item item, std::uint64_t bytes);
+  /// `bytes` beside those of every item; `time_ns`: when it came.
+  void put(Item item, std::uint64_t bytes, TimeNs time_ns);
 
   const std::uint64_t most_bytes_;
   mutable std::mutex mutex_;

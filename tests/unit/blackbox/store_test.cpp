@@ -279,6 +279,21 @@ TEST(Queue, DropsWhatFindsNoRoomAndCountsIt) {
   EXPECT_TRUE(batch.dropped.empty());
 }
 
+TEST(Queue, EventsAndEnclosuresFindALittleMoreRoomAndNoMore) {
+  blackbox::Queue queue(1000);
+  const std::uint32_t origin = queue.add({"a", "A", "w", "01", false});
+  for (int i = 0; i < 10; ++i) queue.put(sample(origin, i, 1));
+  for (int i = 0; i < 1000; ++i) queue.put(Event{kBegin + i, "order", "reset"});
+  for (int i = 0; i < 1000; ++i) queue.put(blackbox::Enclosure{"e", "text/plain", kBegin + i, {1, 2, 3}});
+  EXPECT_GT(queue.dropped(), 1990U);
+  const auto batch = queue.take(0);
+  EXPECT_GT(batch.items.size(), 5U);
+  EXPECT_LT(batch.items.size(), 10U);
+  EXPECT_EQ(batch.dropped.at("a").count, 6U);
+  EXPECT_EQ(batch.dropped.at("events").last_ns, kBegin + 999);
+  EXPECT_EQ(batch.dropped.at("events").count + batch.dropped.at("enclosures").count + 6, queue.dropped());
+}
+
 TEST(FileSink, IsNotRecoveredWhileItIsWritten) {
   const test::TemporaryFolder folder;
   auto sink = blackbox::create_file(folder / "live.mcap");
