@@ -1,5 +1,6 @@
 #include "bus/detail/event_book.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/clock.hpp"
@@ -68,19 +69,41 @@ EventBook::EventBook(DurationNs quiet_ns, std::function<TimeNs()> now_ns)
   if (!now_ns_) now_ns_ = [] { return SystemClock().monotonic_ns(); };
 }
 
+bool EventBook::is_past(BusEventKind kind, const std::optional<TimeNs>& over_ns) const {
+  const bool flickers = kind == BusEventKind::deadline_missed;
+  return over_ns && (!flickers || now_ns_() - *over_ns >= quiet_ns_);
+}
+
+bool EventBook::forget_one(BusEventKind kind, Faults& faults) const {
+  const auto past = std::find_if(faults.begin(), faults.end(),
+                                 [&](const auto& fault) { return is_past(kind, fault.second); });
+  if (past == faults.end()) return false;
+  faults.erase(past);
+  return true;
+}
+
 void EventBook::report(BusEventKind kind, const std::string& topic, const std::string& subject,
                        const std::string& detail, std::uint64_t occurrences) {
+  BusEvent event{kind, topic, detail};
   {
     const std::lock_guard lock(mutex_);
     counter(counters_, kind) += occurrences;
-    const auto [at, first] = reported_.try_emplace({kind, topic, subject});
-    const bool flickers = kind == BusEventKind::deadline_missed;
-    const bool again = !first && at->second && (!flickers || now_ns_() - *at->second >= quiet_ns_);
-    at->second.reset();
-    if (!first && !again) return;
+    Faults& faults = reported_[kind];
+    const auto known = faults.find({topic, subject});
+    if (known != faults.end()) {
+      const bool again = is_past(kind, known->second);
+      known->second.reset();
+      if (!again) return;
+    } else if (faults.size() < kMostOfAKind || forget_one(kind, faults)) {
+      faults[{topic, subject}];
+    } else {
+      if (!overfull_.insert(kind).second) return;
+      event = {kind, "",
+               "there are more than " + std::to_string(kMostOfAKind) +
+                   " of them: further ones are counted and not told"};
+    }
   }
   const std::lock_guard lock(handler_mutex_);
-  BusEvent event{kind, topic, detail};
   if (handler_) {
     handler_(event);
   } else if (backlog_.size() < kBacklog) {
@@ -90,8 +113,9 @@ void EventBook::report(BusEventKind kind, const std::string& topic, const std::s
 
 void EventBook::recovered(BusEventKind kind, const std::string& topic, const std::string& subject) {
   const std::lock_guard lock(mutex_);
-  const auto at = reported_.find({kind, topic, subject});
-  if (at != reported_.end() && !at->second) at->second = now_ns_();
+  Faults& faults = reported_[kind];
+  const auto at = faults.find({topic, subject});
+  if (at != faults.end() && !at->second) at->second = now_ns_();
 }
 
 BusCounters EventBook::counters() const {

@@ -5,8 +5,9 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/time.hpp"
@@ -14,9 +15,13 @@
 
 namespace fathom::bus::detail {
 
-/// Counts every occurrence and reports the first of each kind × topic × subject. Thread-safe.
+/// Counts every occurrence and reports the first of each kind × topic × subject. Subjects come from the
+/// network: of a kind that has too many the further ones are counted only, and that is said once.
+/// Thread-safe.
 class EventBook {
  public:
+  static constexpr std::size_t kMostOfAKind = 256;
+
   /// A deadline that is missed again within `quiet_ns` of its recovery is the same fault: it is counted, and
   /// not reported again. `now_ns` is a monotonic clock.
   explicit EventBook(DurationNs quiet_ns = 60 * kNsPerSecond, std::function<TimeNs()> now_ns = {});
@@ -31,12 +36,19 @@ class EventBook {
   void set_handler(std::function<void(const BusEvent&)> handler);
 
  private:
+  /// When each reported fault was over; nothing while it lasts. By topic and subject.
+  using Faults = std::map<std::pair<std::string, std::string>, std::optional<TimeNs>>;
   static constexpr std::size_t kBacklog = 64;  ///< kept for a handler that is set later
+
+  /// Whether a fault that is over, and was for long enough, counts as new when it comes back.
+  [[nodiscard]] bool is_past(BusEventKind kind, const std::optional<TimeNs>& over_ns) const;
+  /// Forgets a fault that is past. False: there is none.
+  bool forget_one(BusEventKind kind, Faults& faults) const;
 
   mutable std::mutex mutex_;  // of what follows up to the next mutex
   BusCounters counters_;
-  /// When each reported fault was over; nothing while it lasts.
-  std::map<std::tuple<BusEventKind, std::string, std::string>, std::optional<TimeNs>> reported_;
+  std::map<BusEventKind, Faults> reported_;
+  std::set<BusEventKind> overfull_;  // of which it was said that further ones are only counted
   DurationNs quiet_ns_;
   std::function<TimeNs()> now_ns_;
 

@@ -72,6 +72,27 @@ TEST(EventBook, DeliversWhatHappenedBeforeTheHandlerWasSet) {
   EXPECT_EQ(reports, 64);
 }
 
+TEST(EventBook, TooManySubjectsAreCountedAndThatIsSaidOnce) {
+  EventBook book;
+  std::vector<BusEvent> seen;
+  book.set_handler([&](const BusEvent& event) { seen.push_back(event); });
+  constexpr std::size_t kMost = EventBook::kMostOfAKind;
+  const auto subject = [](std::size_t i) { return "p" + std::to_string(i); };
+  for (std::size_t i = 0; i < 4 * kMost; ++i) book.report(BusEventKind::writer_lost, "t", subject(i), "lost");
+  ASSERT_EQ(seen.size(), kMost + 1);
+  EXPECT_EQ(seen.back().detail, "there are more than 256 of them: further ones are counted and not told");
+  EXPECT_EQ(book.counters().writer_lost, 4 * kMost);
+  book.report(BusEventKind::sample_lost, "t", "a", "of another kind");
+  EXPECT_EQ(seen.size(), kMost + 2);
+  // What is over gives way to what is new.
+  book.recovered(BusEventKind::writer_lost, "t", subject(7));
+  book.report(BusEventKind::writer_lost, "t", "new", "told");
+  ASSERT_EQ(seen.size(), kMost + 3);
+  EXPECT_EQ(seen.back().detail, "told");
+  book.report(BusEventKind::writer_lost, "t", "newer", "not told");
+  EXPECT_EQ(seen.size(), kMost + 3);
+}
+
 TEST(EventBook, CountsEachKindByItself) {
   EventBook book;
   book.report(BusEventKind::incompatible_qos, "t", "", "", 1);
