@@ -285,7 +285,8 @@ struct MonitorService::Impl {
     if (books.empty() || (turns == kept_turns && now_ns - kept_ns < kKeepNs)) return;
     kept_turns = turns;
     kept_ns = now_ns;
-    if (!outages.write(health.alarms().vehicle(), books)) complain(outages.error(), outages_trouble);
+    (void)outages.write(health.alarms().vehicle(), books);
+    complain(outages.error(), outages_trouble);
   }
 
   void publish(Alarm alarm) {

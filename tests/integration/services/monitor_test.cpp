@@ -236,6 +236,33 @@ TEST_F(MonitorTest, AnOutageGoesOnOverKillNine) {
   EXPECT_EQ(ear->status()->gps_outage_count, 1u);
 }
 
+TEST_F(MonitorTest, ADiskThatFailsAgainIsSaidAgain) {
+  start(189, {"services=[]", "navigation.expected=false"}, clock);
+  const std::filesystem::path books = journal.string() + ".outages";
+  const std::filesystem::path in_the_way = books.string() + ".new";
+  const auto complaints = [&] {
+    const std::string log = monitor->err();
+    int out = 0;
+    for (std::size_t at = 0; (at = log.find("cannot be written", at)) != std::string::npos; ++at) ++out;
+    return out;
+  };
+  const auto drive_until = [&](const std::function<bool()>& condition) {
+    return drive([&] { network->gps(true); }, condition, 60.0);
+  };
+  for (int time = 1; time <= 2; ++time) {
+    std::filesystem::remove(books);
+    ASSERT_TRUE(drive_until([&] { return std::filesystem::exists(books); })) << monitor->err();
+    // The monitor may be about to rename a file of that name.
+    ASSERT_TRUE(drive_until([&] {
+      std::error_code taken;
+      return std::filesystem::create_directory(in_the_way, taken);
+    }));
+    ASSERT_TRUE(drive_until([&] { return complaints() == time; })) << monitor->err();
+    std::filesystem::remove(in_the_way);
+  }
+  std::filesystem::remove(books);
+}
+
 TEST_F(MonitorTest, ATakenPortAndAnImpossibleJournalAreSaidAndTheMonitorGoesOn) {
   const int taken = socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
