@@ -1,10 +1,14 @@
 #include "host/run.hpp"
 
+#include <algorithm>
+#include <climits>
 #include <cstdio>
 #include <exception>
 #include <string>
 
 #include <CLI/CLI.hpp>
+#include <poll.h>
+#include <unistd.h>
 
 #include "config/vehicle/folder.hpp"
 #include "config/vehicle/vehicle_config.hpp"
@@ -15,11 +19,16 @@
 namespace fathom::host {
 namespace {
 
-int fail(const std::string& executable, ExitCode code, std::string message) {
-  for (char& c : message) {
-    if (c == '\n') c = ' ';
-  }
-  std::fprintf(stderr, "%s: %s\n", executable.c_str(), message.c_str());
+/// Standard error may be a pipe that nobody reads, and the log's thread may hang in it: whoever ends does not
+/// wait for either.
+int fail(const std::string& executable, ExitCode code, const std::string& message) {
+  constexpr int kPatience_ms = 1000;
+  std::string line = executable + ": " + message;
+  line.resize(std::min<std::size_t>(line.size(), PIPE_BUF - 1));  // what a pipe with room takes as a whole
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  line += '\n';
+  pollfd standard_error{STDERR_FILENO, POLLOUT, 0};
+  if (poll(&standard_error, 1, kPatience_ms) == 1) (void)!::write(STDERR_FILENO, line.data(), line.size());
   return static_cast<int>(code);
 }
 

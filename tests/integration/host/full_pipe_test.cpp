@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <csignal>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -19,24 +21,38 @@ namespace {
 constexpr int kDomain = 66;
 constexpr double kPatience_s = 60.0;
 
+/// For a shell: a service whose standard error is a pipe that is full and stays so.
+std::vector<std::string> in_front_of_a_full_pipe(const std::string& pipe,
+                                                 const std::vector<std::string>& arguments) {
+  std::vector<std::string> out{
+      "-c", R"(mkfifo "$1" && exec 2<>"$1"; timeout 1 head -c 1000000 /dev/zero >&2; exec "${@:2}")", "full",
+      pipe, FATHOM_BINARY_DIR "/bin/fathom-guidance-example"};
+  out.insert(out.end(), arguments.begin(), arguments.end());
+  return out;
+}
+
 TEST(FullPipe, HoldsNoServiceUp) {
   const TemporaryFolder folder;
   bus::Participant participant(presence(kDomain, "ear"));
   std::atomic<int> signs = 0;
   const bus::Reader<ServiceStatus> reader(participant,
                                           [&](const ServiceStatus&, const bus::SampleInfo&) { ++signs; });
-  const std::string pipe = folder / "pipe";
-  Process service(
-      "/bin/bash",
-      {"-c", R"(mkfifo "$1" && exec 2<>"$1"; timeout 1 head -c 1000000 /dev/zero >&2; exec "${@:2}")", "full",
-       pipe, FATHOM_BINARY_DIR "/bin/fathom-guidance-example", "--config",
-       FATHOM_SOURCE_DIR "/deploy/config/guidance_example.json", "--set",
-       "bus.domain=" + std::to_string(kDomain), "--set",
-       "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds"});
+  Process service("/bin/bash",
+                  in_front_of_a_full_pipe(
+                      folder / "pipe", {"--config", FATHOM_SOURCE_DIR "/deploy/config/guidance_example.json",
+                                        "--set", "bus.domain=" + std::to_string(kDomain), "--set",
+                                        "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds"}));
   EXPECT_TRUE(wait_until([&] { return signs >= 2; }, kPatience_s));
   service.kill(SIGTERM);
   ASSERT_TRUE(wait_until([&] { return !service.running(); }, kPatience_s));
   EXPECT_EQ(service.wait(), 0);
+}
+
+TEST(FullPipe, HoldsNoServiceUpThatFails) {
+  const TemporaryFolder folder;
+  Process service("/bin/bash", in_front_of_a_full_pipe(folder / "pipe", {"--config", "/none"}));
+  ASSERT_TRUE(wait_until([&] { return !service.running(); }, kPatience_s));
+  EXPECT_EQ(service.wait(), 2);
 }
 
 }  // namespace
