@@ -1,8 +1,10 @@
 #include "host/run.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <climits>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <string>
 
@@ -31,6 +33,40 @@ int fail(const std::string& executable, ExitCode code, const std::string& messag
   if (poll(&standard_error, 1, kPatience_ms) == 1) (void)!::write(STDERR_FILENO, line.data(), line.size());
   return static_cast<int>(code);
 }
+
+std::atomic<runtime::Log*> last_log = nullptr;
+
+/// An exception that nobody catches: the line that explains it is in the log, and may wait for the log's
+/// thread.
+[[noreturn]] void end_by_exception() {
+  if (runtime::Log* log = last_log) {
+    try {
+      if (std::current_exception()) throw;
+      log->error("it cannot go on");
+    } catch (const std::exception& error) {
+      log->error(std::string("nobody caught an exception: ") + error.what());
+    } catch (...) {
+      log->error("nobody caught an exception, which is of no known type");
+    }
+    log->flush();
+  }
+  std::abort();
+}
+
+/// As long as this lives, the log is complete when the process ends by an exception.
+class LastWords {
+ public:
+  explicit LastWords(runtime::Log& log) : before_(std::set_terminate(end_by_exception)) { last_log = &log; }
+  ~LastWords() {
+    last_log = nullptr;
+    std::set_terminate(before_);
+  }
+  LastWords(const LastWords&) = delete;
+  LastWords& operator=(const LastWords&) = delete;
+
+ private:
+  std::terminate_handler before_;
+};
 
 /// The exit code of run_service(), everything of the service having ended.
 int serve(int argc, char** argv, const ServiceInfo& info, const std::function<std::string()>& explain,
@@ -90,6 +126,7 @@ int serve(int argc, char** argv, const ServiceInfo& info, const std::function<st
     if (!prepared.instance.empty()) own.name = prepared.instance;
     ServiceHost host({own, std::move(prepared.common), std::move(prepared.config_hash),
                       std::move(prepared.discovery_listen)});
+    const LastWords last_words(host.log());
     if (request.base) host.log().info("configured by " + config::files_of(request));
     return static_cast<int>(body(host));
   } catch (const config::ConfigError& error) {
