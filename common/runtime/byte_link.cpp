@@ -46,11 +46,9 @@ std::string describe(const ByteLinkConfig& config) {
 /// Everything but send(), status() and the ends of its life runs on the thread.
 struct ByteLink::Impl {
   Impl(ByteLinkConfig config_in, BytesHandler on_bytes_in, Say say_in)
-      : config(std::move(config_in)), on_bytes(std::move(on_bytes_in)), say(std::move(say_in)) {
-    asio::post(io, [this] { open(); });
-    thread = std::thread([this] { io.run(); });
-  }
+      : config(std::move(config_in)), on_bytes(std::move(on_bytes_in)), say(std::move(say_in)) {}
   ~Impl() {
+    if (!thread.joinable()) return;
     asio::post(io, [this] {
       stopping = true;
       timer.cancel();
@@ -59,6 +57,11 @@ struct ByteLink::Impl {
       io.stop();
     });
     thread.join();
+  }
+
+  void start() {
+    asio::post(io, [this] { open(); });
+    thread = std::thread([this] { io.run(); });
   }
 
   void open() {
@@ -205,6 +208,10 @@ struct ByteLink::Impl {
 ByteLink::ByteLink(ByteLinkConfig config, BytesHandler on_bytes, Say say)
     : impl_(std::make_unique<Impl>(std::move(config), std::move(on_bytes), std::move(say))) {}
 ByteLink::~ByteLink() = default;
+
+void ByteLink::start() {
+  impl_->start();
+}
 
 void ByteLink::send(std::vector<std::uint8_t> bytes) {
   asio::post(impl_->io, [impl = impl_.get(), text = std::make_shared<const std::string>(

@@ -37,11 +37,14 @@ class ByteLink {
   /// Each change between well and trouble.
   using Say = std::function<void(bool is_trouble, const std::string& text)>;
 
-  /// The handlers run on the link's thread.
+  /// The handlers run on the link's thread. Nothing runs before start().
   ByteLink(ByteLinkConfig config, BytesHandler on_bytes, Say say);
   ~ByteLink();
   ByteLink(const ByteLink&) = delete;
   ByteLink& operator=(const ByteLink&) = delete;
+
+  /// Once, when all that the handlers use is there.
+  void start();
 
   /// Lets a piece leave; returns at once. Any thread, also from a handler.
   void send(std::vector<std::uint8_t> piece);

@@ -77,6 +77,7 @@ struct MavlinkGatewayService::Impl {
         reader(host.participant(), [this](const NavState& state, const bus::SampleInfo&) { take(state); }) {
     host.on_tick(kNsPerSecond, [this] { tick(); });
     host.on_status([this](ServiceStatus& status) { fill(status); });
+    link.start();  // last: what comes by it is answered at once, from everything that is here
   }
   ~Impl() {
     host.on_tick(kNsPerSecond, [] {});

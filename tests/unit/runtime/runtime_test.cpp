@@ -9,9 +9,11 @@
 
 #include "runtime/backoff.hpp"
 #include "runtime/build_info.hpp"
+#include "runtime/byte_link.hpp"
 #include "runtime/byte_source.hpp"
 #include "runtime/log.hpp"
 #include "runtime/refusal_log.hpp"
+#include "support/process.hpp"
 
 namespace fathom::runtime {
 namespace {
@@ -108,6 +110,22 @@ TEST(BuildInfo, HashTellsTextsApart) {
   EXPECT_NE(hex_hash("{\"a\":1}"), hex_hash("{\"a\":2}"));
   EXPECT_FALSE(version().empty());
   EXPECT_FALSE(host_name().empty());
+}
+
+TEST(ByteLink, NothingLeavesBeforeItIsStarted) {
+  ByteLinkConfig config;
+  config.port = 9;
+  ByteLink link(
+      config, [](std::span<const std::uint8_t>) {}, [](bool, const std::string&) {});
+  link.send({1, 2, 3});
+  EXPECT_EQ(link.status().bytes_sent + link.status().bytes_dropped, 0U);
+  link.start();
+  EXPECT_TRUE(test::wait_until([&] {
+    link.send({1, 2, 3});
+    return link.status().bytes_sent > 0;
+  }));
+  const ByteLink unused(
+      config, [](std::span<const std::uint8_t>) {}, [](bool, const std::string&) {});
 }
 
 TEST(ByteSourceConfig, IsNamedAsPeopleDo) {
