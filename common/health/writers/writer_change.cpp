@@ -15,8 +15,12 @@ void WriterChange::note(Stream& stream, const WriterGuid& writer, const Instant&
   if (writer == WriterGuid{}) return;
   const bool first = stream.writer == WriterGuid{};
   if (!first && !of_same_process(writer, stream.writer)) {
-    // Of several changes between two reports the first writer and the last one are told.
-    if (!stream.changed) stream.before = stream.words;
+    // Of several changes between two reports the first writer is told and the last one that is another.
+    if (!stream.changed) {
+      stream.before = stream.words;
+      stream.first = stream.writer;
+    }
+    if (!of_same_process(writer, stream.first)) stream.other = writer;
     stream.changed = true;
     stream.described_ns = 0;
   }
@@ -46,9 +50,13 @@ void WriterChange::tell(Stream& stream, const Name& key, const std::string& what
     stream.described_ns = now.monotonic_ns;
   }
   if (!std::exchange(stream.changed, false)) return;
+  // Who wrote before may have written last, too: then the one between is news.
+  const bool in_turn = of_same_process(stream.writer, stream.first);
+  const std::string other = in_turn && describe ? describe(stream.other) : stream.words;
   book.event({.key = key,
-              .text = sentence("%s comes from %.100s now, before it came from %.100s.", what.c_str(),
-                               stream.words.c_str(), stream.before.c_str())},
+              .text = sentence(in_turn ? "%s comes from %.100s in turn with %.100s."
+                                       : "%s comes from %.100s now, before it came from %.100s.",
+                               what.c_str(), other.c_str(), stream.before.c_str())},
              now);
 }
 

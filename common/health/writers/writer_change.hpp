@@ -35,6 +35,8 @@ class WriterChange {
     TimeNs described_ns = 0;  ///< monotonic
     TimeNs last_ns = 0;       ///< monotonic
     std::string before;       ///< words of the writer before it, until the change is reported
+    WriterGuid first{};       ///< that writer
+    WriterGuid other{};       ///< the last one since that is of another process
     bool changed = false;
   };
   static void note(Stream& stream, const WriterGuid& writer, const Instant& now);

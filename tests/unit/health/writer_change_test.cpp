@@ -47,6 +47,22 @@ TEST(WriterChangeTest, AnotherProcessIsAnEventThatNamesBoth) {
   EXPECT_EQ(book.find("nav_writer_changed"), nullptr);
 }
 
+TEST(WriterChangeTest, WhoWritesInBetweenIsNamed) {
+  WriterChange watch({"fusion"});
+  AlarmBook book("auv");
+  watch.heard_imu("imu", writer(1), at(1.0));
+  watch.report(book, at(1.0), describe);
+  for (const std::uint8_t process : {2, 1, 2, 1}) watch.heard_imu("imu", writer(process), at(1.05));
+  watch.report(book, at(1.1), describe);
+  ASSERT_NE(book.find("imu_writer_changed:imu"), nullptr);
+  EXPECT_EQ(book.find("imu_writer_changed:imu")->text,
+            "Inertial unit imu comes from process 2 in turn with process 1.");
+  for (const std::uint8_t process : {2, 1, 2}) watch.heard_imu("imu", writer(process), at(1.15));
+  watch.report(book, at(1.2), describe);
+  EXPECT_EQ(book.find("imu_writer_changed:imu")->text,
+            "Inertial unit imu comes from process 2 now, before it came from process 1.");
+}
+
 TEST(WriterChangeTest, AFusionThatNobodyExpectsIsHeldWhileItIsHeard) {
   WriterChange watch({"fusion", "fusion_standby"});
   AlarmBook book("auv");
