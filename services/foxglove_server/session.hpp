@@ -201,7 +201,7 @@ class Session final : public Client, public std::enable_shared_from_this<Session
   }
 
   Host& host_;
-  websocket::stream<Next, false> ws_;  // nothing is comsettleed
+  websocket::stream<Next, false> ws_;  // nothing is compressed
   beast::flat_buffer buffer_;
   http::request_parser<http::empty_body> parser_;
   Item leaving_;  // while it is written
