@@ -48,6 +48,9 @@ struct Dataset : Kinds::Samples<StreamsOf> {
 /// The instant that t_s = 0 means where nothing else is said: 2020-01-01T00:00:00Z.
 inline constexpr TimeNs kDefaultEpochNs = 1'577'836'800 * kNsPerSecond;
 
+/// What a file of a data set may be called: imu.csv, imu.csv.gz and so on, those of the reference last.
+[[nodiscard]] std::vector<std::string> file_names();
+
 struct ReadOptions {
   TimeNs epoch_ns = kDefaultEpochNs;  ///< UTC of t_s = 0
   Name vehicle = "auv";

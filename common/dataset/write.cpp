@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -10,11 +11,13 @@
 namespace fathom::dataset {
 namespace {
 
+constexpr std::array kSuffixes{".csv", ".csv.gz"};
+
 template <class T>
 void write_stream(const std::filesystem::path& directory, std::string_view kind, const WriteOptions& options,
                   const std::vector<T>& stream) {
   std::error_code error;
-  for (const char* suffix : {".csv", ".csv.gz"}) {
+  for (const char* suffix : kSuffixes) {
     // What an earlier run left would stand beside the new file, or for a sensor that this data set has not.
     std::filesystem::remove(directory / (std::string(kind) + suffix), error);
   }
@@ -35,6 +38,16 @@ void write_stream(const std::filesystem::path& directory, std::string_view kind,
 }
 
 }  // namespace
+
+std::vector<std::string> file_names() {
+  std::vector<std::string> out;
+  const auto add = [&](std::string_view kind) {
+    for (const char* suffix : kSuffixes) out.push_back(std::string(kind) + suffix);
+  };
+  for_each_kind([&](auto kind) { add(kind.kWord); });
+  add("reference");
+  return out;
+}
 
 void write(const std::filesystem::path& directory, const Dataset& data, const WriteOptions& options) {
   std::error_code error;

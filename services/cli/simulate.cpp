@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/outputs.hpp"
 #include "cli/progress.hpp"
 #include "config/scenario/scenario_config.hpp"
 #include "dataset/dataset.hpp"
@@ -111,7 +112,10 @@ void add_simulate(CLI::App& app, ExitCode&) {
       ->allow_extra_args(false);
   command->add_flag("--gzip", options->gzip, "write .csv.gz");
   command->add_flag("--json", options->json, "summary as JSON");
-  command->callback([options] { simulate(*options); });
+  command->callback([options] {
+    refuse_same_files({{"the scenario", options->scenario}}, {{"--out", options->out, true}});
+    simulate(*options);
+  });
 }
 
 }  // namespace fathom::cli

@@ -17,6 +17,7 @@
 #include "cli/commission/page.hpp"
 #include "cli/commission/patch.hpp"
 #include "cli/log.hpp"
+#include "cli/outputs.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/json/error.hpp"
 #include "config/vehicle/vehicle_config.hpp"
@@ -182,7 +183,12 @@ void add_commission(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--json", options->json, "findings as JSON");
   command->add_option("--page", options->page, "write a page of HTML with plots, complete in itself");
   command->add_flag("--apply", options->apply, "write what was found into the file of --vehicle or --config");
-  command->callback([options, &exit_code] { exit_code = run_commission(*options); });
+  command->callback([options, &exit_code] {
+    refuse_same_files(
+        {{"the input", options->log, true}, {"--config", options->config}, {"--vehicle", options->vehicle}},
+        {{"--page", options->page}});
+    exit_code = run_commission(*options);
+  });
 }
 
 }  // namespace fathom::cli

@@ -14,6 +14,7 @@
 #include "cli/export/recorded.hpp"
 #include "cli/export/tracks.hpp"
 #include "cli/log.hpp"
+#include "cli/outputs.hpp"
 #include "dataset/dataset.hpp"
 #include "exchange/track.hpp"
 
@@ -41,12 +42,22 @@ void close(std::ofstream& file, const std::string& path) {
   if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written: " + std::strerror(errno));
 }
 
+/// Where a folder of CSV has the solution.
+std::string solution_in(const std::string& folder) {
+  return (std::filesystem::path(folder) / "nav.csv").string();
+}
+
+std::vector<NamedPath> outputs_of(const ExportOptions& options) {
+  if (options.format != "csv") return {{"--out", options.out}};
+  std::vector<NamedPath> outputs{{"--out", solution_in(options.out)}};
+  // Of a solution nothing else is written.
+  if (is_recording(options.source) || std::filesystem::is_directory(options.source))
+    outputs.push_back({"--out", options.out, true});
+  return outputs;
+}
+
 void write_csv(const ExportOptions& options, TimeNs epoch_ns) {
   if (std::filesystem::is_directory(options.source)) {
-    if (std::filesystem::exists(options.out) && std::filesystem::equivalent(options.source, options.out)) {
-      throw Failure(ExitCode::bad_configuration,
-                    options.out + ": is the data set itself, expected another folder");
-    }
     dataset::write(options.out, dataset::read(options.source));
     return;
   }
@@ -54,8 +65,7 @@ void write_csv(const ExportOptions& options, TimeNs epoch_ns) {
   std::filesystem::create_directories(options.out, error);
   if (error)
     throw Failure(ExitCode::runtime_failure, options.out + ": cannot be created: " + error.message());
-  const std::string path = (std::filesystem::path(options.out) / "nav.csv").string();
-  copy_with_utc(options.source, path, epoch_ns);
+  copy_with_utc(options.source, solution_in(options.out), epoch_ns);
 }
 
 void refuse_without_recording(const ExportOptions& options) {
@@ -150,6 +160,7 @@ void add_export(CLI::App& app, ExitCode&) {
   command->add_option("--rate", options->rate_hz, "points a second; 0: every one; default 1")
       ->check(CLI::Range(0.0, 1e5));
   command->callback([options] {
+    refuse_same_files({{"the input", options->source, true}}, outputs_of(*options));
     try {
       export_tracks(*options);
     } catch (const dataset::DatasetError& error) {

@@ -182,8 +182,6 @@ std::vector<Track> tracks_of(const Recorded& recorded, double rate_hz) {
 }
 
 void copy_with_utc(const std::string& source, const std::string& out, TimeNs epoch_ns) {
-  if (std::filesystem::exists(out) && std::filesystem::equivalent(source, out))
-    throw dataset::DatasetError(out + ": is the source itself, expected another folder");
   dataset::CsvReader csv(source);
   const auto t = csv.column("t_s");
   std::string header = "utc";

@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
+#include "cli/outputs.hpp"
 #include "dataset/dataset.hpp"
 
 namespace fathom::cli {
@@ -215,7 +216,10 @@ void add_import(CLI::App& app, ExitCode&) {
       ->capture_default_str();
   command->add_flag("--gzip", options->gzip, "write .csv.gz");
   command->add_flag("--json", options->json, "print import.json");
-  command->callback([options] { import(*options); });
+  command->callback([options] {
+    refuse_same_files({{"the input", options->file}}, {{"--out", options->out, true}});
+    import(*options);
+  });
 }
 
 }  // namespace fathom::cli

@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
+#include "cli/outputs.hpp"
 #include "dataset/csv_reader.hpp"
 #include "dataset/dataset.hpp"
 #include "dataset/nav_rows.hpp"
@@ -86,6 +87,7 @@ void add_plot(CLI::App& app, ExitCode&) {
   command->add_option("--out", options->out, "the drawing (SVG)")->required();
   command->add_flag("--log", options->logarithmic, "logarithmic scale of the values");
   command->callback([options] {
+    refuse_same_files({{"the input", options->file}}, {{"--out", options->out}});
     std::string svg;
     try {
       svg = options->columns == std::vector<std::string>{"track"} ? track(*options) : quantities(*options);

@@ -9,6 +9,7 @@
 
 #include "cli/command.hpp"
 #include "cli/log.hpp"
+#include "cli/outputs.hpp"
 #include "cli/report/gather.hpp"
 #include "cli/report/recorded.hpp"
 #include "cli/solve/outage.hpp"
@@ -84,6 +85,10 @@ void add_report(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--start", options->start, "\"reference\": from the first row of reference.csv")
       ->check(CLI::IsMember({"reference"}));
   command->callback([options, &exit_code] {
+    refuse_same_files({{"the input", options->directory, true},
+                       {"--vehicle", options->config.vehicle},
+                       {"--config", options->config.own}},
+                      {{"--out", options->out}});
     const report::Material material = make(*options);
     write_text(options->out, report::page(material));
     bool any = false;

@@ -12,6 +12,7 @@
 
 #include "cli/command.hpp"
 #include "cli/log.hpp"
+#include "cli/outputs.hpp"
 #include "cli/solve/calibrate.hpp"
 #include "cli/solve/compare/compare.hpp"
 #include "cli/solve/course.hpp"
@@ -345,6 +346,16 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--page", options->compare_page, "of --compare: one page (HTML)")->needs(other);
   command->add_flag("--json", options->json, "print the metrics, or the comparison, as JSON");
   command->callback([options, other, out, &exit_code] {
+    refuse_same_files({{"the input", options->directory, true},
+                       {"--vehicle", options->config.vehicle},
+                       {"--config", options->config.own},
+                       {"--compare", options->compare_config},
+                       {"--at", options->at}},
+                      {{"--out", options->out},
+                       {"--metrics", options->metrics},
+                       {"--calibrate-hydro", options->calibrate_hydro},
+                       {"--csv", options->compare_csv},
+                       {"--page", options->compare_page}});
     if (other->count() > 0) {
       const report::Comparison comparison = compare(*options);
       if (!options->compare_page.empty()) write_text(options->compare_page, report::page(comparison));

@@ -90,16 +90,20 @@ class SolveTest : public ::testing::Test {
     std::ifstream file(folder / name, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
+  // Runs a program to its end; the exit code.
+  int run(const std::string& program, const std::vector<std::string>& arguments) {
+    Process process(program, arguments);
+    const int code = process.wait();
+    out = process.out();
+    err = process.err();
+    return code;
+  }
   // Runs `fathom solve data --config config.json --out nav.csv` and more; the exit code.
   int solve(std::vector<std::string> more, const std::string& config = "config.json") {
     std::vector<std::string> arguments{"solve",      path("data"), "--config",
                                        path(config), "--out",      path("nav.csv")};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    Process process("fathom", arguments);
-    const int code = process.wait();
-    out = process.out();
-    err = process.err();
-    return code;
+    return run("fathom", arguments);
   }
 
   fs::path folder;

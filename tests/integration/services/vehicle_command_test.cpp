@@ -32,13 +32,6 @@ class VehicleCommand : public SolveTest {
       "services": {"fusion": {"engine": {"configuration": "gps_ins15"}}}
     })");
   }
-  int run(const std::string& program, const std::vector<std::string>& arguments) {
-    Process process(program, arguments);
-    const int code = process.wait();
-    out = process.out();
-    err = process.err();
-    return code;
-  }
 };
 
 TEST_F(VehicleCommand, SolveRunsFusionAsTheVehicleWould) {
