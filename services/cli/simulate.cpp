@@ -14,6 +14,7 @@
 #include "cli/command.hpp"
 #include "cli/outputs.hpp"
 #include "cli/progress.hpp"
+#include "cli/removed_files.hpp"
 #include "config/scenario/scenario_config.hpp"
 #include "dataset/dataset.hpp"
 #include "sim/simulation.hpp"
@@ -72,6 +73,7 @@ void simulate(const SimulateOptions& options) {
   const dataset::Dataset data = run(scenario, options, duration_s);
   dataset::WriteOptions write;
   write.gzip = options.gzip;
+  const RemovedFiles removed(options.out);
   try {
     dataset::write(options.out, data, write);
   } catch (const dataset::DatasetError& error) {
@@ -101,7 +103,10 @@ void add_simulate(CLI::App& app, ExitCode&) {
                                      "Writes the data set of a simulated vehicle, reference included. "
                                      "The same seed gives the same bytes.");
   command->add_option("scenario", options->scenario, "name of a scenario, or its file")->required();
-  command->add_option("--out", options->out, "folder to write; created when absent")->required();
+  command
+      ->add_option("--out", options->out,
+                   "folder to write; created when absent; files of an earlier data set there are removed")
+      ->required();
   command->add_option("--seed", options->seed, "of all random numbers")->capture_default_str();
   command->add_option("--duration", options->duration_s, "seconds; default: as the scenario says")
       ->check(CLI::Range(0.01, 1e6));

@@ -15,6 +15,7 @@
 #include "cli/export/tracks.hpp"
 #include "cli/log.hpp"
 #include "cli/outputs.hpp"
+#include "cli/removed_files.hpp"
 #include "dataset/dataset.hpp"
 #include "exchange/track.hpp"
 
@@ -58,7 +59,9 @@ std::vector<NamedPath> outputs_of(const ExportOptions& options) {
 
 void write_csv(const ExportOptions& options, TimeNs epoch_ns) {
   if (std::filesystem::is_directory(options.source)) {
-    dataset::write(options.out, dataset::read(options.source));
+    const dataset::Dataset data = dataset::read(options.source);
+    const RemovedFiles removed(options.out);
+    dataset::write(options.out, data);
     return;
   }
   std::error_code error;
@@ -150,7 +153,10 @@ void add_export(CLI::App& app, ExitCode&) {
   command->add_option("--format", options->format, "csv, kml, gpx, geojson or nmea")
       ->required()
       ->check(CLI::IsMember({"csv", "kml", "gpx", "geojson", "nmea"}));
-  command->add_option("--out", options->out, "file to write; with csv a folder")->required();
+  command
+      ->add_option("--out", options->out,
+                   "file to write; with csv a folder, in which files of an earlier data set are removed")
+      ->required();
   command->add_option("--epoch", options->epoch,
                       "UTC of t_s = 0, e.g. 2026-01-31T12:00:00Z; default: that of import.json beside the "
                       "data, else 2020-01-01T00:00:00Z");

@@ -10,6 +10,7 @@
 
 #include "cli/command.hpp"
 #include "cli/log.hpp"
+#include "cli/removed_files.hpp"
 #include "dataset/nav_csv.hpp"
 
 namespace fathom::cli {
@@ -64,6 +65,7 @@ Recorded read_recorded(const std::string& file, const std::string& vehicle) {
 }
 
 void write_recorded(const std::string& folder, const Recorded& recorded) {
+  const RemovedFiles removed(folder);
   dataset::write(folder, recorded.data, {recorded.epoch_ns, false});
   const std::filesystem::path path(folder);
   if (!recorded.states.empty()) {

@@ -15,6 +15,7 @@
 
 #include "cli/command.hpp"
 #include "cli/outputs.hpp"
+#include "cli/removed_files.hpp"
 #include "dataset/dataset.hpp"
 
 namespace fathom::cli {
@@ -153,6 +154,7 @@ void import(const ImportOptions& options) {
     } catch (const logs::LogError& error) {
       throw Failure(ExitCode::bad_input, options.file + ": " + error.what());
     }
+    const RemovedFiles removed(options.out);
     logs::write(options.out, options.file, log, vehicle, {options.gzip});
     const std::string answer =
         options.json ? logs::to_json(options.file, log, vehicle) : to_text(options, log, vehicle);
@@ -179,7 +181,10 @@ void add_import(CLI::App& app, ExitCode&) {
       "common/logs/README.md,\n"
       "installed as flight-logs.md, tells which message becomes what.");
   command->add_option("file", options->file, "the log; of ROS 2 also the folder of a bag")->required();
-  command->add_option("--out", options->out, "folder to write; created when absent")->required();
+  command
+      ->add_option("--out", options->out,
+                   "folder to write; created when absent; files of an earlier data set there are removed")
+      ->required();
   command
       ->add_option("--from", options->choices,
                    "FILE=TOPIC:INSTANCE: what a file is made from where the log has several, e.g. "

@@ -185,7 +185,17 @@ def whole(fathom, path, folder):
                 continue
             report = run(fathom, path, out, "--from", f"{file}={topic}:{multi}")
             (check_imu if file == "imu" else check_gps)(truth, report, out)
+    says_what_it_removes(fathom, path, out)
     return fields, rows
+
+
+def says_what_it_removes(fathom, path, out):
+    for name in ("usbl.csv", os.path.join("sources", "another.0.csv"), "notes.csv"):
+        open(os.path.join(out, name), "w").write("t_s\n")
+    done = subprocess.run([fathom, "import", path, "--out", out], capture_output=True, text=True)
+    assert done.returncode == 0
+    assert f"fathom: {out}: sources/another.0.csv, usbl.csv: removed, " in done.stderr, done.stderr
+    assert os.path.exists(os.path.join(out, "notes.csv"))
 
 
 def damaged(fathom, path, folder, seed):
