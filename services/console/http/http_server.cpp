@@ -85,7 +85,7 @@ struct HttpServer::Impl {
       const int socket =
           accept4(listener, reinterpret_cast<sockaddr*>(&from), &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
       if (socket < 0) {
-        exhausted = errno != EAGAIN && errno != EINTR && errno != ECONNABORTED;
+        exhausted = errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM;
         if (exhausted) refused({503, "no_descriptors"}, "a client that waits");
         continue;
       }
