@@ -44,26 +44,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "fathom " + std::string(fathom::runtime::version()));
   app.require_subcommand(1);
   ExitCode exit_code = ExitCode::done;
-
-  fathom::cli::add_decode(app, exit_code);
-  fathom::cli::add_status(app, exit_code);
-  fathom::cli::add_fix(app, exit_code);
-  fathom::cli::add_solve(app, exit_code);
-  fathom::cli::add_commission(app, exit_code);
-  fathom::cli::add_simulate(app, exit_code);
-  fathom::cli::add_study(app, exit_code);
-  fathom::cli::add_bench(app, exit_code);
-  fathom::cli::add_doctor(app, exit_code);
-  fathom::cli::add_config(app, exit_code);
-  fathom::cli::add_init(app, exit_code);
-  fathom::cli::add_keygen(app, exit_code);
-  fathom::cli::add_import(app, exit_code);
-  fathom::cli::add_export(app, exit_code);
-  fathom::cli::add_explain(app, exit_code);
-  fathom::cli::add_report(app, exit_code);
-  fathom::cli::add_plot(app, exit_code);
-  fathom::cli::add_record(app, exit_code);
-  fathom::cli::add_replay(app, exit_code);
+  fathom::cli::add_commands(app, exit_code);
 
   try {
     app.parse(argc, argv);
