@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <map>
+#include <system_error>
 
 #include "bus/cdr.hpp"
 #include "cli/command.hpp"
@@ -127,9 +129,18 @@ dataset::Dataset read_dataset(const std::string& directory, Name vehicle) {
   }
 }
 
+void refuse_without_imu_file(const std::string& directory) {
+  const std::filesystem::path plain = std::filesystem::path(directory) / "imu.csv";
+  std::error_code error;
+  if (!std::filesystem::exists(plain, error) && !std::filesystem::exists(plain.string() + ".gz", error))
+    throw Failure(ExitCode::bad_input,
+                  plain.string() + ": is not there, nor is imu.csv.gz; expected the inertial samples");
+}
+
 dataset::Dataset read_log(const std::string& log, const config::FusionConfig& config) {
   if (is_recording(log)) return read_recording_for(log, config);
   dataset::Dataset data = read_dataset(log, Name(config.common.vehicle));
+  refuse_without_imu_file(log);
   if (data.of<ImuSample>().empty())
     throw Failure(ExitCode::bad_input, log + "/imu.csv: no inertial samples, expected at least one row");
   for_each_aiding_kind(

@@ -31,6 +31,9 @@ struct ConfigFiles {
 /// The data set in a folder. Throws Failure.
 [[nodiscard]] dataset::Dataset read_dataset(const std::string& directory, Name vehicle);
 
+/// Throws Failure where a data set has no file of inertial samples.
+void refuse_without_imu_file(const std::string& directory);
+
 /// What the instruments of the configured vehicle said, with at least one inertial sample. In a data set each
 /// stream has the name of the first configured sensor of its kind. In a recording sensors keep their names,
 /// of inertial units the configured one is read, and the truth is the reference; damaged parts are named on

@@ -132,6 +132,7 @@ ExitCode run_commission(const CommissionOptions& options) {
   }
   const auto& imu = data.of<ImuSample>();
   if (imu.size() < 100 || imu.back().header.stamp_ns - imu.front().header.stamp_ns < 5 * kNsPerSecond)
+    refuse_without_imu_file(options.log);
     throw Failure(ExitCode::bad_input,
                   options.log + "/imu.csv: " + std::to_string(imu.size()) +
                       " inertial samples, expected at least a hundred over five seconds");

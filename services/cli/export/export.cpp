@@ -57,9 +57,18 @@ std::vector<NamedPath> outputs_of(const ExportOptions& options) {
   return outputs;
 }
 
+bool holds_nothing(const dataset::Dataset& data) {
+  bool nothing = data.reference.empty();
+  for_each_kind([&](auto kind) { nothing = nothing && data.of<typename decltype(kind)::Sample>().empty(); });
+  return nothing;
+}
+
 void write_csv(const ExportOptions& options, TimeNs epoch_ns) {
   if (std::filesystem::is_directory(options.source)) {
     const dataset::Dataset data = dataset::read(options.source);
+    if (holds_nothing(data))
+      throw Failure(ExitCode::bad_input,
+                    options.source + ": no samples, expected a data set with imu.csv or others");
     const RemovedFiles removed(options.out);
     dataset::write(options.out, data);
     return;

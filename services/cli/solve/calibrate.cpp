@@ -153,8 +153,8 @@ std::string text_of(const Calibration& found) {
 
 }  // namespace
 
-std::string calibrate_hydro(const SolveRun& solve_run, const std::string& directory,
-                            const std::string& config_file, const std::string& out_file) {
+void check_calibration(const SolveRun& solve_run, const std::string& directory,
+                       const std::string& config_file) {
   const auto& start = solve_run.config->engine.vehicle_model.coefficients;
   if (const std::string complaint = start.validate(); !complaint.empty()) {
     throw Failure(ExitCode::bad_configuration,
@@ -168,6 +168,10 @@ std::string calibrate_hydro(const SolveRun& solve_run, const std::string& direct
     throw Failure(ExitCode::bad_input,
                   directory + "/dvl.csv: no rows, expected velocities over ground to calibrate with");
   }
+}
+
+std::string calibrate_hydro(const SolveRun& solve_run, const std::string& directory,
+                            const std::string& out_file) {
   // What is to be calibrated must not have had a hand in the velocity.
   config::FusionConfig config = *solve_run.config;
   config.engine.vehicle_model.enabled = false;
@@ -177,6 +181,7 @@ std::string calibrate_hydro(const SolveRun& solve_run, const std::string& direct
   Log log(own);
   own.on_state = [&](const NavState& state, estimation::FusionEngine&) { log.add(state); };
   (void)run(own);
+  const auto& start = solve_run.config->engine.vehicle_model.coefficients;
   const Calibration found = estimation::hydro::calibrate(start, log.points());
   if (!found.failure.empty()) throw Failure(ExitCode::bad_input, directory + ": " + found.failure);
   write_file(out_file, found, solve_run.config->common.vehicle, directory);

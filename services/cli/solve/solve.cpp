@@ -111,6 +111,15 @@ std::string settings_text(const ConfigFiles& config, const std::vector<std::stri
   return out;
 }
 
+/// What a data set may have besides imu.csv, for people.
+std::string other_files() {
+  std::string out;
+  for_each_kind([&](auto kind) {
+    if (kind.kSource != SourceKind::imu) out += std::string(kind.kWord) + ", ";
+  });
+  return out + "reference";
+}
+
 report::Comparison compare(const SolveOptions& options) {
   const ConfigFiles second_config =
       options.compare_config.empty() ? options.config : ConfigFiles{"", options.compare_config};
@@ -184,10 +193,12 @@ SolveReport solve(const SolveOptions& options) {
     if (place != nullptr) place->add(state, error);
   };
   dataset::Scorer scorer;
-  dataset::NavCsv csv(options.out, epoch_ns);
-  Thinning rows(options.rate_hz);
   std::optional<dataset::AtInstants> at;
   if (!options.at.empty()) at.emplace(read_instants(options.at, epoch_ns));
+  if (!options.calibrate_hydro.empty())
+    check_calibration(solve_run, options.directory, options.config.text());
+  dataset::NavCsv csv(options.out, epoch_ns);  // once all that is read is found to be good
+  Thinning rows(options.rate_hz);
   SolveReport report;
   Path path;
   Path filtered_path;
@@ -257,8 +268,7 @@ SolveReport solve(const SolveOptions& options) {
     report.outages = run_outages(solve_run, *outages, options.smooth, epoch_ns, options.directory);
   }
   if (!options.calibrate_hydro.empty())
-    report.calibration =
-        calibrate_hydro(solve_run, options.directory, options.config.text(), options.calibrate_hydro);
+    report.calibration = calibrate_hydro(solve_run, options.directory, options.calibrate_hydro);
   return report;
 }
 
@@ -271,8 +281,9 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
   command->footer(
       "The data set: imu.csv (t_s, gx_rad_s gy_rad_s gz_rad_s, ax_m_s2 ay_m_s2 az_m_s2, body axes forward, "
       "right,\n"
-      "down) and any of gps, dvl, depth, heading, usbl, airspeed, propulsion, fins, reference (.csv or "
-      ".csv.gz),\n"
+      "down) and any of " +
+      other_files() +
+      " (.csv or .csv.gz),\n"
       "each with t_s in seconds. Their columns: common/dataset/README.md, installed as data-sets.md; one "
       "that is\n"
       "missing is named. Configurations to begin from: deploy/config/fusion.json, "
