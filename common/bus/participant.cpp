@@ -21,6 +21,7 @@
 #include "bus/detail/workarounds/dds_log.hpp"
 #include "bus/detail/workarounds/scheduling.hpp"
 #include "bus/interfaces.hpp"
+#include "bus/option_error.hpp"
 
 namespace fathom::bus {
 namespace {
@@ -69,7 +70,7 @@ rtps::Locator_t locator(const std::string& what, const std::string& address) {
   rtps::Locator_t result;
   result.kind = LOCATOR_KIND_UDPv4;
   if (!rtps::IPLocator::isIPv4(address) || !rtps::IPLocator::setIPv4(result, address)) {
-    throw BusError(what + " '" + address + "': expected an IPv4 address such as 127.0.0.1");
+    throw OptionError(what + " '" + address + "': expected an IPv4 address such as 127.0.0.1");
   }
   return result;
 }

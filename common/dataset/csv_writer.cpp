@@ -77,7 +77,7 @@ CsvWriter::CsvWriter(const std::filesystem::path& path)
     : file_(path.string()),
       out_(gzopen(path.c_str(), path.extension() == ".gz" ? "wb6" : "wbT")),
       pending_(2 * kFlushBytes) {
-  if (out_ == nullptr) throw DatasetError(file_ + ": cannot be written: " + std::strerror(errno));
+  if (out_ == nullptr) throw WriteError(file_ + ": cannot be written: " + std::strerror(errno));
 }
 
 CsvWriter::~CsvWriter() {
@@ -167,7 +167,7 @@ void CsvWriter::line(std::string_view text) {
 void CsvWriter::flush() {
   if (used_ == 0) return;
   if (gzwrite(out_, pending_.data(), static_cast<unsigned>(used_)) <= 0) {
-    throw DatasetError(file_ + ": cannot be written: " + std::strerror(errno));
+    throw WriteError(file_ + ": cannot be written: " + std::strerror(errno));
   }
   used_ = 0;
 }
@@ -176,7 +176,7 @@ void CsvWriter::close() {
   flush();
   gzFile_s* out = out_;
   out_ = nullptr;
-  if (gzclose_w(out) != Z_OK) throw DatasetError(file_ + ": cannot be written: " + std::strerror(errno));
+  if (gzclose_w(out) != Z_OK) throw WriteError(file_ + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace fathom::dataset

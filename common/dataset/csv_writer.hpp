@@ -12,7 +12,7 @@ struct gzFile_s;
 
 namespace fathom::dataset {
 
-/// Writes a comma-separated file, plain or gzip, field by field. Faults throw DatasetError. The same calls
+/// Writes a comma-separated file, plain or gzip, field by field. Faults throw WriteError. The same calls
 /// give the same bytes.
 class CsvWriter {
  public:

@@ -24,6 +24,12 @@ class DatasetError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The disk does not take the folder or a file of it.
+class WriteError : public DatasetError {
+ public:
+  using DatasetError::DatasetError;
+};
+
 template <class Sample>
 struct Stream {
   std::vector<Sample> samples;
@@ -67,7 +73,7 @@ struct WriteOptions {
 /// Writes one file per stream that is not empty into `directory`, which is created when absent; files of this
 /// layout that an earlier call left there are removed. Numbers are written so that reading gives the same
 /// value back (angles to the rounding of their conversion to degrees); optional columns only where some row
-/// knows them; t_received_s only where some sample did not arrive at its stamp. Throws DatasetError.
+/// knows them; t_received_s only where some sample did not arrive at its stamp. Throws WriteError.
 void write(const std::filesystem::path& directory, const Dataset& data, const WriteOptions& options = {});
 
 /// One sample of a Dataset in the order of arrival: the element `index` of the stream `source`.

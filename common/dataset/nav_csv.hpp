@@ -13,7 +13,7 @@ namespace fathom::dataset {
 /// 1 um, 1 um/s and 1e-9 deg.
 class NavCsv {
  public:
-  /// Throws DatasetError. `epoch_ns` is the instant of t_s = 0.
+  /// Throws WriteError. `epoch_ns` is the instant of t_s = 0.
   NavCsv(const std::filesystem::path& path, TimeNs epoch_ns);
   void add(const NavState& state);
   void close() { csv_.close(); }

@@ -52,7 +52,7 @@ std::vector<std::string> file_names() {
 void write(const std::filesystem::path& directory, const Dataset& data, const WriteOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw DatasetError(directory.string() + ": cannot be created: " + error.message());
+  if (error) throw WriteError(directory.string() + ": cannot be created: " + error.message());
   for_each_kind([&](auto kind) {
     write_stream(directory, kind.kWord, options, data.of<typename decltype(kind)::Sample>());
   });

@@ -10,4 +10,10 @@ class SecurityError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Credentials that the disk does not take.
+class WriteError : public SecurityError {
+ public:
+  using SecurityError::SecurityError;
+};
+
 }  // namespace fathom::security

@@ -62,7 +62,7 @@ std::string read_file(const std::filesystem::path& file, bool is_private) {
 
 void write_file(const std::filesystem::path& file, const std::string& text, mode_t mode) {
   const auto fail = [&](const char* expected) {
-    throw SecurityError(file.string() + ": cannot be written (" + errno_text() + "), expected " + expected);
+    throw WriteError(file.string() + ": cannot be written (" + errno_text() + "), expected " + expected);
   };
   const std::string beside = file.string() + ".new";
   unlink(beside.c_str());  // left by a run that was cut off

@@ -39,9 +39,9 @@ void make_folder(const fs::path& folder, mode_t mode) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error || chmod(folder.c_str(), mode) != 0) {
-    throw SecurityError(folder.string() + ": cannot be made (" +
-                        (error ? error.message() : std::strerror(errno)) +
-                        "), expected a place that may be written to");
+    throw WriteError(folder.string() + ": cannot be made (" +
+                     (error ? error.message() : std::strerror(errno)) +
+                     "), expected a place that may be written to");
   }
 }
 
@@ -99,8 +99,8 @@ void make_identity(const fs::path& folder, const Role& role, const Authorities& 
   const int moved = exists ? renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE)
                            : rename(fresh.c_str(), folder.c_str());
   if (moved != 0) {
-    throw SecurityError(folder.string() + ": cannot be replaced (" + std::strerror(errno) +
-                        "), expected a folder that may be written to");
+    throw WriteError(folder.string() + ": cannot be replaced (" + std::strerror(errno) +
+                     "), expected a folder that may be written to");
   }
   if (exists) fs::remove_all(fresh);
 }

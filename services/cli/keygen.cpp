@@ -85,6 +85,8 @@ ExitCode run(Options& options) {
     std::fprintf(stderr, "%s: credentials made; take %s/authority away from the vehicle\n",
                  options.make.folder.c_str(), options.make.folder.c_str());
     return ExitCode::done;
+  } catch (const security::WriteError& error) {
+    throw Failure(ExitCode::runtime_failure, error.what());
   } catch (const security::SecurityError& error) {
     throw Failure(ExitCode::bad_configuration, error.what());
   }

@@ -8,7 +8,7 @@
 
 #include "base/exit_code.hpp"
 #include "base/nearest.hpp"
-#include "bus/participant.hpp"
+#include "bus/option_error.hpp"
 #include "cli/command.hpp"
 #include "config/json/error.hpp"
 #include "runtime/build_info.hpp"
@@ -57,6 +57,8 @@ int main(int argc, char** argv) {
   } catch (const fathom::cli::Failure& failure) {
     return fail(failure.code(), failure.what());
   } catch (const fathom::config::ConfigError& error) {
+    return fail(ExitCode::bad_configuration, error.what());
+  } catch (const fathom::bus::OptionError& error) {
     return fail(ExitCode::bad_configuration, error.what());
   } catch (const fathom::bus::CredentialsError& error) {
     return fail(ExitCode::bad_configuration, error.what());

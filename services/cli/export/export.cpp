@@ -178,6 +178,8 @@ void add_export(CLI::App& app, ExitCode&) {
     refuse_same_files({{"the input", options->source, true}}, outputs_of(*options));
     try {
       export_tracks(*options);
+    } catch (const dataset::WriteError& error) {
+      throw Failure(ExitCode::runtime_failure, error.what());
     } catch (const dataset::DatasetError& error) {
       throw Failure(ExitCode::bad_input, error.what());
     }

@@ -100,14 +100,15 @@ ExitCode record(const RecordOptions& options) {
     counts = recorder.counts();
   }
   if (counts.files == 0) {
-    throw Failure(ExitCode::no, counts.trouble.empty()
-                                    ? "record: nothing came on domain " + std::to_string(options.bus.domain)
-                                    : "record: " + keep.out.string() + ": " + counts.trouble);
+    if (!counts.trouble.empty())
+      throw Failure(ExitCode::runtime_failure, "record: " + keep.out.string() + ": " + counts.trouble);
+    throw Failure(ExitCode::no, "record: nothing came on domain " + std::to_string(options.bus.domain));
   }
   std::printf("%s: %llu messages, %llu bytes, %llu lost\n", keep.out.c_str(),
               static_cast<unsigned long long>(counts.samples), static_cast<unsigned long long>(counts.bytes),
               static_cast<unsigned long long>(counts.lost));
-  return counts.lost == 0 ? ExitCode::done : ExitCode::no;
+  // What is lost the disk did not take, or not quickly enough.
+  return counts.lost == 0 && counts.trouble.empty() ? ExitCode::done : ExitCode::runtime_failure;
 }
 
 }  // namespace

@@ -244,6 +244,22 @@ TEST(RecordCommand, RecordsForAWhileAndRecovers) {
   EXPECT_GT(after.imu.size(), 50U);
 }
 
+TEST(RecordCommand, EndsWithFourWhereTheDiskDoesNotTakeEverything) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "no folder";
+  const Vehicle vehicle;
+  const std::string arguments = " record --domain " + std::to_string(kDomain) +
+                                " --duration 2 --topic imu --profiles " + FATHOM_SOURCE_DIR +
+                                "/deploy/dds --compression none --out " + folder.path().string();
+  const std::string record = FATHOM_BINARY_DIR "/bin/fathom" + arguments;
+  Process nowhere("/bin/sh", {"-c", "exec " + record + "/file/by_hand.mcap"});
+  EXPECT_EQ(nowhere.wait(), 4) << nowhere.out() << nowhere.err();
+  // A file of 32 kB is as far as it gets, as on a disk that is full.
+  Process full("/bin/sh", {"-c", "trap '' XFSZ; ulimit -f 64; exec " + record + "/by_hand.mcap"});
+  EXPECT_EQ(full.wait(), 4) << full.out() << full.err();
+  EXPECT_NE(full.err().find("cannot be written"), std::string::npos) << full.err();
+}
+
 /// A recording of 100 inertial samples, 5 ms apart, and of as many depths.
 void write_recording(const std::string& path) {
   auto sink = record::FileSink::create(path);

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "bus/detail/versions/settings.hpp"
+#include "bus/option_error.hpp"
 
 namespace fathom::bus::detail {
 namespace {
@@ -78,7 +79,7 @@ ServerAddress parse_server_address(const std::string& what, const std::string& t
     if (error == std::errc() && rest == end && out.port != 0 && rtps::IPLocator::isIPv4(out.address))
       return out;
   }
-  throw BusError(what + " '" + text + "': expected an IPv4 address and a port such as 192.168.2.1:11811");
+  throw OptionError(what + " '" + text + "': expected an IPv4 address and a port such as 192.168.2.1:11811");
 }
 
 bool uses_servers(const ParticipantOptions& options) {

@@ -7,6 +7,7 @@
 
 #include "bus/detail/versions/settings.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
+#include "bus/option_error.hpp"
 #include "bus/profiles.hpp"
 #include "samples/kinds.hpp"
 
@@ -64,7 +65,7 @@ std::string find_profiles_dir(const std::string& configured) {
     if (fs::is_regular_file(place / "participant.xml", ignored)) return place.string();
     looked += (looked.empty() ? "" : ", ") + place.string();
   }
-  throw BusError("no QoS profiles (participant.xml and others) in: " + looked);
+  throw OptionError("no QoS profiles (participant.xml and others) in: " + looked);
 }
 
 void load_profiles(const std::string& folder) {
@@ -74,7 +75,7 @@ void load_profiles(const std::string& folder) {
        at.increment(failed)) {
     if (at->path().extension() == ".xml") files.push_back(fs::weakly_canonical(at->path()));
   }
-  if (failed || files.empty()) throw BusError(folder + ": expected a folder with QoS profiles (*.xml)");
+  if (failed || files.empty()) throw OptionError(folder + ": expected a folder with QoS profiles (*.xml)");
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
     if (!load_profiles_file(file.string())) {
