@@ -35,7 +35,7 @@ struct Credentials {
 /// "expires in 12 days (2026-03-01)" or "has expired on ..." when that is worth a word at `now`; else empty.
 [[nodiscard]] std::string expiry_text(TimeNs until_ns, TimeNs now);
 
-/// Names of identities and vehicles become file names and parts of certificates: 1 to 64 letters, digits,
+/// Names of identities become file names and parts of certificates: 1 to 64 letters, digits,
 /// '_', '-', '.', not beginning with a dot.
 [[nodiscard]] bool is_plain_name(const std::string& name);
 

@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <sys/stat.h>
 
+#include "base/is_name.hpp"
 #include "security/roles.hpp"
 
 namespace fathom::security {
@@ -115,10 +116,8 @@ void check_days(int days, const Certificate& authority, TimeNs now, const fs::pa
 }  // namespace
 
 void make_credentials(const KeygenOptions& options, TimeNs now) {
-  if (!is_plain_name(options.vehicle)) {
-    throw SecurityError("vehicle '" + options.vehicle +
-                        "': expected 1 to 64 letters, digits, '_', '-' or '.', not beginning with '.'");
-  }
+  if (!is_name(options.vehicle))
+    throw SecurityError("vehicle '" + options.vehicle + "': expected " + kNameForm);
   if (options.days > options.ca_days) {
     throw SecurityError("days " + std::to_string(options.days) + ": expected at most the " +
                         std::to_string(options.ca_days) + " that the authorities hold");
