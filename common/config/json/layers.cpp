@@ -106,6 +106,8 @@ std::string_view to_string(Layer layer) {
       return "vehicle";
     case Layer::override_:
       return "override";
+    case Layer::command_line:
+      return "command line";
     case Layer::standard:
       break;
   }
@@ -242,7 +244,7 @@ void Layers::set(const std::string& set) {
   std::string resolved;
   json& node = node_at(path, value, resolved);
   replace(node, resolved, parsed.fault ? json(value) : std::move(parsed.value),
-          {Layer::override_, file_, path});
+          {Layer::command_line, file_, path});
 }
 
 json read_file(const std::string& file) {

@@ -18,15 +18,16 @@ enum class Layer : std::uint8_t {
   standard = 0,   ///< nobody said it
   catalogue = 1,  ///< the instrument's model
   vehicle = 2,    ///< the file of the vehicle
-  override_ = 3,  ///< the service's own file or the command line
+  override_ = 3,  ///< the service's own file
+  command_line = 4,
 };
-/// "default", "catalogue", "vehicle", "override".
+/// "default", "catalogue", "vehicle", "override", "command line".
 [[nodiscard]] std::string_view to_string(Layer layer);
 
 /// Where a value stands.
 struct Origin {
   Layer layer = Layer::standard;
-  std::string file;  ///< empty: in no file
+  std::string file;  ///< empty: in no file; of the command line, the file that it overrides
   std::string key;   ///< dotted path there
 
   [[nodiscard]] Origin child(const std::string& part) const {

@@ -50,6 +50,11 @@ std::string text_of(const nlohmann::json& value) {
   return text.data();
 }
 
+/// Where a value stands; nowhere, when it was said on the command line.
+std::string file_of(const config::Origin& origin) {
+  return origin.layer == config::Layer::command_line ? "" : origin.file;
+}
+
 void print_text(const std::vector<config::Provenance>& values) {
   std::size_t widest = 0;
   for (const auto& one : values) widest = std::max(widest, one.key.size());
@@ -57,7 +62,9 @@ void print_text(const std::vector<config::Provenance>& values) {
     std::string line = one.key + std::string(widest - one.key.size() + 2, ' ') + text_of(one.value);
     line += std::string(line.size() < widest + 30 ? widest + 30 - line.size() : 1, ' ');
     line += std::string(config::to_string(one.origin.layer));
-    if (!one.origin.file.empty()) line += "  " + one.origin.file + ": " + one.origin.key;
+    if (one.origin.layer == config::Layer::command_line) line += "  --set " + one.origin.key;
+    if (const std::string file = file_of(one.origin); !file.empty())
+      line += "  " + file + ": " + one.origin.key;
     std::printf("%s\n", line.c_str());
   }
 }
@@ -70,7 +77,7 @@ void print_json(const ShowOptions& options, const std::vector<config::Provenance
     out["values"].push_back({{"key", one.key},
                              {"value", one.value},
                              {"from", config::to_string(one.origin.layer)},
-                             {"file", one.origin.file},
+                             {"file", file_of(one.origin)},
                              {"file_key", one.origin.key}});
   }
   std::printf("%s\n", out.dump().c_str());
@@ -105,7 +112,7 @@ void add_config(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ShowOptions>();
   CLI::App* show = group->add_subcommand("show",
                                          "What a service would run with, and where each value came from: "
-                                         "default, catalogue, vehicle, override.");
+                                         "default, catalogue, vehicle, override, command line.");
   show->add_option("service", options->service, "e.g. fusion, imu_bridge, monitor")->required();
   CLI::Option* vehicle =
       show->add_option("--vehicle", options->vehicle, "file of the vehicle, e.g. /etc/fathom/vehicle.json");

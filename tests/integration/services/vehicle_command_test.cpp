@@ -62,6 +62,12 @@ TEST_F(VehicleCommand, AFileOfTheServicesOwnGoesBefore) {
   EXPECT_THAT(out, ::testing::ContainsRegex(
                        "sensors.0.rate_hz +2 +vehicle +[^ ]*vehicle.json: instruments.1.rate_hz"));
   EXPECT_THAT(out, Not(HasSubstr("default")));
+  ASSERT_EQ(run("fathom", {"config", "show", "gps_bridge", "--vehicle", path("vehicle.json"), "--said",
+                           "--set", "bus.domain=7"}),
+            0)
+      << err;
+  EXPECT_THAT(out, ::testing::ContainsRegex("bus.domain +7 +command line +--set bus.domain\n"));
+  EXPECT_THAT(out, Not(HasSubstr("override")));
   write("gps_bridge.json", R"({"sensors": [{"name": "gps0", "max_speed": 30}]})");
   EXPECT_EQ(run("fathom-gps-bridge", {"--folder", folder.string(), "--check"}), 2);
   EXPECT_EQ(err,

@@ -290,7 +290,7 @@ TEST_F(Vehicle, EachValueSaysWhereItCameFrom) {
     EXPECT_EQ(from.at("sensors.0.protocol"), Layer::catalogue);
     EXPECT_EQ(from.at("sensors.0.rate_hz"), Layer::vehicle);
     EXPECT_EQ(from.at("sensors.0.source.silence_s"), Layer::standard);
-    EXPECT_EQ(from.at("log.level"), Layer::override_);
+    EXPECT_EQ(from.at("log.level"), Layer::command_line);
     EXPECT_FALSE(from.contains("sensors.0.heading_alignment_deg")) << "means nothing to this protocol";
   }
 }
