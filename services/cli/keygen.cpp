@@ -101,27 +101,28 @@ void add_keygen(CLI::App& app, ExitCode& exit_code) {
       "keygen", "Makes, renews and checks the identities and permissions of a vehicle network.");
   command->footer("Exit code: 0 done, 1 with --check: something is wrong or ends within 30 days.");
   command->add_option("folder", make.folder, "Folder of the credentials")->required();
-  command->add_option("--vehicle", make.vehicle, "Name of the vehicle")->capture_default_str();
-  command
-      ->add_option_function<std::vector<std::uint32_t>>(
-          "--domains",
-          [&make](const std::vector<std::uint32_t>& range) {
-            make.domains = {range[0], range[1]};
-          },
-          "First and last DDS domain that the credentials are for; default: 0 230")
-      ->expected(2)
-      ->check(CLI::Range(0, 232));
-  command->add_option("--days", make.days, "Days that identities hold")
-      ->check(CLI::Range(1, 36500))
-      ->capture_default_str();
-  command->add_option("--ca-days", make.ca_days, "Days that the authorities hold")
-      ->check(CLI::Range(1, 36500))
-      ->capture_default_str();
-  command
-      ->add_option("--messages", options->protection,
-                   "Protection of each message around its encrypted samples")
-      ->check(CLI::IsMember({"sign", "encrypt"}))
-      ->capture_default_str();
+  auto* vehicle =
+      command->add_option("--vehicle", make.vehicle, "Name of the vehicle")->capture_default_str();
+  auto* domains = command
+                      ->add_option_function<std::vector<std::uint32_t>>(
+                          "--domains",
+                          [&make](const std::vector<std::uint32_t>& range) {
+                            make.domains = {range[0], range[1]};
+                          },
+                          "First and last DDS domain that the credentials are for; default: 0 230")
+                      ->expected(2)
+                      ->check(CLI::Range(0, 232));
+  auto* days = command->add_option("--days", make.days, "Days that identities hold")
+                   ->check(CLI::Range(1, 36500))
+                   ->capture_default_str();
+  auto* ca_days = command->add_option("--ca-days", make.ca_days, "Days that the authorities hold")
+                      ->check(CLI::Range(1, 36500))
+                      ->capture_default_str();
+  auto* messages = command
+                       ->add_option("--messages", options->protection,
+                                    "Protection of each message around its encrypted samples")
+                       ->check(CLI::IsMember({"sign", "encrypt"}))
+                       ->capture_default_str();
   auto* force =
       command->add_flag("--force", make.replace, "Make new authorities where there are some already");
   auto* service = command
@@ -138,6 +139,9 @@ void add_keygen(CLI::App& app, ExitCode& exit_code) {
           ->excludes(force)
           ->excludes(service)
           ->excludes(rotate);
+  check->excludes(days);
+  for (CLI::Option* other : {service, rotate, check})  // these take what the folder says
+    other->excludes(vehicle)->excludes(domains)->excludes(ca_days)->excludes(messages);
   command->add_flag("--json", options->json, "With --check: one line of JSON")->needs(check);
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }

@@ -128,11 +128,14 @@ ExitCode run_commission(const CommissionOptions& options) {
       config = Json::parse(file);
     }
   } else {
+    if (!options.sets.empty())
+      throw Failure(ExitCode::bad_configuration,
+                    "commission: --set needs --vehicle or --config: the configuration that it overrides");
     data = read_dataset(options.log, "auv");
+    refuse_without_imu_file(options.log);
   }
   const auto& imu = data.of<ImuSample>();
   if (imu.size() < 100 || imu.back().header.stamp_ns - imu.front().header.stamp_ns < 5 * kNsPerSecond)
-    refuse_without_imu_file(options.log);
     throw Failure(ExitCode::bad_input,
                   options.log + "/imu.csv: " + std::to_string(imu.size()) +
                       " inertial samples, expected at least a hundred over five seconds");

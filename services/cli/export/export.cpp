@@ -169,12 +169,20 @@ void add_export(CLI::App& app, ExitCode&) {
   command->add_option("--epoch", options->epoch,
                       "UTC of t_s = 0, e.g. 2026-01-31T12:00:00Z; default: that of import.json beside the "
                       "data, else 2020-01-01T00:00:00Z");
-  command->add_option("--track", options->track, "only this track: nav, gps, usbl or reference");
+  CLI::Option* track =
+      command->add_option("--track", options->track, "only this track: nav, gps, usbl or reference");
   command->add_option("--vehicle", options->vehicle,
                       "of a recording: this one; without it: the one that is heard first");
-  command->add_option("--rate", options->rate_hz, "points a second; 0: every one; default 1")
-      ->check(CLI::Range(0.0, 1e5));
-  command->callback([options] {
+  CLI::Option* rate =
+      command->add_option("--rate", options->rate_hz, "points a second; 0: every one; default 1")
+          ->check(CLI::Range(0.0, 1e5));
+  command->callback([options, track, rate] {
+    for (const CLI::Option* of_tracks : {track, rate}) {
+      if (options->format == "csv" && of_tracks->count() > 0)
+        throw Failure(
+            ExitCode::bad_configuration,
+            of_tracks->get_name() + ": csv has every row of everything, expected another --format with it");
+    }
     refuse_same_files({{"the input", options->source, true}}, outputs_of(*options));
     try {
       export_tracks(*options);

@@ -172,10 +172,12 @@ void add_fix(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--sigma", options->sigma_m, "One sigma of north and of east, m")
       ->check(CLI::Range(0.01, 1e5))
       ->required();
-  command->add_option("--depth", options->depth_m, "Depth below the surface, m, where it is known")
-      ->check(CLI::Range(-50.0, 12000.0));
+  CLI::Option* depth =
+      command->add_option("--depth", options->depth_m, "Depth below the surface, m, where it is known")
+          ->check(CLI::Range(-50.0, 12000.0));
   command->add_option("--depth-sigma", options->depth_sigma_m, "One sigma of the depth, m")
-      ->check(CLI::Range(0.01, 1e5));
+      ->check(CLI::Range(0.01, 1e5))
+      ->needs(depth);
   CLI::Option* time = command->add_option(
       "--time", options->time, "When the vehicle was there: UTC like 2026-01-31T12:00:00Z; default: now");
   command->add_option("--ago", options->ago_s, "Instead of --time: so many seconds ago")

@@ -17,6 +17,7 @@
 #include "cli/outputs.hpp"
 #include "cli/removed_files.hpp"
 #include "dataset/dataset.hpp"
+#include "logs/ros2/reader.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -144,10 +145,20 @@ std::string to_text(const ImportOptions& options, const logs::Log& log, const lo
   return text;
 }
 
-void import(const ImportOptions& options) {
+/// Whether somebody gave an option that only a bag of ROS 2 is read by; its name.
+std::string ros2_option(const CLI::App& command) {
+  for (const char* name : {"--axes", "--mounting", "--base", "--surface-pressure", "--water-density"})
+    if (command.count(name) > 0) return name;
+  return "";
+}
+
+void import(const ImportOptions& options, const std::string& only_ros2) {
   const logs::ConvertOptions convert = convert_options(options);
   try {
     const logs::Log log = logs::read(options.file);
+    if (!only_ros2.empty() && log.format != logs::ros2::kFormatName)
+      throw Failure(ExitCode::bad_configuration,
+                    only_ros2 + ": is for bags of ROS 2, " + options.file + " is of " + log.format);
     logs::Vehicle vehicle;
     try {
       vehicle = logs::convert(log, convert);
@@ -221,9 +232,9 @@ void add_import(CLI::App& app, ExitCode&) {
       ->capture_default_str();
   command->add_flag("--gzip", options->gzip, "write .csv.gz");
   command->add_flag("--json", options->json, "print import.json");
-  command->callback([options] {
+  command->callback([options, command] {
     refuse_same_files({{"the input", options->file}}, {{"--out", options->out, true}});
-    import(*options);
+    import(*options, ros2_option(*command));
   });
 }
 

@@ -87,27 +87,30 @@ void add_replay(CLI::App& app, ExitCode& exit_code) {
   auto* command =
       app.add_subcommand("replay", "Publishes a recording on the vehicle network again, as it arrived.");
   command->add_option("file", options->files, "recording (MCAP); several that follow one another")
-      ->required()
-      ->check(CLI::ExistingFile);
-  command->add_option("--speed", options->speed, "times as fast; 0: as fast as it goes")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  command->add_option("--from", options->from_s, "seconds after the beginning of the file")
-      ->check(CLI::Range(0.0, 1e9));
-  command->add_option("--to", options->to_s, "seconds after the beginning of the file")
-      ->check(CLI::Range(0.0, 1e9));
+      ->required();
+  auto* speed = command->add_option("--speed", options->speed, "times as fast; 0: as fast as it goes")
+                    ->check(CLI::Range(0.0, 1000.0))
+                    ->capture_default_str();
+  auto* from = command->add_option("--from", options->from_s, "seconds after the beginning of the file")
+                   ->check(CLI::Range(0.0, 1e9));
+  auto* to = command->add_option("--to", options->to_s, "seconds after the beginning of the file")
+                 ->check(CLI::Range(0.0, 1e9));
   auto* sensors = command->add_flag("--sensors-only", options->sensors_only,
                                     "what instruments said and nothing else, so that fusion runs anew");
-  command->add_option("--topic", options->topics, "only this one, e.g. nav_state; may be repeated")
-      ->allow_extra_args(false)
-      ->excludes(sensors);
-  command->add_option("--rename", options->renames, "OLD=NEW: vehicle OLD is called NEW; may be repeated")
-      ->allow_extra_args(false);
-  command->add_flag("--now", options->now, "move all stamps, so that it happens now");
-  command->add_flag("--loop", options->loop, "begin again at the end, until Ctrl-C");
-  command->add_flag(
+  auto* topic =
+      command->add_option("--topic", options->topics, "only this one, e.g. nav_state; may be repeated")
+          ->allow_extra_args(false)
+          ->excludes(sensors);
+  auto* rename =
+      command->add_option("--rename", options->renames, "OLD=NEW: vehicle OLD is called NEW; may be repeated")
+          ->allow_extra_args(false);
+  auto* now = command->add_flag("--now", options->now, "move all stamps, so that it happens now");
+  auto* loop = command->add_flag("--loop", options->loop, "begin again at the end, until Ctrl-C");
+  auto* proves = command->add_flag(
       "--verify", options->verify,
       "publish nothing: prove that states and verdicts follow from the samples, to the last bit");
+  for (CLI::Option* of_publishing : {speed, from, to, sensors, topic, rename, now, loop})
+    proves->excludes(of_publishing);
   add_bus_options(*command, options->bus, "cli");
   command->callback(
       [options, &exit_code] { exit_code = options->verify ? verify(options->files) : replay(*options); });

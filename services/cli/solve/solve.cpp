@@ -313,15 +313,17 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
       "that of the first duration and start; random: N windows of 5 to 60 s");
   command->add_option("--start", options->start, "\"reference\": from the first row of reference.csv")
       ->check(CLI::IsMember({"reference"}));
-  command
-      ->add_option("--rate", options->rate_hz,
-                   "rows per second of the solution; one per inertial sample otherwise")
-      ->check(CLI::Range(1e-3, 1e5));
-  CLI::Option* at = command->add_option(
-      "--at", options->at,
-      "a file with one instant a line, in seconds of the data set: one row of the solution "
-      "for each of them instead of --rate. Position and velocity go straight between two "
-      "states, attitude takes the shortest turn, sigmas are those of the nearer state");
+  CLI::Option* rate = command
+                          ->add_option("--rate", options->rate_hz,
+                                       "rows per second of the solution; one per inertial sample otherwise")
+                          ->check(CLI::Range(1e-3, 1e5));
+  CLI::Option* at =
+      command
+          ->add_option("--at", options->at,
+                       "a file with one instant a line, in seconds of the data set: one row of the solution "
+                       "for each of them instead of --rate. Position and velocity go straight between two "
+                       "states, attitude takes the shortest turn, sigmas are those of the nearer state")
+          ->excludes(rate);
   CLI::Option* smooth = command->add_flag(
       "--smooth", options->smooth,
       "every state from all measurements before and after it: filter forward, each measurement at its own "
