@@ -1,5 +1,7 @@
 #include "config/common_config.hpp"
 
+#include <algorithm>
+
 #include <arpa/inet.h>
 
 #include "config/service_schema.hpp"
@@ -19,11 +21,23 @@ void describe(Schema<BusSecurityConfig>& s) {
   });
 }
 
+namespace {
+
+bool is_address(const std::string& text) {
+  in_addr address{};
+  return inet_pton(AF_INET, text.c_str(), &address) == 1;
+}
+
+}  // namespace
+
+std::string address_wanted(const std::vector<std::string>& texts) {
+  const auto wrong = std::find_if_not(texts.begin(), texts.end(), is_address);
+  return wrong == texts.end() ? "" : "IPv4 addresses such as 192.168.2.1, not '" + *wrong + "'";
+}
+
 bool is_address_and_port(const std::string& text) {
   const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) return false;
-  in_addr address{};
-  if (inet_pton(AF_INET, text.substr(0, colon).c_str(), &address) != 1) return false;
+  if (colon == std::string::npos || !is_address(text.substr(0, colon))) return false;
   const std::string port = text.substr(colon + 1);
   if (port.empty() || port.size() > 5 || port.find_first_not_of("0123456789") != std::string::npos)
     return false;
@@ -45,6 +59,9 @@ void describe(Schema<BusConfig>& s) {
       "and peers");
   s.check([](const BusConfig& bus) -> std::pair<std::string, std::string> {
     if (bus.interfaces.empty()) return {"interfaces", "at least one address"};
+    if (const std::string wanted = address_wanted(bus.interfaces); !wanted.empty())
+      return {"interfaces", wanted};
+    if (const std::string wanted = address_wanted(bus.peers); !wanted.empty()) return {"peers", wanted};
     for (const std::string& server : bus.discovery_servers) {
       if (!is_address_and_port(server)) return {"discovery_servers", kAddressAndPort};
     }

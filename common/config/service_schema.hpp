@@ -12,6 +12,8 @@ namespace fathom::config {
 
 /// Whether `text` is an IPv4 address and a port, as in 192.168.2.1:11811.
 [[nodiscard]] bool is_address_and_port(const std::string& text);
+/// What the first of these that is no IPv4 address should be, with what it is; empty: all are.
+[[nodiscard]] std::string address_wanted(const std::vector<std::string>& texts);
 inline constexpr const char* kAddressAndPort = "an IPv4 address and a port such as 192.168.2.1:11811";
 
 void describe(Schema<BusConfig>& s);

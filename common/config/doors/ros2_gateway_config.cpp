@@ -90,6 +90,9 @@ void describe(Schema<RosGraphConfig>& s) {
       return {"node", "letters, digits and '_', not beginning with a digit"};
     }
     if (ros.interfaces.empty()) return {"interfaces", "at least one IPv4 address of this host"};
+    if (const std::string wanted = address_wanted(ros.interfaces); !wanted.empty())
+      return {"interfaces", wanted};
+    if (const std::string wanted = address_wanted(ros.peers); !wanted.empty()) return {"peers", wanted};
     return {};
   });
 }

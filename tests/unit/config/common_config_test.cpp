@@ -65,6 +65,19 @@ TEST(CommonConfig, DiscoveryServersAreAddressesWithPorts) {
               AllOf(HasSubstr("bus.discovery_servers"), HasSubstr("none where security.folder is set")));
 }
 
+TEST(CommonConfig, InterfacesAndPeersAreAddresses) {
+  EXPECT_EQ(refusal({R"(bus.interfaces=["127.0.0.1","192.168.2.1"])", R"(bus.peers=["10.0.0.2"])"}),
+            "accepted");
+  for (const char* wrong : {"abc", "1.2.3.999", "10.0.0", "10.0.0.1:7400", ""}) {
+    for (const char* key : {"bus.interfaces", "bus.peers"}) {
+      EXPECT_THAT(
+          refusal({std::string(key) + "=[\"10.0.0.1\",\"" + wrong + "\"]"}),
+          AllOf(HasSubstr(key), HasSubstr("IPv4 addresses such as 192.168.2.1, not '" + std::string(wrong))))
+          << wrong;
+    }
+  }
+}
+
 TEST(CommonConfig, ADiscoveryServerListensAtOneOfItsInterfaces) {
   EXPECT_THAT(refusal({"discovery_listen=192.168.2.1:11811"}),
               AllOf(HasSubstr("discovery_listen"), HasSubstr("an address of bus.interfaces")));
