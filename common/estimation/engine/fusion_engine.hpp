@@ -136,7 +136,8 @@ class FusionEngine {
   /// Appends everything that navigation follows from, delayed measurements included, as an archive
   /// (common/archive): an engine of an equal configuration that restores it, of whatever build, does from
   /// there on what this one does, to the last bit, but for what either publishes while it is catching up.
-  /// Left out are verdicts not yet taken and the motion that the forecast remembers. False, with nothing appended, before the first inertial sample.
+  /// Left out are verdicts not yet taken and the motion that the forecast remembers. False, with nothing
+  /// appended, before the first inertial sample.
   [[nodiscard]] bool save(std::vector<std::byte>& out) const;
   /// The bytes may be anybody's. Empty when done; else, with nothing changed, which field is wrong, what it
   /// is and what was expected. Nothing more is said of the measurements that this engine held before: the
