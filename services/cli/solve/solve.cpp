@@ -335,7 +335,7 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option(
           "--without", options->without,
-          "leave out a source, SOURCE or SOURCE@FROM:TO in seconds of the data set: gps0@100:160; may "
+          "leave out a source, SOURCE or SOURCE@FROM:TO in seconds of the data set: gps@100:160; may "
           "be repeated")
       ->allow_extra_args(false);
   CLI::Option* other =
