@@ -15,6 +15,9 @@ inline void set_defaults(SensorConfig& sensor, const GpsSample* /*kind*/) {
   sensor.frozen_change = 2.0;
 }
 
+/// Higher, or deeper, is no place of a vehicle.
+inline constexpr double kMostAltitude_m = 5e4;
+
 /// Whether the receiver has a fix of the quality that is asked for, and one that it does not disown itself.
 [[nodiscard]] inline Usable usable_fix(const SensorConfig& sensor, const GpsSample& sample) {
   if (static_cast<std::uint8_t>(sample.fix) < sensor.min_fix) return Usable::no_fix;
@@ -100,7 +103,7 @@ class GpsPosition {
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
     if (const Usable fix = usable_fix(sensor, sample); fix != Usable::yes) return fix;
     const bool placed = is_on_earth(sample.latitude_rad, sample.longitude_rad);
-    const bool high = !known(sample.altitude_m) || std::abs(sample.altitude_m) < 5e4;
+    const bool high = !known(sample.altitude_m) || std::abs(sample.altitude_m) < kMostAltitude_m;
     return placed && high ? Usable::yes : Usable::out_of_range;
   }
   [[nodiscard]] int dimension() const { return 3; }

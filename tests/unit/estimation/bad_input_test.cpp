@@ -155,6 +155,9 @@ TEST_F(BadInput, AidingSamples) {
   gps.fix = GpsFix::none;
   EXPECT_EQ(judge(gps), VerdictKind::no_fix);
   gps = gps_;
+  gps.altitude_m = 1e5;  // neither the place nor the velocity of such a receiver
+  EXPECT_EQ(judge(gps), VerdictKind::out_of_range);
+  gps = gps_;
   gps.spoofing = GpsSpoofing::affirmed;
   EXPECT_EQ(judge(gps), VerdictKind::out_of_range);
   gps.spoofing = GpsSpoofing::indicated;  // a sign is no proof

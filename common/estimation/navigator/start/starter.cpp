@@ -51,7 +51,7 @@ void Starter::collect_gps(const Setup& setup, const Estimate& estimate, const Se
   const bool fast = fast_m_s > 0.0 && speed > fast_m_s && speed < kMostGpsSpeed_m_s;
   fast_fixes_ = fast ? fast_fixes_ + 1 : 0;
   gps_seen_ns_ = estimate.now_ns;
-  const bool high = std::abs(gps.altitude_m) < 5e4;  // false where it is unknown
+  const bool high = std::abs(gps.altitude_m) < kMostAltitude_m;  // false where it is unknown
   gps_position_ = {gps.latitude_rad, gps.longitude_rad, high ? gps.altitude_m : 0.0};
   gps_velocity_N_ = {v.x(), v.y(), std::isfinite(v.z()) ? v.z() : 0.0};
   if (known(speed) && !estimate.navigating) {
