@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/disk/folder.hpp"
 #include "record/file.hpp"
 
 namespace fathom::blackbox {
@@ -112,10 +113,9 @@ std::optional<std::string> CommandLine::value_of(const std::string& option) cons
 
 std::optional<fs::path> recording_of(std::uint32_t pid) {
   std::error_code failed;
-  fs::directory_iterator at("/proc/" + std::to_string(pid) + "/fd", failed);
-  for (; !failed && at != fs::directory_iterator(); at.increment(failed)) {
+  for (const fs::path& descriptor : paths_in("/proc/" + std::to_string(pid) + "/fd", failed)) {
     std::error_code unreadable;
-    fs::path file = fs::read_symlink(at->path(), unreadable);
+    fs::path file = fs::read_symlink(descriptor, unreadable);
     if (!unreadable && file.extension() == ".mcap") return file;
   }
   return std::nullopt;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <system_error>
 
+#include "base/disk/folder.hpp"
 #include "blackbox/enclosures.hpp"
 #include "record/idl.hpp"
 #include "samples/kinds.hpp"
@@ -322,11 +323,9 @@ fs::path Store::next_path(TimeNs now_ns) {
 std::vector<fs::path> recordings_in(const fs::path& folder) {
   std::vector<fs::path> out;
   std::error_code failed;
-  // A range-for would throw at an error of the disk.
-  for (fs::directory_iterator at(folder, failed); !failed && at != fs::directory_iterator();
-       at.increment(failed)) {
-    const std::string name = at->path().filename().string();
-    if (name.starts_with("fathom-") && name.ends_with(".mcap")) out.push_back(at->path());
+  for (const fs::path& file : paths_in(folder, failed)) {
+    const std::string name = file.filename().string();
+    if (name.starts_with("fathom-") && name.ends_with(".mcap")) out.push_back(file);
   }
   std::sort(out.begin(), out.end());
   return out;

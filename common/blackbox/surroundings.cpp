@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/disk/folder.hpp"
 #include "blackbox/enclosures.hpp"
 #include "bus/profiles.hpp"
 
@@ -28,11 +29,10 @@ Enclosure process_of(const ServiceStatus& status, TimeNs now_ns) {
 std::vector<Enclosure> qos_profiles(const std::string& configured, TimeNs now_ns) {
   std::vector<Enclosure> out;
   std::error_code failed;
-  std::filesystem::directory_iterator at(bus::profiles_folder(configured), failed);
-  for (; !failed && at != std::filesystem::directory_iterator(); at.increment(failed)) {
-    if (at->path().extension() != ".xml") continue;
-    if (auto bytes = read_enclosed(at->path().string()))
-      out.push_back({"qos/" + at->path().filename().string(), "application/xml", now_ns, std::move(*bytes)});
+  for (const std::filesystem::path& file : paths_in(bus::profiles_folder(configured), failed)) {
+    if (file.extension() != ".xml") continue;
+    if (auto bytes = read_enclosed(file.string()))
+      out.push_back({"qos/" + file.filename().string(), "application/xml", now_ns, std::move(*bytes)});
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
   return out;

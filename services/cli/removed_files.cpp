@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/disk/folder.hpp"
+
 namespace fathom::cli {
 namespace {
 
@@ -15,9 +17,8 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> out;
   for (const char* part : {"", "sources"}) {  // where data sets of logs keep all that was logged
     std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder / part, error)) {
-      if (!fs::is_directory(entry.symlink_status(error)))
-        out.push_back(fs::path(part) / entry.path().filename());
+    for (const fs::path& file : paths_in(folder / part, error)) {
+      if (!fs::is_directory(fs::symlink_status(file, error))) out.push_back(fs::path(part) / file.filename());
     }
   }
   std::sort(out.begin(), out.end());

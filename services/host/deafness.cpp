@@ -14,6 +14,8 @@
 #include <sys/socket.h>
 #include <sys/stat.h>
 
+#include "base/disk/folder.hpp"
+
 namespace fathom::host {
 namespace {
 
@@ -62,9 +64,8 @@ bool Deafness::look(TimeNs monotonic_ns) {
   bool deaf = false;
   for (auto& [inode, waiting] : sockets_) waiting.seen = false;
   std::error_code error;
-  std::filesystem::directory_iterator at("/proc/self/fd", error);
-  for (; !error && at != std::filesystem::directory_iterator(); at.increment(error)) {
-    const std::string name = at->path().filename().string();
+  for (const std::filesystem::path& descriptor : paths_in("/proc/self/fd", error)) {
+    const std::string name = descriptor.filename().string();
     int fd = -1;
     if (std::from_chars(name.data(), name.data() + name.size(), fd).ec != std::errc{}) continue;
     const auto port = udp_port(fd);

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "base/disk/folder.hpp"
 #include "config/bridge/bridge_config.hpp"
 #include "config/service_config.hpp"
 #include "samples/kinds.hpp"
@@ -57,10 +58,9 @@ template <class Bridge, class Sample, class Look>
 void for_each_bridge(const fs::path& folder, Look look) {
   std::vector<fs::path> files;
   std::error_code none;
-  for (fs::directory_iterator at(folder, none); !none && at != fs::directory_iterator(); at.increment(none)) {
-    const std::string stem = at->path().stem().string();
-    if (at->path().extension() == ".json" && stem.starts_with(KindOf<Sample>::kRole))
-      files.push_back(at->path());
+  for (const fs::path& file : paths_in(folder, none)) {
+    if (file.extension() == ".json" && file.stem().string().starts_with(KindOf<Sample>::kRole))
+      files.push_back(file);
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/disk/folder.hpp"
 #include "base/nearest.hpp"
 #include "config/vehicle/raw_object.hpp"
 
@@ -79,9 +80,8 @@ std::vector<std::string> catalogue_models() {
   std::error_code error;
   const std::string folder = catalogue_directory();
   if (folder.empty()) return models;
-  for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
-       at.increment(error)) {
-    if (at->path().extension() == ".json") models.push_back(at->path().stem().string());
+  for (const fs::path& file : paths_in(folder, error)) {
+    if (file.extension() == ".json") models.push_back(file.stem().string());
   }
   std::sort(models.begin(), models.end());
   return models;

@@ -17,6 +17,10 @@ inline void set_defaults(SensorConfig& sensor, const GpsSample* /*kind*/) {
 
 /// Higher, or deeper, is no place of a vehicle.
 inline constexpr double kMostAltitude_m = 5e4;
+/// An unknown height is none that is impossible.
+[[nodiscard]] inline bool is_possible_height(double altitude_m) {
+  return !known(altitude_m) || std::abs(altitude_m) < kMostAltitude_m;
+}
 
 /// Whether the receiver has a fix of the quality that is asked for, and one that it does not disown itself.
 [[nodiscard]] inline Usable usable_fix(const SensorConfig& sensor, const GpsSample& sample) {
@@ -103,8 +107,7 @@ class GpsPosition {
   [[nodiscard]] static Usable usable(const SensorConfig& sensor, const GpsSample& sample) {
     if (const Usable fix = usable_fix(sensor, sample); fix != Usable::yes) return fix;
     const bool placed = is_on_earth(sample.latitude_rad, sample.longitude_rad);
-    const bool high = !known(sample.altitude_m) || std::abs(sample.altitude_m) < kMostAltitude_m;
-    return placed && high ? Usable::yes : Usable::out_of_range;
+    return placed && is_possible_height(sample.altitude_m) ? Usable::yes : Usable::out_of_range;
   }
   [[nodiscard]] int dimension() const { return 3; }
   [[nodiscard]] Vector3 measured() const {

@@ -44,8 +44,7 @@ class GpsVelocity {
       return Usable::out_of_range;
     if (known(sample.longitude_rad) && !(std::abs(sample.longitude_rad) <= 6.2831853071795865))
       return Usable::out_of_range;
-    if (known(sample.altitude_m) && !(std::abs(sample.altitude_m) < kMostAltitude_m))
-      return Usable::out_of_range;
+    if (!is_possible_height(sample.altitude_m)) return Usable::out_of_range;
     bool any = false;
     for (const double v : sample.velocity_N_m_s) {
       if (known(v) && !(std::abs(v) < kMostGpsSpeed_m_s)) return Usable::out_of_range;

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/disk/folder.hpp"
 #include "bus/detail/versions/settings.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
 #include "bus/option_error.hpp"
@@ -71,9 +72,8 @@ std::string find_profiles_dir(const std::string& configured) {
 void load_profiles(const std::string& folder) {
   std::vector<fs::path> files;
   std::error_code failed;
-  for (fs::directory_iterator at(folder, failed); !failed && at != fs::directory_iterator();
-       at.increment(failed)) {
-    if (at->path().extension() == ".xml") files.push_back(fs::weakly_canonical(at->path()));
+  for (const fs::path& file : paths_in(folder, failed)) {
+    if (file.extension() == ".xml") files.push_back(fs::weakly_canonical(file));
   }
   if (failed || files.empty()) throw OptionError(folder + ": expected a folder with QoS profiles (*.xml)");
   std::sort(files.begin(), files.end());
