@@ -8,6 +8,10 @@ namespace fathom::estimation {
 /// A component that is greater is none that a DVL can measure.
 inline constexpr double kMostDvlSpeed_m_s = 50.0;
 
+/// A live DVL does not repeat three components, each with its noise, to the last bit on a way that is longer.
+/// On a shorter one it may: a driver repeats the last ping until the next one.
+inline constexpr double kDvlFrozenPath_m = 5.0;
+
 /// What an instrument of this kind has where its configuration says nothing.
 inline void set_defaults(SensorConfig& sensor, const DvlSample* /*kind*/) {
   sensor.sigma = {0.01, 0.01, 0.01};
@@ -22,6 +26,7 @@ inline void set_defaults(SensorConfig& sensor, const DvlSample* /*kind*/) {
   AidingPolicy policy;
   policy.velocity = sample.mode == DvlMode::water ? VelocityOver::medium : VelocityOver::ground;
   policy.doppler = policy.shows_level = true;
+  policy.frozen_path_m = kDvlFrozenPath_m;
   const auto& v = sample.velocity_D_m_s;
   const auto& beams = sample.beam_velocity_m_s;
   const bool vector = known(v[0]) || known(v[1]) || known(v[2]);

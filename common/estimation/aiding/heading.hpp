@@ -10,6 +10,7 @@ inline void set_defaults(SensorConfig& sensor, const HeadingSample* /*kind*/) {
   sensor.sigma = {0.0087, 0.0087, 0.0087};
   sensor.robust = RobustKind::student_t;
   sensor.reacquire_s = 30.0;
+  sensor.dispute_s = 300.0;
   sensor.frozen_change = 0.1;
 }
 

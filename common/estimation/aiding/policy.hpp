@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "base/unknown.hpp"
 
@@ -34,6 +36,8 @@ struct AidingPolicy {
   bool heading_alone = false;
   /// A frozen instrument shows itself by the path that was travelled meanwhile; else by its own innovation.
   bool frozen_by_path = false;
+  /// No live instrument repeats a reading to the last bit while the vehicle travels so far.
+  double frozen_path_m = std::numeric_limits<double>::infinity();
   /// What a frozen instrument would keep repeating; unknown where the sample has nothing to say.
   std::array<double, 3> reading{kUnknown, kUnknown, kUnknown};
 
@@ -51,6 +55,7 @@ inline void AidingPolicy::merge(const AidingPolicy& other) {
   shows_level = shows_level || other.shows_level;
   heading_alone = heading_alone || other.heading_alone;
   frozen_by_path = frozen_by_path || other.frozen_by_path;
+  frozen_path_m = std::min(frozen_path_m, other.frozen_path_m);
 }
 
 }  // namespace fathom::estimation

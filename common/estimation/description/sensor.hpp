@@ -104,13 +104,14 @@ void describe(Walk<SensorConfig>& s) {
       .unit("s")
       .range(0, 1e6)
       .only_for(kinds_but(fins));
-  s.field("dispute_s", &C::dispute_s,
-          "fixes that agree with each other and with the motion, but lie further off than the estimate's "
-          "uncertainty can explain, are believed after this time at the latest; 0: never, a person has to "
-          "decide")
+  s.field(
+       "dispute_s", &C::dispute_s,
+       "fixes that agree with each other and with the motion, and headings that agree with each other, but "
+       "lie further off than the estimate's uncertainty can explain, are believed after this time at the "
+       "latest; 0: fixes never, a person has to decide, headings by the other rules alone")
       .unit("s")
       .range(0, 1e6)
-      .only_for(kinds(gps));
+      .only_for(kinds(gps, heading));
   s.field("reacquire_step_m", &C::reacquire_step_m,
           "behind an outage a fix further off than this has to agree with the motion for reacquire_s first, "
           "and no fix moves the position by more than twice this at once")

@@ -67,6 +67,9 @@ void fields(Archive& archive, Self& self) {
   archive("repeats", self.repeats);
   archive("rejections", self.rejections);
   archive("candidate", self.candidate);
+  if (!archive.since(11)) return;
+  archive("agrees_since_ns", self.agrees_since_ns, fathom::archive::kInstant);
+  archive("first_travelled_N_m", self.first_travelled_N_m, fathom::archive::finite());
 }
 
 template <class Archive, class Self>

@@ -26,14 +26,16 @@ Instruments::Instruments(const Setup& setup)
   }
 }
 
-bool Instrument::is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction,
-                           double limit) {
+bool Instrument::is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction, double limit,
+                           const Eigen::Vector3d& travelled_N_m, double way_m) {
   if (!same(now, reading)) {
     reading = now;
     first_prediction = prediction;
+    first_travelled_N_m = travelled_N_m;
     return false;
   }
-  return (prediction - first_prediction).norm() > limit;
+  return (prediction - first_prediction).norm() > limit ||
+         (travelled_N_m - first_travelled_N_m).norm() > way_m;
 }
 
 }  // namespace fathom::estimation

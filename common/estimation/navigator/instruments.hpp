@@ -13,9 +13,11 @@ struct Instrument {
   bool enabled = true;
   TimeNs stamp_ns = 0;  ///< of the last measurement, 0 before the first
   TimeNs used_ns = 0;
+  TimeNs agrees_since_ns = 0;  ///< the first use since a refusal was believed, or at all; 0: none
   // Readings that repeat.
   std::array<double, 3> reading{kUnknown, kUnknown, kUnknown};
   Eigen::Vector3d first_prediction = Eigen::Vector3d::Zero();
+  Eigen::Vector3d first_travelled_N_m = Eigen::Vector3d::Zero();
   bool repeats = false;  ///< asked by nobody: a field of the archives
   // Rejections that agree with each other.
   struct Rejections {
@@ -38,15 +40,16 @@ struct Instrument {
   };
   Candidate candidate;
 
-  /// The reading has stood still while `prediction` moved by more than `limit`.
-  /// Notes a new reading.
+  /// The reading has stood still to the last bit while `prediction` moved by more than `limit`, or the
+  /// vehicle by more than `way_m`; infinite: that says nothing. Notes a new reading.
   [[nodiscard]] bool is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction,
-                               double limit);
+                               double limit, const Eigen::Vector3d& travelled_N_m, double way_m);
   /// Visits each instant that is remembered.
   template <class Self, class Visit>
   static void for_each_instant(Self& self, Visit&& visit) {
     visit(self.stamp_ns);
     visit(self.used_ns);
+    visit(self.agrees_since_ns);
     for (auto& one : self.rejections) visit(one.since_ns);
     visit(self.candidate.refused_since_ns);
     visit(self.candidate.since_ns);

@@ -17,6 +17,8 @@ constexpr double kMostRoom = 1e6;
 /// A position that somebody tells moves the estimate between two of its own corrections: further than this,
 /// whoever steers by it is told of a step.
 constexpr double kNoticed_m = 1.0;
+/// An instrument that was used within this time is one that is in use.
+constexpr double kHeardLately_s = 5.0;
 /// For so long a time without inertial samples may be why nothing fits.
 constexpr double kGapMatters_s = 120.0;
 
@@ -206,10 +208,11 @@ void Navigator::reacquire(Trial& trial) {
   const bool probation = is_on_probation(trial);
   const unsigned refused = probation ? (1U << trial.whole.rows) - 1U : gated.refused;
   // Room could only be made for what the estimate is now: one that comes late has none.
-  const unsigned believed = trial.then != nullptr
-                                ? 0U
-                                : reacquisition_.believed_rows(trial.instrument, *trial.rules, estimate_,
-                                                               trial.whole, refused, trial.fix);
+  const unsigned believed =
+      trial.then != nullptr
+          ? 0U
+          : reacquisition_.believed_rows(trial.instrument, *trial.rules, estimate_, trial.whole, refused,
+                                         trial.fix, agreement_needed_s(trial));
   if (probation && believed == 0) {
     gated.pass = false;
     gated.limit = trial.config.reacquire_step_m;
@@ -223,6 +226,7 @@ void Navigator::reacquire(Trial& trial) {
     estimate_.filter.widen_drifted(variance);
     gate(trial);
   }
+  if (believed != 0) trial.instrument.agrees_since_ns = 0;
   trial.stepped = gated.pass && believed != 0 && trial.with_position;
   if (gated.pass && trial.fix)
     trial.stepped =
@@ -252,6 +256,7 @@ void Navigator::account(Trial& trial) {
     reacquisition_.note_step(-Vector3d(trial.x[0], trial.x[1], trial.x[2]), &trial.whole, estimate_);
   trial.instrument.stamp_ns = trial.instant_ns;
   trial.instrument.used_ns = estimate_.now_ns;
+  if (trial.instrument.agrees_since_ns == 0) trial.instrument.agrees_since_ns = estimate_.now_ns;
   trial.instrument.candidate = {};
   usage_.note(trial.policy, trial.with_position, estimate_.now_ns);
 }
@@ -266,7 +271,26 @@ bool Navigator::is_frozen(Trial& trial) const {
     for (int i = 0; i < std::min(3, trial.whole.rows); ++i)
       prediction(i) = trial.whole.innovation[static_cast<std::size_t>(i)];
   }
-  return trial.instrument.is_frozen(trial.policy.reading, prediction, trial.rules->frozen_change);
+  return trial.instrument.is_frozen(trial.policy.reading, prediction, trial.rules->frozen_change,
+                                    estimate_.travelled_N_m, trial.policy.frozen_path_m);
+}
+
+double Navigator::agreement_needed_s(const Trial& trial) const {
+  const double patience_s = trial.rules->reacquire_s;
+  if (!trial.policy.heading_alone || trial.gated.refused == 0) return patience_s;
+  // (GATE-7): where the position or the rates are in doubt, the gyros vouch for nothing.
+  if (estimate_.since(usage_.gap_ns) <= kGapMatters_s) return patience_s;
+  bool vouched = false;
+  for (std::size_t i = 0; i < instruments_.count; ++i) {
+    const Instrument& other = instruments_.sensors[i];
+    const SensorConfig& config = setup_->config.sensors[i];
+    const bool fresh = estimate_.since(other.candidate.last_ns) <= setup_->config.gps_timeout_s;
+    if (fresh && Reacquisition::disputed(other, config, estimate_)) return patience_s;
+    vouched = vouched || (config.kind == trial.config.kind && &other != &trial.instrument &&
+                          estimate_.since(other.used_ns) <= kHeardLately_s);
+  }
+  const double deviations = std::abs(trial.whole.innovation[0]) / trial.gated.innovation_sigma[0];
+  return Reacquisition::heading_needed_s(trial.instrument, *trial.rules, estimate_, deviations, vouched);
 }
 
 bool Navigator::is_on_probation(const Trial& trial) const {

@@ -120,6 +120,8 @@ class Navigator {
   /// Notes what a used measurement means for mode, outages and steps.
   void account(Trial& trial);
   [[nodiscard]] bool is_frozen(Trial& trial) const;
+  /// For so long refusals have to agree with each other until they are believed.
+  [[nodiscard]] double agreement_needed_s(const Trial& trial) const;
   [[nodiscard]] bool is_on_probation(const Trial& trial) const;
   /// (GATE-6)
   [[nodiscard]] bool motion_is_lost(const Trial& trial) const;

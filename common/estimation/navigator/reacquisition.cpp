@@ -29,7 +29,7 @@ constexpr double kWeighDown = 1.4;
 constexpr int kHalvings = 60;
 
 /// Refusals of these rows have agreed with each other for long enough.
-bool believe(Instrument::Rejections& past, const SensorConfig& config, const Estimate& estimate,
+bool believe(Instrument::Rejections& past, double needed_s, const Estimate& estimate,
              const Observation& observation, int first, int end) {
   double size = 0.0;
   double change = 0.0;
@@ -48,12 +48,12 @@ bool believe(Instrument::Rejections& past, const SensorConfig& config, const Est
     return false;
   }
   ++past.count;
-  return config.reacquire_s > 0.0 && past.count >= kRejectionsToBelieve &&
-         to_seconds(estimate.now_ns - past.since_ns) >= config.reacquire_s;
+  return needed_s > 0.0 && past.count >= kRejectionsToBelieve &&
+         to_seconds(estimate.now_ns - past.since_ns) >= needed_s;
 }
 
 /// Of the rows outside `left_out`, each by itself, those whose refusal is not to be believed.
-unsigned believe_each(Instrument& instrument, const SensorConfig& config, const Estimate& estimate,
+unsigned believe_each(Instrument& instrument, double needed_s, const Estimate& estimate,
                       const Observation& observation, unsigned refused, unsigned left_out) {
   unsigned believed = 0;
   for (int row = 0; row < observation.rows; ++row) {
@@ -61,7 +61,7 @@ unsigned believe_each(Instrument& instrument, const SensorConfig& config, const 
     Instrument::Rejections& past = instrument.rejections[static_cast<std::size_t>(row)];
     if ((refused & 1U << row) == 0) {
       past = {};
-    } else if (believe(past, config, estimate, observation, row, row + 1)) {
+    } else if (believe(past, needed_s, estimate, observation, row, row + 1)) {
       believed |= 1U << row;
     }
   }
@@ -78,21 +78,21 @@ bool measures(const Observation& observation, int row, int first_state) {
 
 unsigned Reacquisition::believed_rows(Instrument& instrument, const SensorConfig& config,
                                       const Estimate& estimate, const Observation& observation,
-                                      unsigned refused, bool fix) const {
-  if (observation.each_alone) return believe_each(instrument, config, estimate, observation, refused, 0);
-  if (fix) return believed_rows_of_fix(instrument, config, estimate, observation, refused);
+                                      unsigned refused, bool fix, double needed_s) const {
+  if (observation.each_alone) return believe_each(instrument, needed_s, estimate, observation, refused, 0);
+  if (fix) return believed_rows_of_fix(instrument, config, estimate, observation, refused, needed_s);
   if (config.gate_mode == GateMode::whole) {
-    const bool believed =
-        refused != 0 && believe(instrument.rejections[0], config, estimate, observation, 0, observation.rows);
+    const bool believed = refused != 0 && believe(instrument.rejections[0], needed_s, estimate, observation,
+                                                  0, observation.rows);
     if (refused == 0) instrument.rejections[0] = {};
     return believed ? refused : 0U;
   }
-  return believe_each(instrument, config, estimate, observation, refused, 0);
+  return believe_each(instrument, needed_s, estimate, observation, refused, 0);
 }
 
 unsigned Reacquisition::believed_rows_of_fix(Instrument& instrument, const SensorConfig& config,
                                              const Estimate& estimate, const Observation& observation,
-                                             unsigned refused) const {
+                                             unsigned refused, double needed_s) const {
   // Behind a fix stand two hypotheses for as long as it takes: it is wrong, or the estimate is.
   unsigned position = 0;
   for (int row = 0; row < observation.rows; ++row)
@@ -101,7 +101,7 @@ unsigned Reacquisition::believed_rows_of_fix(Instrument& instrument, const Senso
   const bool believed =
       (refused & position) != 0 && believe_fix(instrument.candidate, config, estimate, observation);
   if (config.gate_mode == GateMode::whole) return believed ? refused : 0U;
-  return believe_each(instrument, config, estimate, observation, refused, position) |
+  return believe_each(instrument, needed_s, estimate, observation, refused, position) |
          (believed ? refused & position : 0U);
 }
 
@@ -171,6 +171,20 @@ double Reacquisition::agreement_needed_s(const SensorConfig& config, const Estim
   const double off = innovation.dot(s.llt().solve(innovation)) / (kConceivable * kConceivable);
   const double most_s = config.dispute_s > 0.0 ? std::max(config.dispute_s, config.reacquire_s) : kNever;
   return std::min(config.reacquire_s * std::max(1.0, off), most_s);
+}
+
+double Reacquisition::heading_needed_s(const Instrument& instrument, const SensorConfig& config,
+                                       const Estimate& estimate, double deviations, bool vouched) {
+  // (GATE-7)
+  if (config.reacquire_s <= 0.0) return 0.0;
+  const double off = deviations / kConceivable;
+  double needed_s = config.reacquire_s * std::max(1.0, off * off);
+  if (config.dispute_s > 0.0) needed_s = std::min(needed_s, std::max(config.dispute_s, config.reacquire_s));
+  if (vouched) return needed_s;
+  const TimeNs agreed_since_ns = std::max(instrument.agrees_since_ns, estimate.began_ns);
+  const bool agreed = instrument.agrees_since_ns != 0 && instrument.used_ns > agreed_since_ns;
+  const double agreed_s = agreed ? to_seconds(instrument.used_ns - agreed_since_ns) : 0.0;
+  return std::min(needed_s, std::max(config.reacquire_s, agreed_s));
 }
 
 bool Reacquisition::stepped_lately(const SensorConfig& config, const Estimate& estimate) const {

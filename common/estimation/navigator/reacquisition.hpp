@@ -11,20 +11,24 @@ namespace fathom::estimation {
 
 /// Nothing is locked out for ever: refusals that agree with each other are believed, and the estimate is
 /// given the room to follow (GATE-3). Fixes of a position have to agree with the motion, too (GATE-4,
-/// GATE-5).
+/// GATE-5); a heading has to last, for the gyros know better for a while (GATE-7).
 class Reacquisition {
  public:
-  /// Rows, as a set of bits, whose refusal is not to be believed any longer. `fix`: they are those of a fix
-  /// that has to agree with the motion.
+  /// Rows, as a set of bits, whose refusal is not to be believed any longer: they have agreed with each other
+  /// for `needed_s`. `fix`: they are those of a fix that has to agree with the motion.
   [[nodiscard]] unsigned believed_rows(Instrument& instrument, const SensorConfig& config,
                                        const Estimate& estimate, const Observation& observation,
-                                       unsigned refused, bool fix) const;
+                                       unsigned refused, bool fix, double needed_s) const;
   /// A fix behind an outage, too far off to be believed by itself.
   [[nodiscard]] static bool on_probation(const SensorConfig& config, const Observation& observation,
                                          bool in_outage);
   /// Fixes of this receiver were refused for so long that a person should know.
   [[nodiscard]] static bool disputed(const Instrument& instrument, const SensorConfig& config,
                                      const Estimate& estimate);
+  /// For so long refused headings have to agree with each other (GATE-7), when the last of them is
+  /// `deviations` sigmas off. `vouched`: another heading is being used meanwhile.
+  [[nodiscard]] static double heading_needed_s(const Instrument& instrument, const SensorConfig& config,
+                                               const Estimate& estimate, double deviations, bool vouched);
   /// Weighs the fix down until the position moves no further than allowed; whether it had to.
   [[nodiscard]] static bool bound_step(const SensorConfig& config, const Estimate& estimate,
                                        Observation& observation, InnovationStatistics& statistics);
@@ -51,7 +55,7 @@ class Reacquisition {
   /// Of a fix that is judged as a whole, or of its position rows.
   [[nodiscard]] unsigned believed_rows_of_fix(Instrument& instrument, const SensorConfig& config,
                                               const Estimate& estimate, const Observation& observation,
-                                              unsigned refused) const;
+                                              unsigned refused, double needed_s) const;
   /// Refused fixes agree with each other and with the motion for long enough.
   [[nodiscard]] bool believe_fix(Instrument::Candidate& candidate, const SensorConfig& config,
                                  const Estimate& estimate, const Observation& observation) const;

@@ -139,14 +139,24 @@ TEST(Usage, OnlyADopplerOverGroundKnowsTheGround) {
 TEST(InstrumentMemory, AReadingIsFrozenThatStandsStillWhileThePredictionMoves) {
   Instrument instrument;
   const std::array<double, 3> reading{1.0, 2.0, kUnknown};
-  EXPECT_FALSE(instrument.is_frozen(reading, Vector3d::Zero(), 1.0));
-  EXPECT_FALSE(instrument.is_frozen(reading, Vector3d(0.9, 0.0, 0.0), 1.0));
-  EXPECT_TRUE(instrument.is_frozen(reading, Vector3d(1.1, 0.0, 0.0), 1.0));
-  EXPECT_FALSE(instrument.is_frozen({1.0, 2.0 + 1e-12, kUnknown}, Vector3d(1.1, 0.0, 0.0), 1.0));
+  const auto frozen = [&](const std::array<double, 3>& now, double predicted, double travelled_m,
+                          double way_m = HUGE_VAL) {
+    return instrument.is_frozen(now, Vector3d(predicted, 0.0, 0.0), 1.0, Vector3d(0.0, travelled_m, 0.0),
+                                way_m);
+  };
+  EXPECT_FALSE(frozen(reading, 0.0, 0.0));
+  EXPECT_FALSE(frozen(reading, 0.9, 0.0));
+  EXPECT_TRUE(frozen(reading, 1.1, 0.0));
+  EXPECT_FALSE(frozen({1.0, 2.0 + 1e-12, kUnknown}, 1.1, 0.0));
+  // Or while the vehicle travels, where no live instrument repeats itself.
+  EXPECT_FALSE(frozen(reading, 0.0, 100.0, 5.0));
+  EXPECT_FALSE(frozen(reading, 0.0, 104.0, 5.0));
+  EXPECT_TRUE(frozen(reading, 0.0, 106.0, 5.0));
+  EXPECT_FALSE(frozen(reading, 0.0, 106.0));
   // What has nothing to say never repeats itself.
   const std::array<double, 3> silence{kUnknown, kUnknown, kUnknown};
-  EXPECT_FALSE(instrument.is_frozen(silence, Vector3d::Zero(), 1.0));
-  EXPECT_FALSE(instrument.is_frozen(silence, Vector3d(99.0, 0.0, 0.0), 1.0));
+  EXPECT_FALSE(frozen(silence, 0.0, 0.0, 5.0));
+  EXPECT_FALSE(frozen(silence, 99.0, 99.0, 5.0));
 }
 
 TEST(OrderedPosition, AFarOneIsHeldUntilTheSamePlaceIsConfirmed) {
@@ -189,14 +199,14 @@ TEST(Reacquisition, RefusedRowsAreBelievedOnceTheyAgreeForLongEnough) {
   const Observation off = fix_off_by(30.0, -40.0);
   const auto believed = [&](double t_s) {
     estimate.now_ns = kNow_ns + from_seconds(t_s);
-    return reacquisition.believed_rows(instrument, sensor, estimate, off, 3U, false);
+    return reacquisition.believed_rows(instrument, sensor, estimate, off, 3U, false, sensor.reacquire_s);
   };
   EXPECT_EQ(believed(0.0), 0U);
   EXPECT_EQ(believed(2.0), 0U);
   EXPECT_EQ(believed(4.9), 0U);
   EXPECT_EQ(believed(5.1), 3U);
   // One that is accepted in between begins the count anew.
-  (void)reacquisition.believed_rows(instrument, sensor, estimate, off, 0U, false);
+  (void)reacquisition.believed_rows(instrument, sensor, estimate, off, 0U, false, sensor.reacquire_s);
   EXPECT_EQ(believed(6.0), 0U);
 }
 
@@ -214,12 +224,42 @@ TEST(Reacquisition, AFixHasToAgreeWithTheMotion) {
     for (int second = 0; second <= 8; ++second) {
       estimate.now_ns = kNow_ns + second * kNsPerSecond;
       const Observation off = fix_off_by(60.0 + drift_m_s * second, 0.0);
-      believed |= reacquisition.believed_rows(instrument, sensor, estimate, off, 3U, true);
+      believed |=
+          reacquisition.believed_rows(instrument, sensor, estimate, off, 3U, true, sensor.reacquire_s);
     }
     return believed;
   };
   EXPECT_EQ(try_fixes(0.0), 3U);
   EXPECT_EQ(try_fixes(30.0), 0U);
+}
+
+TEST(Reacquisition, AHeadingHasToBeWrongForAsLongAsItWasRight) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  Estimate estimate = navigating(setup, 10.0);
+  estimate.began_ns = kNow_ns;
+  estimate.now_ns = kNow_ns + 1000 * kNsPerSecond;
+  SensorConfig sensor;
+  sensor.reacquire_s = 30.0;
+  sensor.dispute_s = 300.0;
+  const auto needed_s = [&](double agreed_s, double deviations, bool vouched = false) {
+    Instrument instrument;
+    instrument.used_ns = kNow_ns + 500 * kNsPerSecond;
+    instrument.agrees_since_ns = instrument.used_ns - from_seconds(agreed_s);
+    return Reacquisition::heading_needed_s(instrument, sensor, estimate, deviations, vouched);
+  };
+  // The estimate's own uncertainty explains it.
+  EXPECT_DOUBLE_EQ(needed_s(400.0, 5.0), 30.0);
+  EXPECT_DOUBLE_EQ(needed_s(400.0, 14.0), 120.0);
+  EXPECT_DOUBLE_EQ(needed_s(400.0, 70.0), 300.0);
+  // It was right for no longer than it is wrong now, or never.
+  EXPECT_DOUBLE_EQ(needed_s(80.0, 70.0), 80.0);
+  EXPECT_DOUBLE_EQ(needed_s(10.0, 70.0), 30.0);
+  EXPECT_DOUBLE_EQ(Reacquisition::heading_needed_s({}, sensor, estimate, 70.0, false), 30.0);
+  EXPECT_DOUBLE_EQ(needed_s(10.0, 70.0, true), 300.0);
+  // What was before the start does not count.
+  estimate.began_ns = kNow_ns + 460 * kNsPerSecond;
+  EXPECT_DOUBLE_EQ(needed_s(400.0, 70.0), 40.0);
 }
 
 TEST(Reacquisition, RoomGoesWhereTheRowsLook) {
