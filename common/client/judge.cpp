@@ -6,6 +6,7 @@
 
 #include <fathom/client.hpp>
 
+#include "base/units.hpp"
 #include "samples/position/gives_position.hpp"
 #include "samples/uncertainty.hpp"
 
@@ -29,7 +30,6 @@ bool all_finite(const std::array<double, N>& values) {
 }
 
 std::string first_fault(const NavHealth& health, const NavState& state, const HealthLimits& limits) {
-  constexpr double kDegree = 0.017453292519943295;
   if (!health.fresh) {
     return sentence("The navigation state is %.2f s old (limit %.2f s).", health.age_s, limits.max_age_s);
   }
@@ -47,7 +47,7 @@ std::string first_fault(const NavHealth& health, const NavState& state, const He
   }
   if (!(health.heading_sigma_rad <= limits.max_heading_sigma_rad)) {
     return sentence("The heading is certain only to %.1f deg (1 sigma, limit %.1f deg).",
-                    health.heading_sigma_rad / kDegree, limits.max_heading_sigma_rad / kDegree);
+                    health.heading_sigma_rad / kRadPerDeg, limits.max_heading_sigma_rad / kRadPerDeg);
   }
   return "";
 }

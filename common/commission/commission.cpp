@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "commission/asked.hpp"
 #include "commission/depth_check.hpp"
 #include "commission/dvl_check.hpp"
@@ -20,7 +20,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kWindow_s = 12.0;
 // Of the rate that an inertial unit reads at rest, as a bias: the Earth turns, and it wanders.
 constexpr double kRest_s = 20.0;
@@ -29,7 +28,6 @@ constexpr double kBias_rad_s = 0.01;
 constexpr std::size_t kLeastSamples = 100;
 constexpr std::size_t kFew = 16;    // windows that hypotheses are compared on
 constexpr std::size_t kMany = 250;  // and that figures come from
-constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 void append(Findings& to, Findings from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
@@ -91,11 +89,11 @@ void report_gps(const GpsFit& fit, const Assumed& assumed, Commissioning& out) {
     const double pitch = -std::asin(std::clamp(fit.forward_B.z() / steady, -1.0, 1.0));
     const double sigma =
         std::sqrt(2.0 * (1.0 - steady)) / std::sqrt(std::max<double>(1.0, static_cast<double>(fit.windows)));
-    out.findings.push_back({"imu", "travel_yaw", FindingKind::mounting, yaw / kDegree, "deg", sigma / kDegree,
-                            true, Severity::ok,
-                            "The vehicle goes " + with_sigma(yaw / kDegree, sigma / kDegree) +
+    out.findings.push_back({"imu", "travel_yaw", FindingKind::mounting, yaw / kRadPerDeg, "deg",
+                            sigma / kRadPerDeg, true, Severity::ok,
+                            "The vehicle goes " + with_sigma(yaw / kRadPerDeg, sigma / kRadPerDeg) +
                                 " degrees to the right of the x axis on average, and " +
-                                number(pitch / kDegree, 1) +
+                                number(pitch / kRadPerDeg, 1) +
                                 " degrees above it. On wheels that is the mounting; in water and air drift "
                                 "and trim are in it."});
   }
@@ -141,7 +139,7 @@ Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
   for (const Finding& finding : noise.findings) {
     if (finding.what == "rate" && finding.severity == Severity::wrong) out.patch.imu_rate_hz = finding.value;
     if (finding.what == "gyro_noise" && finding.severity != Severity::ok)
-      out.patch.angle_random_walk = finding.value * kDegree / 60.0;
+      out.patch.angle_random_walk = finding.value * kRadPerDeg / 60.0;
     if (finding.what == "accelerometer_noise" && finding.severity != Severity::ok)
       out.patch.velocity_random_walk = finding.value / 60.0;
   }
@@ -193,7 +191,7 @@ Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
     if (finding.severity == Severity::ok) continue;
     if (finding.sensor == "heading" && finding.what == "latency") out.patch.heading_latency_s = finding.value;
     if (finding.sensor == "heading" && finding.what == "offset" && !series.heading_magnetic)
-      out.patch.heading_yaw_rad = finding.value * kDegree;
+      out.patch.heading_yaw_rad = finding.value * kRadPerDeg;
     if (finding.sensor == "depth" && finding.what == "latency") out.patch.depth_latency_s = finding.value;
   }
   report_datum(series, out.findings);

@@ -17,26 +17,26 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kStep_s = 4.0;
-constexpr double kGap_s = 1.5;
+constexpr double kDepthStep_s = 4.0;
+constexpr double kDepthGap_s = 1.5;
 
 struct Slope {
   double value = 0.0, sigma = 1e9, squares = 0.0;
   std::size_t count = 0;
 };
 
-Slope compare(const ScalarSeries& depth, const ScalarSeries& sunk, double latency_s) {
+Slope compare_depth(const ScalarSeries& depth, const ScalarSeries& sunk, double latency_s) {
   double xx = 0.0;
   double xy = 0.0;
   double yy = 0.0;
   Slope out;
   for (std::size_t i = 0; i < depth.size();) {
     std::size_t k = i + 1;
-    while (k < depth.size() && depth.t_s[k] - depth.t_s[i] < kStep_s - 1e-3) ++k;
+    while (k < depth.size() && depth.t_s[k] - depth.t_s[i] < kDepthStep_s - 1e-3) ++k;
     if (k >= depth.size()) break;
-    const auto a = at(sunk, depth.t_s[i] - latency_s, kGap_s);
-    const auto b = at(sunk, depth.t_s[k] - latency_s, kGap_s);
-    if (a && b && depth.t_s[k] - depth.t_s[i] < kStep_s + 1.0) {
+    const auto a = at(sunk, depth.t_s[i] - latency_s, kDepthGap_s);
+    const auto b = at(sunk, depth.t_s[k] - latency_s, kDepthGap_s);
+    if (a && b && depth.t_s[k] - depth.t_s[i] < kDepthStep_s + 1.0) {
       xx += (*b - *a) * (*b - *a);
       xy += (*b - *a) * (depth.v[k] - depth.v[i]);
       yy += std::pow(depth.v[k] - depth.v[i], 2);
@@ -52,7 +52,7 @@ Slope compare(const ScalarSeries& depth, const ScalarSeries& sunk, double latenc
 }
 
 template <class Add>
-void report_latency(const LatencyFit& fit, const Assumed& assumed, const Add& add) {
+void report_depth_latency(const LatencyFit& fit, const Assumed& assumed, const Add& add) {
   const double offset = fit.latency_s;
   const double sigma = fit.sigma_s;
   const bool told = sigma < 0.15;
@@ -100,10 +100,10 @@ Findings check_depth(const Series& series, const Assumed& assumed, const ImuRead
     last = speed;
   }
   const double latency = scan_latency(0.05, 30, [&](double latency_s) {
-    const Slope slope = compare(series.depth, sunk, latency_s);
+    const Slope slope = compare_depth(series.depth, sunk, latency_s);
     return slope.count >= 8 ? slope.squares : std::numeric_limits<double>::infinity();
   });
-  const Slope best = compare(series.depth, sunk, latency);
+  const Slope best = compare_depth(series.depth, sunk, latency);
   if (best.count < 8 || !(std::abs(best.value) > 10.0 * best.sigma)) {
     add("sign", FindingKind::sign, false, Severity::ok,
         "Sign and unit of the depth cannot be told: there is no dive and ascent with the DVL on the bottom. "
@@ -152,11 +152,11 @@ Findings check_depth(const Series& series, const Assumed& assumed, const ImuRead
   }
   if (!late) {
     const double h = 0.1;
-    const double left = compare(series.depth, sunk, latency - h).squares;
-    const double right = compare(series.depth, sunk, latency + h).squares;
+    const double left = compare_depth(series.depth, sunk, latency - h).squares;
+    const double right = compare_depth(series.depth, sunk, latency + h).squares;
     late = parabola(latency, h, left, best.squares, right, static_cast<double>(best.count));
   }
-  if (late) report_latency(*late, assumed, add);
+  if (late) report_depth_latency(*late, assumed, add);
   return out;
 }
 

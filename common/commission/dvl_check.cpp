@@ -2,11 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "base/units.hpp"
 #include "commission/asked.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "commission/text.hpp"
@@ -19,14 +19,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFirst_s = 16.0;          // length of the windows at first
 constexpr std::size_t kMost = 250;         // windows
 constexpr std::size_t kLeastWindows = 12;  // for a scatter between them that means something
-constexpr double kPerWindow = 6.0;         // independent figures that a window counts for
-constexpr double kClaim = 15.0;            // log likelihood ratio
+constexpr double kPerDvlWindow = 6.0;      // independent figures that a window counts for
+constexpr double kDvlClaim = 15.0;         // log likelihood ratio
 constexpr std::array<const char*, 3> kAngles{"roll", "pitch", "yaw"};
-constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
 
 // Of several lengths of window the one whose figures of the mounting are the surest.
 DvlFigures fit_best(const Series& series, const Assumed& assumed, const ImuReading& reading,
@@ -44,11 +42,6 @@ DvlFigures fit_best(const Series& series, const Assumed& assumed, const ImuReadi
   return best;
 }
 
-struct Unit {
-  double factor;
-  const char* name;
-};
-
 }  // namespace
 
 DvlFound find_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading, double latency_s) {
@@ -62,9 +55,10 @@ DvlFound find_dvl(const Series& series, const Assumed& assumed, const ImuReading
       fit_dvl(series, windows, reading, fit_similarity(linear, true), assumed.dvl.lever_B_m, latency_s);
   double against = 0.0;  // log likelihood ratio of the two
   if (fit.done && other.done)
-    against = kPerWindow * static_cast<double>(fit.windows) * std::log(other.residual_m_s / fit.residual_m_s);
-  out.mirrored = other.done && (!fit.done || against < -kClaim);
-  out.mirror_told = std::abs(against) > kClaim;
+    against =
+        kPerDvlWindow * static_cast<double>(fit.windows) * std::log(other.residual_m_s / fit.residual_m_s);
+  out.mirrored = other.done && (!fit.done || against < -kDvlClaim);
+  out.mirror_told = std::abs(against) > kDvlClaim;
   out.fit = out.mirrored ? other : fit;
   if (out.fit.done) out.fit = fit_best(series, assumed, reading, out.fit);
   return out;
@@ -125,9 +119,9 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
       excess, "", excess_sigma);
   // Mounting: of the DVL's axes in body, against what is configured. Roll is seen only where the vehicle
   // slips.
-  const Vector3d rpy = geo::to_rpy(geo::from_matrix(found.C)) / kDegree;
-  const Vector3d off = geo::log(geo::from_matrix(assumed.dvl.C_BD.transpose() * found.C)) / kDegree;
-  const Vector3d sigma = found.turn_sigma_rad / kDegree;
+  const Vector3d rpy = geo::to_rpy(geo::from_matrix(found.C)) / kRadPerDeg;
+  const Vector3d off = geo::log(geo::from_matrix(assumed.dvl.C_BD.transpose() * found.C)) / kRadPerDeg;
+  const Vector3d sigma = found.turn_sigma_rad / kRadPerDeg;
   // The same uncertainty as roll, pitch and yaw have it.
   Vector3d rpy_sigma = Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
@@ -135,7 +129,7 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
     const Vector3d moved =
         geo::to_rpy(geo::from_matrix(found.C * geo::to_matrix(geo::exp(kStep * Vector3d::Unit(axis)))));
     for (int i = 0; i < 3; ++i) {
-      const double slope = geo::wrap_pi(moved[i] - rpy[i] * kDegree) / kStep;
+      const double slope = geo::wrap_pi(moved[i] - rpy[i] * kRadPerDeg) / kStep;
       rpy_sigma[i] = std::hypot(rpy_sigma[i], slope * sigma[axis]);
     }
   }

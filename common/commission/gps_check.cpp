@@ -17,8 +17,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 constexpr double kLongestGap_s = 3.0;
-constexpr double kClaim = 20.0;   // log likelihood ratio of a claim: e^-20 in 48 hypotheses is no chance
-constexpr double kClearly = 2.0;  // and the residual shrinks by this much
+constexpr double kGpsClaim = 20.0;  // log likelihood ratio of a claim: e^-20 in 48 hypotheses is no chance
+constexpr double kClearly = 2.0;    // and the residual shrinks by this much
 
 struct Pairs {
   std::vector<Vector3d> moved;     // mean velocity by positions
@@ -146,11 +146,6 @@ void report_lag(const Series& series, GpsCheck& out) {
   for (double& t : out.velocity_N.t_s) t -= lag;
 }
 
-struct Unit {
-  double factor;
-  const char* name;
-};
-
 }  // namespace
 
 GpsCheck check_gps(const Series& series) {
@@ -200,7 +195,7 @@ GpsCheck check_gps(const Series& series) {
   }
   const auto n = static_cast<double>(pairs.moved.size());
   const auto beats = [&](double worse, double better) {
-    return worse > kClearly * better && 0.5 * n * std::log(worse / std::max(better, 1e-12)) > kClaim;
+    return worse > kClearly * better && 0.5 * n * std::log(worse / std::max(better, 1e-12)) > kGpsClaim;
   };
   const double residual = std::sqrt(least / (3.0 * n));
   if (beats(plain, least)) {

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/median.hpp"
+#include "base/units.hpp"
 #include "commission/asked.hpp"
 #include "commission/fit/latency.hpp"
 #include "commission/fit/track_fit.hpp"
@@ -21,10 +22,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kStep_s = 2.0;  // of one comparison of turns
-constexpr double kGap_s = 3.0;
-constexpr double kNoticedHeading_rad = 0.5 * kDegree;
+constexpr double kTurnStep_s = 2.0;  // of one comparison of turns
+constexpr double kTurnGap_s = 3.0;
+constexpr double kNoticedHeading_rad = 0.5 * kRadPerDeg;
 constexpr double kHalf_s = 5.0;  // over which accelerations even out
 
 // Turn about the vertical by the gyro, from the start on.
@@ -52,18 +52,18 @@ struct Turns {
 };
 
 // Regression of the turn of the compass on that of the gyro; a constant rate (bias of the gyro) goes free.
-Turns compare(const ScalarSeries& heading, const ScalarSeries& gyro, double latency_s) {
+Turns compare_turns(const ScalarSeries& heading, const ScalarSeries& gyro, double latency_s) {
   std::vector<double> x;
   std::vector<double> y;
   double mean_x = 0.0;
   double mean_y = 0.0;
   for (std::size_t i = 0; i < heading.size();) {
     std::size_t k = i + 1;
-    while (k < heading.size() && heading.t_s[k] - heading.t_s[i] < kStep_s - 1e-3) ++k;
+    while (k < heading.size() && heading.t_s[k] - heading.t_s[i] < kTurnStep_s - 1e-3) ++k;
     if (k >= heading.size()) break;
     const auto a = at(gyro, heading.t_s[i] - latency_s, 0.5);
     const auto b = at(gyro, heading.t_s[k] - latency_s, 0.5);
-    if (a && b && heading.t_s[k] - heading.t_s[i] < kStep_s + kGap_s) {
+    if (a && b && heading.t_s[k] - heading.t_s[i] < kTurnStep_s + kTurnGap_s) {
       const double dt = heading.t_s[k] - heading.t_s[i];
       x.push_back((*b - *a) / dt);
       y.push_back((heading.v[k] - heading.v[i]) / dt);
@@ -84,7 +84,7 @@ Turns compare(const ScalarSeries& heading, const ScalarSeries& gyro, double late
     xx += (x[i] - mean_x) * (x[i] - mean_x);
     xy += (x[i] - mean_x) * (y[i] - mean_y);
     yy += (y[i] - mean_y) * (y[i] - mean_y);
-    out.turned += std::abs(x[i]) * kStep_s;
+    out.turned += std::abs(x[i]) * kTurnStep_s;
   }
   if (xx <= 0.0) return out;
   out.slope = xy / xx;
@@ -94,7 +94,7 @@ Turns compare(const ScalarSeries& heading, const ScalarSeries& gyro, double late
 }
 
 template <class Add>
-void report_latency(const LatencyFit& fit, const Assumed& assumed, const Add& add) {
+void report_heading_latency(const LatencyFit& fit, const Assumed& assumed, const Add& add) {
   const double offset = fit.latency_s;
   const double sigma = fit.sigma_s;
   const bool told = sigma < 0.1;
@@ -140,7 +140,8 @@ double heading_squares(const Series& series, const ImuReading& reading) {
   double squares = 0.0;
   for (std::size_t i = 0; i < series.heading.size();) {
     std::size_t k = i + 1;
-    while (k < series.heading.size() && series.heading.t_s[k] - series.heading.t_s[i] < kStep_s - 1e-3) ++k;
+    while (k < series.heading.size() && series.heading.t_s[k] - series.heading.t_s[i] < kTurnStep_s - 1e-3)
+      ++k;
     if (k >= series.heading.size()) break;
     const auto a = at(gyro, series.heading.t_s[i], 0.5);
     const auto b = at(gyro, series.heading.t_s[k], 0.5);
@@ -160,10 +161,10 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
   if (series.heading.size() < 20) return out;
   const ScalarSeries gyro = turn_by_gyro(series, reading);
   const double latency = scan_latency(0.025, 60, [&](double latency_s) {
-    const Turns turns = compare(series.heading, gyro, latency_s);
+    const Turns turns = compare_turns(series.heading, gyro, latency_s);
     return turns.count >= 8 ? turns.squares : std::numeric_limits<double>::infinity();
   });
-  const Turns best = compare(series.heading, gyro, latency);
+  const Turns best = compare_turns(series.heading, gyro, latency);
   if (best.count < 8 || !(std::abs(best.slope) > 8.0 * best.sigma) || best.turned < 1.0) {
     add("sense", FindingKind::sign, false, Severity::ok,
         "Whether the compass turns the right way cannot be told: the vehicle turned too little. A full turn "
@@ -182,11 +183,11 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
     late = LatencyFit{by_attitude->latency_s.value, by_attitude->latency_s.sigma};
   } else {  // the parabola through three latencies
     const double h = 0.05;
-    const double left = compare(series.heading, gyro, latency - h).squares;
-    const double right = compare(series.heading, gyro, latency + h).squares;
+    const double left = compare_turns(series.heading, gyro, latency - h).squares;
+    const double right = compare_turns(series.heading, gyro, latency + h).squares;
     late = parabola(latency, h, left, best.squares, right, static_cast<double>(best.count));
   }
-  if (late) report_latency(*late, assumed, add);
+  if (late) report_heading_latency(*late, assumed, add);
   if (reversed) return out;
   const double configured_rad = geo::to_rpy(geo::from_matrix(assumed.heading.C_BD)).z();
   // Against the course: over ground by GPS, in the body by DVL, or straight ahead where there is none.
@@ -197,8 +198,8 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
     const double t = gps.velocity_N.t_s[i];
     const Vector3d& v = gps.velocity_N.v[i];
     if (std::hypot(v.x(), v.y()) < std::max(0.7, 6.0 * gps.sigma_m_s)) continue;
-    const auto heading = at(series.heading, t, kGap_s);
-    const auto body = at(dvl_B, t, kGap_s);
+    const auto heading = at(series.heading, t, kTurnGap_s);
+    const auto body = at(dvl_B, t, kTurnGap_s);
     if (!heading || (!body && dvl_B.size() > 0)) continue;
     const double ahead = body ? std::atan2(body->y(), body->x()) : 0.0;
     psi.push_back(*heading);
@@ -224,33 +225,33 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
   const double independent =
       std::max(3.0, std::min(static_cast<double>(difference.size()) / 5.0, duration / 5.0));
   double middle = by_course;
-  double sigma = std::max(scatter / std::sqrt(independent), dvl_B.size() > 0 ? 0.0 : 2.0 * kDegree);
+  double sigma = std::max(scatter / std::sqrt(independent), dvl_B.size() > 0 ? 0.0 : 2.0 * kRadPerDeg);
   if (by_attitude) {
     middle = by_attitude->deviation_rad[0].value;
     sigma = std::hypot(by_attitude->deviation_rad[0].sigma, joint.yaw_sigma_rad);
   }
   const double excess = geo::wrap_pi(middle - configured_rad);
   const bool wrong =
-      std::abs(excess) > 4.0 * sigma && std::abs(excess) > 4.0 * kDegree && !series.heading_magnetic;
+      std::abs(excess) > 4.0 * sigma && std::abs(excess) > 4.0 * kRadPerDeg && !series.heading_magnetic;
   const bool note =
       assumed.heading.configured && !series.heading_magnetic && differs(excess, sigma, kNoticedHeading_rad);
   const double variation =
       known(assumed.variation_rad) ? assumed.variation_rad : series.heading_variation_rad;
-  std::string text = "The compass reads " + with_sigma(middle / kDegree, sigma / kDegree) +
+  std::string text = "The compass reads " + with_sigma(middle / kRadPerDeg, sigma / kRadPerDeg) +
                      " degrees more than the true heading by GPS";
   text += dvl_B.size() > 0 ? " and DVL." : ", if the vehicle goes straight ahead.";
   if (wrong) {
-    text += known(variation) && std::abs(middle + variation) < 3.0 * std::max(sigma, 0.5 * kDegree)
+    text += known(variation) && std::abs(middle + variation) < 3.0 * std::max(sigma, 0.5 * kRadPerDeg)
                 ? " That is the magnetic variation: it gives magnetic heading and calls it true."
                 : " It gives magnetic for true heading where the magnetic variation is " +
-                      number(-middle / kDegree, 1) +
+                      number(-middle / kRadPerDeg, 1) +
                       " degrees (east positive), else it is mounted turned by so much.";
   }
   add("offset", FindingKind::datum, true,
       wrong  ? Severity::wrong
       : note ? Severity::note
              : Severity::ok,
-      text, middle / kDegree, "deg", sigma / kDegree);
+      text, middle / kRadPerDeg, "deg", sigma / kRadPerDeg);
   // Deviation A + B sin + C cos + D sin 2 + E cos 2, where all headings were steered.
   std::array<int, 8> sectors{};
   for (const double p : by_attitude ? series.heading.v : psi)
@@ -285,8 +286,9 @@ Findings check_heading(const Series& series, const Assumed& assumed, const ImuRe
     }
     const std::string letter(1, static_cast<char>('A' + i));
     add(("deviation_" + letter).c_str(), FindingKind::deviation, true, Severity::ok,
-        "Deviation coefficient " + letter + ": " + with_sigma(value / kDegree, s / kDegree) + " degrees.",
-        value / kDegree, "deg", s / kDegree);
+        "Deviation coefficient " + letter + ": " + with_sigma(value / kRadPerDeg, s / kRadPerDeg) +
+            " degrees.",
+        value / kRadPerDeg, "deg", s / kRadPerDeg);
   }
   return out;
 }

@@ -11,7 +11,7 @@
 #include <Eigen/LU>
 
 #include "base/median.hpp"
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "commission/fit/gps_fit.hpp"
 #include "commission/fit/latency.hpp"
 #include "commission/fit/signed_axes.hpp"
@@ -24,16 +24,11 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kReject = 15.0;     // log likelihood ratio: e^-15 in some 400 hypotheses is no chance
-constexpr double kPerWindow = 6.0;   // independent figures that a window counts for at most
-constexpr double kDeparture = 10.0;  // log odds against an instrument that is not as configured
-constexpr double kSideways = 2.5;    // units of a departure: rather are two instruments turned alike
-constexpr double kSteady = 0.8;      // length of the mean direction of travel from which a vehicle has a bow
-
-struct Unit {
-  double factor;
-  const char* name;
-};
+constexpr double kReject = 15.0;       // log likelihood ratio: e^-15 in some 400 hypotheses is no chance
+constexpr double kPerImuWindow = 6.0;  // independent figures that a window counts for at most
+constexpr double kDeparture = 10.0;    // log odds against an instrument that is not as configured
+constexpr double kSideways = 2.5;      // units of a departure: rather are two instruments turned alike
+constexpr double kSteady = 0.8;  // length of the mean direction of travel from which a vehicle has a bow
 
 // One class of hypotheses: gyro against accelerometer, and the accelerometer as it is or negated. A turn of
 // both together changes nothing of what GPS and DVL can say.
@@ -230,8 +225,8 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
     }
     return classes;
   };
-  const double gps_count = kPerWindow * static_cast<double>(evidence.gps.size());
-  const double dvl_count = kPerWindow * static_cast<double>(evidence.dvl.size());
+  const double gps_count = kPerImuWindow * static_cast<double>(evidence.gps.size());
+  const double dvl_count = kPerImuWindow * static_cast<double>(evidence.dvl.size());
   const double heading_count =
       has_heading ? std::min(200.0, static_cast<double>(series.heading.size()) / 10.0) : 0.0;
   // The unit first, by the classes of each: the right one has the least squares of all.

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/median.hpp"
+#include "base/units.hpp"
 #include "commission/text.hpp"
 
 namespace fathom::commission {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kRateTolerance =
     0.03;  // of the nominal rate: clocks differ by far less, data sheets by more
 
@@ -128,7 +127,7 @@ ImuNoise check_imu_noise(const Series& series, const Assumed& assumed, const std
   const std::string over = " over " + number(rest_s, 0) + " s at rest";
   if (gyro.known) {
     out.angle_random_walk = gyro.figures.density;
-    const double scale = 60.0 / kDegree;
+    const double scale = 60.0 / kRadPerDeg;
     const double N = gyro.figures.density * scale;
     add("gyro_noise", FindingKind::noise, true,
         note(gyro.figures.density, gyro.figures.density_sigma, assumed.angle_random_walk),
@@ -159,14 +158,14 @@ ImuNoise check_imu_noise(const Series& series, const Assumed& assumed, const std
                   "Rest of an hour would tell.",
         is_known ? value : kUnknown, unit, is_known ? sigma : kUnknown);
   };
-  instability("gyro_instability", "Gyro", gyro, 3600.0 / kDegree, "deg/h");
+  instability("gyro_instability", "Gyro", gyro, 3600.0 / kRadPerDeg, "deg/h");
   instability("accelerometer_instability", "Accelerometer", force, 1.0, "m/s^2");
   add("gyro_bias", FindingKind::bias, true, Severity::ok,
-      "At rest the gyro reads " + number(out.rate_bias.x() / kDegree, 3) + ", " +
-          number(out.rate_bias.y() / kDegree, 3) + ", " + number(out.rate_bias.z() / kDegree, 3) +
+      "At rest the gyro reads " + number(out.rate_bias.x() / kRadPerDeg, 3) + ", " +
+          number(out.rate_bias.y() / kRadPerDeg, 3) + ", " + number(out.rate_bias.z() / kRadPerDeg, 3) +
           " deg/s, the Earth's turn of 0.004 included.",
-      out.rate_bias.norm() / kDegree, "deg/s",
-      known(gyro.figures.density) ? gyro.figures.density / std::sqrt(rest_s) / kDegree : kUnknown);
+      out.rate_bias.norm() / kRadPerDeg, "deg/s",
+      known(gyro.figures.density) ? gyro.figures.density / std::sqrt(rest_s) / kRadPerDeg : kUnknown);
   return out;
 }
 

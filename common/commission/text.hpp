@@ -1,8 +1,17 @@
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace fathom::commission {
+
+inline constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+
+/// In which figures may have been recorded.
+struct Unit {
+  double factor;  ///< of SI
+  const char* name;
+};
 
 /// A number for people: `digits` after the point.
 [[nodiscard]] std::string number(double value, int digits);

@@ -1,16 +1,15 @@
 #include "config/guidance_config.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "base/units.hpp"
 #include "config/service_schema.hpp"
 
 namespace fathom::config {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 using Fault = std::pair<std::string, std::string>;
 
 }  // namespace
@@ -20,11 +19,11 @@ void describe(Schema<Waypoint>& s) {
   s.field("lat_deg", &Waypoint::latitude_rad, "latitude, in a geodetic frame")
       .unit("deg")
       .range(-90, 90)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
   s.field("lon_deg", &Waypoint::longitude_rad, "longitude, in a geodetic frame")
       .unit("deg")
       .range(-180, 360)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
   s.field("north_m", &Waypoint::north_m, "north of the start, in a local frame").unit("m").range(-1e5, 1e5);
   s.field("east_m", &Waypoint::east_m, "east of the start, in a local frame").unit("m").range(-1e5, 1e5);
   s.field("depth_m", &Waypoint::depth_m, "below the surface, on the way there").unit("m").range(0, 11000);
@@ -42,7 +41,7 @@ void describe(Schema<GuidanceLimits>& s) {
           "largest uncertainty of the heading")
       .unit("deg")
       .range(0.001, 180)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
   s.field("need_aligned", &GuidanceLimits::need_aligned, "steer only when navigation is fully aligned");
 }
 

@@ -5,21 +5,18 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "dataset/csv_reader.hpp"
 #include "dataset/csv_writer.hpp"
 
 namespace fathom::dataset {
-
-inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// The columns of a file behind t_s, told once: reading and writing both go by them. Columns are required
 /// until the first optional(); those behind it may be missing, and are written only where some row needs

@@ -2,15 +2,10 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "base/units.hpp"
 
 namespace fathom::dataset {
-namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-
-}  // namespace
-
 NavCsv::NavCsv(const std::filesystem::path& path, TimeNs epoch_ns) : csv_(path), epoch_ns_(epoch_ns) {
   csv_.line(
       "t_s,lat_deg,lon_deg,alt_m,vn_m_s,ve_m_s,vd_m_s,roll_deg,pitch_deg,yaw_deg,sigma_n_m,sigma_e_m,sigma_d_"

@@ -27,7 +27,7 @@ std::string_view fix_of(Quality quality) {
 }
 
 // The schema fixes the order of the elements, and a longitude is below 180: also when it has been rounded.
-void write_point(std::ostream& out, const Point& p) {
+void write_waypoint(std::ostream& out, const Point& p) {
   out << "<trkpt lat=\"" << decimals(p.latitude_deg, 9) << "\" lon=\""
       << decimals(wrapped_longitude_deg(std::round(p.longitude_deg * 1e9) / 1e9), 9) << "\">";
   if (known(p.altitude_m)) out << "<ele>" << decimals(p.altitude_m, 3) << "</ele>";
@@ -48,7 +48,7 @@ void write_gpx(std::ostream& out, const std::string& title, const std::vector<Tr
     out << "<trk><name>" << plain(track.name) << "</name>\n";
     for (const Stretch& stretch : stretches(track)) {
       out << "<trkseg>\n";
-      for (std::size_t i = stretch.begin; i < stretch.end; ++i) write_point(out, track.points[i]);
+      for (std::size_t i = stretch.begin; i < stretch.end; ++i) write_waypoint(out, track.points[i]);
       out << "</trkseg>\n";
     }
     out << "</trk>\n";

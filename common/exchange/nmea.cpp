@@ -7,7 +7,7 @@ namespace {
 
 constexpr const char* kTalker = "IN";
 
-void write_point(std::ostream& out, const Point& p) {
+void write_sentences(std::ostream& out, const Point& p) {
   out << nmea::gga(kTalker, p);
   out << nmea::rmc(kTalker, p,
                    p.quality == Quality::none ? nmea::Validity::not_valid : nmea::Validity::valid);
@@ -19,7 +19,7 @@ void write_point(std::ostream& out, const Point& p) {
 }  // namespace
 
 void write_nmea(std::ostream& out, const Track& track) {
-  for (const Point& point : track.points) write_point(out, point);
+  for (const Point& point : track.points) write_sentences(out, point);
 }
 
 }  // namespace fathom::exchange

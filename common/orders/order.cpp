@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "config/json/strict_json.hpp"
 #include "health/text.hpp"
 #include "samples/position/limits.hpp"
@@ -17,7 +17,6 @@ namespace fathom::orders {
 namespace {
 
 using nlohmann::json;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// What each kind of order takes besides "kind"; a fix is no command.
 struct Form {
@@ -81,8 +80,8 @@ std::string fill_name(const json& order, const char* key, const char* what, Name
 
 std::string fill_fix(const json& order, FixSample& fix, double& age_s) {
   std::string fault;
-  fix.latitude_rad = number_of(order, {"lat_deg", -90, 90}, false, fault) * kDegree;
-  fix.longitude_rad = number_of(order, {"lon_deg", -180, 180}, false, fault) * kDegree;
+  fix.latitude_rad = number_of(order, {"lat_deg", -90, 90}, false, fault) * kRadPerDeg;
+  fix.longitude_rad = number_of(order, {"lon_deg", -180, 180}, false, fault) * kRadPerDeg;
   fix.sigma_m =
       number_of(order, {"sigma_m", kToldPosition.least_sigma_m, kToldPosition.most_sigma_m}, false, fault);
   fix.depth_m =
@@ -110,8 +109,8 @@ std::string fill_position(const json& order, Command& command) {
     }
     values[i] = value.get<double>();
   }
-  command.latitude_rad = values[0] * kDegree;
-  command.longitude_rad = values[1] * kDegree;
+  command.latitude_rad = values[0] * kRadPerDeg;
+  command.longitude_rad = values[1] * kRadPerDeg;
   command.depth_m = values[2];
   command.sigma_m = values[3];
   const json confirmed = order.value("confirmed", json(false));
@@ -158,9 +157,9 @@ std::string describe(const Command& command) {
   std::string out(to_string(command.kind));
   if (!command.target.empty()) out += " " + command.target.str();
   if (command.kind == CommandKind::set_position) {
-    out +=
-        health::sentence(" %.6f deg N %.6f deg E depth %.1f m sigma %.1f m", command.latitude_rad / kDegree,
-                         command.longitude_rad / kDegree, command.depth_m, command.sigma_m);
+    out += health::sentence(" %.6f deg N %.6f deg E depth %.1f m sigma %.1f m",
+                            command.latitude_rad / kRadPerDeg, command.longitude_rad / kRadPerDeg,
+                            command.depth_m, command.sigma_m);
     if (command.confirmed) out += ", confirmed";
   }
   return out;
@@ -169,8 +168,8 @@ std::string describe(const Command& command) {
 std::string describe(const ToldFix& told) {
   const FixSample& fix = told.fix;
   return health::sentence("fix of %s %.6f deg N %.6f deg E sigma %.1f m, %.0f s ago",
-                          fix.header.sensor.str().c_str(), fix.latitude_rad / kDegree,
-                          fix.longitude_rad / kDegree, fix.sigma_m, told.age_s);
+                          fix.header.sensor.str().c_str(), fix.latitude_rad / kRadPerDeg,
+                          fix.longitude_rad / kRadPerDeg, fix.sigma_m, told.age_s);
 }
 
 std::string describe(const Order& order) {

@@ -3,6 +3,7 @@
 #include <functional>
 
 #include "base/markup.hpp"
+#include "base/units.hpp"
 #include "report/comparison.hpp"
 #include "report/frame.hpp"
 #include "report/plot.hpp"
@@ -10,7 +11,6 @@
 namespace fathom::report {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr std::size_t kMostRuns = 200;
 constexpr std::size_t kMostCrosses = 2500;
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/markup.hpp"
+#include "base/units.hpp"
 #include "report/frame.hpp"
 #include "report/material.hpp"
 #include "report/page_plots.hpp"
@@ -52,7 +53,6 @@ std::string tiles(const Material& m) {
 
 std::string error_table(const Material& m) {
   if (m.score.count == 0) return {};
-  constexpr double kDeg = 57.29577951308232;
   std::string out =
       "<table><tr><th>error</th><th>rms</th><th>95 %</th><th>most</th><th>at the end</th></tr>\n";
   const auto row = [&](const std::string& name, const dataset::ErrorFigures& f, double scale) {
@@ -64,9 +64,9 @@ std::string error_table(const Material& m) {
   row("down, m", m.score.position_N_m[2], 1.0);
   row("velocity north, m/s", m.score.velocity_N_m_s[0], 1.0);
   row("velocity east, m/s", m.score.velocity_N_m_s[1], 1.0);
-  row("roll, degrees", m.score.rpy_rad[0], kDeg);
-  row("pitch, degrees", m.score.rpy_rad[1], kDeg);
-  row("yaw, degrees", m.score.rpy_rad[2], kDeg);
+  row("roll, degrees", m.score.rpy_rad[0], kDegPerRad);
+  row("pitch, degrees", m.score.rpy_rad[1], kDegPerRad);
+  row("yaw, degrees", m.score.rpy_rad[2], kDegPerRad);
   return out + "</table>\n";
 }
 

@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <functional>
 
+#include "base/units.hpp"
 #include "report/plot.hpp"
 
 namespace fathom::report {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 constexpr double kChi95 = 2.4477;  // radius that holds 95 % of a plane's normal distribution
 constexpr std::array<const char*, 3> kAxes{"north", "east", "down"};
 

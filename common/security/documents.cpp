@@ -18,7 +18,7 @@ void leaf(XMLPrinter& xml, const char* name, const std::string& text) {
   xml.CloseElement();
 }
 
-void open(XMLPrinter& xml) {
+void open_document(XMLPrinter& xml) {
   xml.PushHeader(false, true);
   xml.OpenElement("dds");
 }
@@ -110,7 +110,7 @@ std::vector<std::string> topics_of(const XMLElement& rule, const char* direction
 
 std::string governance_xml(const Domains& domains, MessageProtection protection) {
   XMLPrinter xml;
-  open(xml);
+  open_document(xml);
   xml.OpenElement("domain_access_rules");
   xml.OpenElement("domain_rule");
   domains_element(xml, domains);
@@ -145,7 +145,7 @@ Governance governance_from_xml(const std::string& xml, const std::string& place)
 
 std::string permissions_xml(const Grant& grant) {
   XMLPrinter xml;
-  open(xml);
+  open_document(xml);
   xml.OpenElement("permissions");
   xml.OpenElement("grant");
   xml.PushAttribute("name", grant.name.c_str());

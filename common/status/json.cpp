@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "samples/alignment/help.hpp"
 #include "samples/uncertainty.hpp"
 #include "status/judgement.hpp"
@@ -14,13 +14,12 @@ namespace fathom::status {
 namespace {
 
 using nlohmann::json;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 json number(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
 }
 json degrees(double value_rad) {
-  return number(value_rad / kDegree);
+  return number(value_rad / kRadPerDeg);
 }
 json vector3(const std::array<double, 3>& values, double unit = 1.0) {
   return json::array({number(values[0] / unit), number(values[1] / unit), number(values[2] / unit)});
@@ -44,8 +43,8 @@ json navigation(const StatusView& view) {
           {"horizontal_95_m", number(horizontal_95_m(nav.position_covariance_N_m2))},
           {"vertical_95_m", number(vertical_95_m(nav.position_covariance_N_m2))},
           {"velocity_N_m_s", vector3(nav.velocity_N_m_s)},
-          {"rpy_deg", vector3(nav.rpy_rad, kDegree)},
-          {"rpy_sigma_deg", vector3(nav.rpy_sigma_rad, kDegree)},
+          {"rpy_deg", vector3(nav.rpy_rad, kRadPerDeg)},
+          {"rpy_sigma_deg", vector3(nav.rpy_sigma_rad, kRadPerDeg)},
           {"reset_counter", nav.reset_counter}};
 }
 
@@ -67,7 +66,7 @@ json alignment(const StatusView& view) {
   return {{"phase", to_string(status.phase)},
           {"in_phase_s", number(status.in_phase_s)},
           {"time_to_aligned_s", number(status.time_to_aligned_s)},
-          {"rpy_sigma_deg", vector3(status.rpy_sigma_rad, kDegree)},
+          {"rpy_sigma_deg", vector3(status.rpy_sigma_rad, kRadPerDeg)},
           {"conditions", conditions},
           {"advice", status.advice.data()}};
 }

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "estimation/alignment/drop_alignment.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -22,14 +22,13 @@ using estimation::DropAlignment;
 using estimation::DropConfig;
 using estimation::DropStep;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMilliG_m_s2 = 9.80665e-3;
 constexpr double kStep_s = 0.01;
 constexpr double kEnd_s = 45.0;
 constexpr double kRefined_s = 10.0;  // the fine solution is scored this long after the coarse one
 constexpr double kSetDepth_m = 80.0;
-constexpr double kHeading_rad = 45.0 * kDegree;
-constexpr double kPitch_rad = -5.0 * kDegree;
+constexpr double kHeading_rad = 45.0 * kRadPerDeg;
+constexpr double kPitch_rad = -5.0 * kRadPerDeg;
 constexpr double kSpeedPerRpm = 0.0068;
 
 struct Case {
@@ -71,8 +70,8 @@ sim::Scenario scenario_of(const Case& one, sim::Random& random) {
   out.environment.turbulence_m_s = one.turbulence_m_s;
   out.environment.turbulence_tau_s = 1.0;
   out.environment.water_depth_m = 1000.0;
-  out.start.latitude_rad = 36.4 * kDegree;
-  out.start.longitude_rad = 127.4 * kDegree;
+  out.start.latitude_rad = 36.4 * kRadPerDeg;
+  out.start.longitude_rad = 127.4 * kRadPerDeg;
   out.start.depth_m = -380.0;
   out.start.speed_m_s = 61.7 + random.normal(2.0);
   out.start.rpy_rad = {0.0, kPitch_rad, kHeading_rad};
@@ -87,7 +86,7 @@ sim::Scenario scenario_of(const Case& one, sim::Random& random) {
     for (double t = from_s; t < kEnd_s; t += every_s) {
       sim::MissionStep turn;
       turn.at_s = t;
-      turn.heading_rad = kHeading_rad + one.turn_deg_s * kDegree * (t - from_s);
+      turn.heading_rad = kHeading_rad + one.turn_deg_s * kRadPerDeg * (t - from_s);
       out.mission.push_back(turn);
     }
   }
@@ -102,16 +101,16 @@ class Instruments {
       : random_(seed, "instruments"),
         errors_(one.sensor_errors),
         vibration_(one.vibration_mg * kMilliG_m_s2) {
-    const double angle = 1.5 / 60.0 * kDegree * errors_;
+    const double angle = 1.5 / 60.0 * kRadPerDeg * errors_;
     for (int i = 0; i < 3; ++i) {
-      gyro_[i] = {random_.normal(2.0 * kDegree / 3600.0 * errors_), random_.normal(200e-6 * errors_),
+      gyro_[i] = {random_.normal(2.0 * kRadPerDeg / 3600.0 * errors_), random_.normal(200e-6 * errors_),
                   random_.normal(angle), random_.normal(angle)};
       accelerometer_[i] = {random_.normal(kMilliG_m_s2 * errors_), random_.normal(300e-6 * errors_),
                            random_.normal(angle), random_.normal(angle)};
     }
     factor_error_ = random_.normal(0.015 * kSpeedPerRpm * errors_);
   }
-  Vector3d rate(const Vector3d& truth) { return read(truth, gyro_, 0.01 * kDegree * errors_); }
+  Vector3d rate(const Vector3d& truth) { return read(truth, gyro_, 0.01 * kRadPerDeg * errors_); }
   Vector3d force(const Vector3d& truth) { return read(truth, accelerometer_, vibration_); }
   /// As shaft speed of a propulsor of the factor that is believed.
   double rpm(double truth) {
@@ -180,7 +179,7 @@ struct Snapshot {
 
   [[nodiscard]] bool false_claim() const {
     for (int i = 0; i < 2; ++i)
-      if (std::abs(error_rad(i)) > 3.0 * sigma_rad(i) || std::abs(error_rad(i)) > kDegree) return true;
+      if (std::abs(error_rad(i)) > 3.0 * sigma_rad(i) || std::abs(error_rad(i)) > kRadPerDeg) return true;
     return false;
   }
 };
@@ -219,8 +218,8 @@ void run_method(const Case& one, std::string_view method, std::uint64_t seed, Sc
   DropAlignment alignment(config);
   // The heading is handed over as well as it is said to be.
   const double heading_rad = kHeading_rad + release.normal(one.sensor_errors * config.heading_sigma_rad);
-  alignment.start(
-      geo::from_rpy({one.roll_error_deg * kDegree, kPitch_rad + one.pitch_error_deg * kDegree, heading_rad}));
+  alignment.start(geo::from_rpy(
+      {one.roll_error_deg * kRadPerDeg, kPitch_rad + one.pitch_error_deg * kRadPerDeg, heading_rad}));
   const bool fine = method == kFine;
   Snapshot claimed;  // when the method says that it is done
   Snapshot refined;
@@ -254,15 +253,15 @@ void run_method(const Case& one, std::string_view method, std::uint64_t seed, Sc
   }
   const Snapshot& scored = fine ? refined : claimed;
   const auto value = [](const Snapshot& from, double v) { return from.taken ? v : kUnknown; };
-  scores.add(method, "roll_error", value(scored, scored.error_rad(0) / kDegree));
-  scores.add(method, "pitch_error", value(scored, scored.error_rad(1) / kDegree));
+  scores.add(method, "roll_error", value(scored, scored.error_rad(0) / kRadPerDeg));
+  scores.add(method, "pitch_error", value(scored, scored.error_rad(1) / kRadPerDeg));
   scores.add(method, "time_to_aligned", value(claimed, claimed.t_s));
   scores.add(method, "aligned", claimed.taken ? 1.0 : 0.0);
   const bool falsely = (claimed.taken && claimed.false_claim()) || (scored.taken && scored.false_claim());
   scores.add(method, "falsely_aligned", falsely ? 1.0 : 0.0);
   scores.add(method, "timed_out", alignment.phase() == AlignmentPhase::timed_out ? 1.0 : 0.0);
-  scores.add(method, "roll_sigma", value(scored, scored.sigma_rad(0) / kDegree));
-  scores.add(method, "pitch_sigma", value(scored, scored.sigma_rad(1) / kDegree));
+  scores.add(method, "roll_sigma", value(scored, scored.sigma_rad(0) / kRadPerDeg));
+  scores.add(method, "pitch_sigma", value(scored, scored.sigma_rad(1) / kRadPerDeg));
   scores.add(method, "nees_tilt", value(scored, scored.nees));
 }
 

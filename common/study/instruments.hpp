@@ -1,8 +1,8 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "estimation/engine_config.hpp"
 #include "sim/sensors/suite.hpp"
 
@@ -10,8 +10,7 @@
 /// filters are told.
 namespace fathom::study {
 
-inline constexpr double kDegree = std::numbers::pi / 180.0;
-inline constexpr double kDegreePerHour = kDegree / 3600.0;
+inline constexpr double kDegreePerHour = kRadPerDeg / 3600.0;
 inline constexpr double kMilliG = 9.80665e-3;
 
 /// One standard deviation of one axis; SI units.
@@ -34,7 +33,7 @@ struct ImuGrade {
 /// HG1700 class.
 inline constexpr ImuGrade kTactical{.gyro_bias_rad_s = 1.0 * kDegreePerHour,
                                     .gyro_in_run_rad_s = 0.3 * kDegreePerHour,
-                                    .angle_walk_rad_sqrt_s = 0.125 * kDegree / 60.0,
+                                    .angle_walk_rad_sqrt_s = 0.125 * kRadPerDeg / 60.0,
                                     .gyro_scale = 150e-6,
                                     .accel_bias_m_s2 = 1.0 * kMilliG,
                                     .accel_in_run_m_s2 = 0.05 * kMilliG,
@@ -45,7 +44,7 @@ inline constexpr ImuGrade kTactical{.gyro_bias_rad_s = 1.0 * kDegreePerHour,
 /// Ring laser or fibre-optic unit that finds north by itself.
 inline constexpr ImuGrade kNavigation{.gyro_bias_rad_s = 0.01 * kDegreePerHour,
                                       .gyro_in_run_rad_s = 0.003 * kDegreePerHour,
-                                      .angle_walk_rad_sqrt_s = 0.002 * kDegree / 60.0,
+                                      .angle_walk_rad_sqrt_s = 0.002 * kRadPerDeg / 60.0,
                                       .gyro_scale = 10e-6,
                                       .accel_bias_m_s2 = 0.05 * kMilliG,
                                       .accel_in_run_m_s2 = 0.01 * kMilliG,
@@ -67,7 +66,7 @@ struct DvlNoise {
   double beam_m_s;
   double beam_per_speed;
 };
-inline constexpr double kBeam_rad = 30.0 * kDegree;
+inline constexpr double kBeam_rad = 30.0 * kRadPerDeg;
 [[nodiscard]] sim::DvlConfig simulated(const DvlNoise& noise, double real);
 /// The same noise as that of the velocity along the instrument's axes.
 [[nodiscard]] estimation::SensorConfig told(const DvlNoise& noise, const std::array<double, 3>& lever_B_m);

@@ -4,13 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string_view>
+
+#include "base/units.hpp"
+#include "health/text.hpp"
 
 namespace fathom::demo {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 // Of the monitor after its limit: one period plus what a loaded machine needs.
 constexpr double kFlagToleranceS = 1.5;
 // From the first fix to the all-clear: the monitor wants some consecutive fixes.
@@ -19,19 +20,12 @@ constexpr double kClearToleranceS = 10.0;
 constexpr double kLeastRateShare = 0.98;
 constexpr double kLeastValidShare = 0.99;
 
-template <class... Args>
-std::string text(const char* format, Args... args) {
-  std::array<char, 256> out{};
-  std::snprintf(out.data(), out.size(), format, args...);
-  return out.data();
-}
-
 void judge_accuracy(const Observation& seen, const Demands& demands, std::vector<Finding>& out) {
   const auto& limits = demands.limits;
   const auto below = [&out](double value, double limit, const char* what, double factor, const char* unit) {
     if (known(limit)) {
-      out.push_back({value <= limit,
-                     text("%s %.3g %s, limit %.3g %s", what, value * factor, unit, limit * factor, unit)});
+      out.push_back({value <= limit, health::sentence("%s %.3g %s, limit %.3g %s", what, value * factor, unit,
+                                                      limit * factor, unit)});
     }
   };
   if (seen.score.count == 0) {
@@ -41,8 +35,8 @@ void judge_accuracy(const Observation& seen, const Demands& demands, std::vector
   below(seen.score.horizontal_m.rms, limits.horizontal_rms_m, "horizontal error rms", 1.0, "m");
   below(seen.score.horizontal_m.max, limits.horizontal_max_m, "horizontal error max", 1.0, "m");
   below(std::max(seen.score.rpy_rad[0].rms, seen.score.rpy_rad[1].rms), limits.roll_pitch_rms_rad,
-        "roll and pitch error rms", kDegrees, "deg");
-  below(seen.score.rpy_rad[2].rms, limits.yaw_rms_rad, "yaw error rms", kDegrees, "deg");
+        "roll and pitch error rms", kDegPerRad, "deg");
+  below(seen.score.rpy_rad[2].rms, limits.yaw_rms_rad, "yaw error rms", kDegPerRad, "deg");
   if (known(demands.end_error_share) && seen.distance_m > 0.0) {
     below(seen.score.horizontal_m.end / seen.distance_m, demands.end_error_share,
           "horizontal end error of distance travelled", 100.0, "%");
@@ -58,32 +52,34 @@ void judge_outages(const Observation& seen, const Demands& demands, std::vector<
     // One that ended within the tolerance of the limit need not have been flagged.
     if (!known(outage.flagged_after_s)) {
       if (length_s > demands.gps_limit_s + kFlagToleranceS) {
-        out.push_back(
-            {false, text("GPS outage at %.1f s of %.1f s was not flagged", outage.start_s, length_s)});
+        out.push_back({false, health::sentence("GPS outage at %.1f s of %.1f s was not flagged",
+                                               outage.start_s, length_s)});
       }
       continue;
     }
     out.push_back({outage.flagged_after_s <= demands.gps_limit_s + kFlagToleranceS,
-                   text("GPS outage at %.1f s flagged after %.2f s, limit %.2f s", outage.start_s,
-                        outage.flagged_after_s, demands.gps_limit_s + kFlagToleranceS)});
+                   health::sentence("GPS outage at %.1f s flagged after %.2f s, limit %.2f s", outage.start_s,
+                                    outage.flagged_after_s, demands.gps_limit_s + kFlagToleranceS)});
     if (known(outage.cleared_after_s)) {
       ++complete;
       out.push_back({outage.cleared_after_s <= kClearToleranceS,
-                     text("GPS outage at %.1f s cleared %.2f s after the first fix, limit %.0f s",
-                          outage.start_s, outage.cleared_after_s, kClearToleranceS)});
+                     health::sentence("GPS outage at %.1f s cleared %.2f s after the first fix, limit %.0f s",
+                                      outage.start_s, outage.cleared_after_s, kClearToleranceS)});
     } else if (outage.cleared_without_fix) {
-      out.push_back({false, text("GPS outage at %.1f s was cleared without a usable fix", outage.start_s)});
+      out.push_back(
+          {false, health::sentence("GPS outage at %.1f s was cleared without a usable fix", outage.start_s)});
     } else if (over && ended_s - outage.end_s > kClearToleranceS) {
       out.push_back(
           {false,
-           text("GPS outage at %.1f s was never cleared, although fixes came again %.1f s before the end",
-                outage.start_s, ended_s - outage.end_s)});
+           health::sentence(
+               "GPS outage at %.1f s was never cleared, although fixes came again %.1f s before the end",
+               outage.start_s, ended_s - outage.end_s)});
     }
   }
   if (demands.whole_run && demands.gps_expected && demands.limits.gps_outages_at_least > 0) {
     out.push_back({complete >= demands.limits.gps_outages_at_least,
-                   text("%d GPS outages flagged and cleared, at least %d expected", complete,
-                        demands.limits.gps_outages_at_least)});
+                   health::sentence("%d GPS outages flagged and cleared, at least %d expected", complete,
+                                    demands.limits.gps_outages_at_least)});
   }
 }
 
@@ -98,16 +94,18 @@ void judge_services(const Observation& seen, const Demands& demands, std::vector
     const ServiceRecord& record = at->second;
     const auto restarts = demands.restarts.find(name);
     if (restarts != demands.restarts.end() && restarts->second > 0) {
-      out.push_back({false, text("service %s was started again %d times", name.c_str(), restarts->second)});
+      out.push_back(
+          {false, health::sentence("service %s was started again %d times", name.c_str(), restarts->second)});
     } else if (!record.was_healthy || record.fell) {
       out.push_back({false, "service " + name + " did not stay healthy: " + record.text});
     } else if (record.longest_silence_s > demands.silence_s + kFlagToleranceS) {
-      out.push_back({false, text("service %s gave no life sign for %.1f s, limit %.1f s", name.c_str(),
-                                 record.longest_silence_s, demands.silence_s + kFlagToleranceS)});
+      out.push_back(
+          {false, health::sentence("service %s gave no life sign for %.1f s, limit %.1f s", name.c_str(),
+                                   record.longest_silence_s, demands.silence_s + kFlagToleranceS)});
     }
   }
   if (out.size() == before)
-    out.push_back({true, text("%zu services stayed healthy", demands.services.size())});
+    out.push_back({true, health::sentence("%zu services stayed healthy", demands.services.size())});
   for (const std::string& name : demands.killed)
     out.push_back({false, "service " + name + " did not stop when asked"});
 }
@@ -133,16 +131,17 @@ void judge_alarms(const Observation& seen, const Demands& demands, std::vector<F
 void judge_states(const Observation& seen, const Demands& demands, std::vector<Finding>& out) {
   const double rate = rate_hz(seen, demands);
   out.push_back({rate >= kLeastRateShare * demands.nav_rate_hz,
-                 text("navigation state at %.1f Hz over the run, inertial sensor at %.0f Hz", rate,
-                      demands.nav_rate_hz)});
+                 health::sentence("navigation state at %.1f Hz over the run, inertial sensor at %.0f Hz",
+                                  rate, demands.nav_rate_hz)});
   const double share = valid_share(seen, demands);
   if (!known(share)) {
     out.push_back({false, "no valid navigation state: the run ended before one was due"});
     return;
   }
   out.push_back({share >= kLeastValidShare,
-                 text("%.2f %% of the navigation states due were there and valid, at least %.0f %% expected",
-                      share * 100.0, kLeastValidShare * 100.0)});
+                 health::sentence(
+                     "%.2f %% of the navigation states due were there and valid, at least %.0f %% expected",
+                     share * 100.0, kLeastValidShare * 100.0)});
 }
 
 }  // namespace
@@ -171,7 +170,7 @@ std::vector<Finding> judge(const Observation& seen, const Demands& demands) {
   if (demands.alignment_expected) {
     const double limit = known(demands.limits.aligned_within_s) ? demands.limits.aligned_within_s : 1e9;
     const double after_s = seen.aligned_after_s();
-    out.push_back({after_s <= limit, known(after_s) ? text("aligned after %.1f s", after_s)
+    out.push_back({after_s <= limit, known(after_s) ? health::sentence("aligned after %.1f s", after_s)
                                                     : std::string("alignment was not reached")});
   }
   judge_accuracy(seen, demands, out);

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "dataset/dataset.hpp"
 
 namespace fathom::demo {
 namespace {
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 template <class Sample>
 double mean_rate_hz(const std::vector<Sample>& stream) {
@@ -72,11 +70,11 @@ std::vector<std::string> start_sets(const Recording& recording, TimeNs epoch_ns)
   const Truth& at = recording.start;
   const nlohmann::json state = {
       {"stamp_ns", epoch_ns + at.header.stamp_ns},
-      {"latitude_deg", at.latitude_rad * kDegrees},
-      {"longitude_deg", at.longitude_rad * kDegrees},
+      {"latitude_deg", at.latitude_rad * kDegPerRad},
+      {"longitude_deg", at.longitude_rad * kDegPerRad},
       {"altitude_m", at.altitude_m},
       {"velocity_N_m_s", at.velocity_N_m_s},
-      {"rpy_deg", {at.rpy_rad[0] * kDegrees, at.rpy_rad[1] * kDegrees, at.rpy_rad[2] * kDegrees}}};
+      {"rpy_deg", {at.rpy_rad[0] * kDegPerRad, at.rpy_rad[1] * kDegPerRad, at.rpy_rad[2] * kDegPerRad}}};
   return {"start.mode=given", "start.state=" + state.dump()};
 }
 

@@ -3,25 +3,19 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
+
+#include "base/units.hpp"
+#include "health/text.hpp"
 
 namespace fathom::demo {
 namespace {
 
 using nlohmann::json;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 json number(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
-template <class... Args>
-std::string text(const char* format, Args... args) {
-  std::array<char, 256> out{};
-  std::snprintf(out.data(), out.size(), format, args...);
-  return out.data();
 }
 
 std::string health_word(const Observation& seen, const std::string& name) {
@@ -78,9 +72,9 @@ std::string report_json(const std::string& scenario, double duration_s, const Ob
       {"horizontal_error_m", figures(seen.score.horizontal_m)},
       {"distance_m", seen.distance_m},
       {"attitude_error_deg",
-       {{"roll", number(rpy[0].rms * kDegrees)},
-        {"pitch", number(rpy[1].rms * kDegrees)},
-        {"yaw", number(rpy[2].rms * kDegrees)}}},
+       {{"roll", number(rpy[0].rms * kDegPerRad)},
+        {"pitch", number(rpy[1].rms * kDegPerRad)},
+        {"yaw", number(rpy[2].rms * kDegPerRad)}}},
       {"gps_outages", outages},
       {"alignment",
        {{"phase", to_string(seen.alignment ? seen.alignment->phase : AlignmentPhase::none)},
@@ -96,23 +90,23 @@ std::string report_json(const std::string& scenario, double duration_s, const Ob
 }
 
 std::string status_line(double elapsed_s, const Observation& seen) {
-  std::string out = text("%6.0f s", elapsed_s);
+  std::string out = health::sentence("%6.0f s", elapsed_s);
   if (!seen.nav) return out + "  no navigation state yet";
   const NavState& nav = *seen.nav;
-  out += text("  %-14s %-9s", std::string(to_string(nav.mode)).c_str(),
-              std::string(to_string(nav.alignment)).c_str());
+  out += health::sentence("  %-14s %-9s", std::string(to_string(nav.mode)).c_str(),
+                          std::string(to_string(nav.alignment)).c_str());
   if (known(nav.latitude_rad)) {
     const double sigma =
         std::sqrt(std::max(nav.position_covariance_N_m2[0], nav.position_covariance_N_m2[4]));
-    out += text("  %10.6f %11.6f", nav.latitude_rad * kDegrees, nav.longitude_rad * kDegrees);
-    out += known(nav.depth_m) ? text("  depth %5.1f m", nav.depth_m) : "  depth     - m";
-    out += text("  yaw %5.1f deg  95%% %5.1f m", nav.rpy_rad[2] * kDegrees, 2.45 * sigma);
+    out += health::sentence("  %10.6f %11.6f", nav.latitude_rad * kDegPerRad, nav.longitude_rad * kDegPerRad);
+    out += known(nav.depth_m) ? health::sentence("  depth %5.1f m", nav.depth_m) : "  depth     - m";
+    out += health::sentence("  yaw %5.1f deg  95%% %5.1f m", nav.rpy_rad[2] * kDegPerRad, 2.45 * sigma);
   }
-  if (seen.error) out += text("  error %5.2f m", seen.error->horizontal_m);
+  if (seen.error) out += health::sentence("  error %5.2f m", seen.error->horizontal_m);
   if (seen.monitor && seen.monitor->gps_outage_active)
-    out += text("  GPS gone %.0f s", seen.monitor->gps_outage_s);
+    out += health::sentence("  GPS gone %.0f s", seen.monitor->gps_outage_s);
   if (seen.monitor && seen.monitor->alarms_active > 0)
-    out += text("  alarms %u", seen.monitor->alarms_active);
+    out += health::sentence("  alarms %u", seen.monitor->alarms_active);
   return out;
 }
 

@@ -4,13 +4,13 @@
 #include <atomic>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fathom/client.hpp>
 
+#include "base/units.hpp"
 #include "geo/wgs84.hpp"
 #include "guidance_example/line_of_sight.hpp"
 #include "guidance_example/mission_route.hpp"
@@ -18,8 +18,6 @@
 
 namespace fathom::guidance {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 ClientOptions client_options(const host::ServiceHost& host, const Clock& clock,
                              const config::GuidanceLimits& limits) {
@@ -51,7 +49,7 @@ std::string text_of(const SteeringOrder& order, const NavHealth& health) {
       "waypoint %zu: %.0f m to go, %.1f m %s of the leg; steer %05.1f deg at %.1f m/s, depth %.1f m; "
       "position known to %.1f m (95 %%)",
       order.waypoint + 1, order.distance_to_go_m, std::abs(order.cross_track_m),
-      order.cross_track_m < 0.0 ? "left" : "right", order.heading_rad / kDegree, order.speed_m_s,
+      order.cross_track_m < 0.0 ? "left" : "right", order.heading_rad / kRadPerDeg, order.speed_m_s,
       order.depth_m, health.horizontal_95_m);
   return text.data();
 }

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/units.hpp"
 #include "geo/so3.hpp"
 #include "samples/position/gives_position.hpp"
 #include "samples/uncertainty.hpp"
@@ -18,7 +19,6 @@ using config::MavlinkGatewayConfig;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kBestRadius_m = 0.01;
 constexpr std::uint8_t kFrameLocalNed = 1;
 constexpr std::uint8_t kFrameBodyFrd = 12;
@@ -75,7 +75,7 @@ std::uint64_t microseconds(TimeNs ns) {
 }
 
 std::int32_t e7(double radians) {
-  return static_cast<std::int32_t>(std::llround(radians * kDegrees * 1e7));
+  return static_cast<std::int32_t>(std::llround(radians * kDegPerRad * 1e7));
 }
 
 bool all_finite(const NavState& s) {
@@ -180,7 +180,7 @@ mavlink::GpsInput gps_input_of(const Pose& pose, const MavlinkGatewayConfig& con
   out.vert_accuracy = static_cast<float>(std::sqrt(covariance[8]));
   out.speed_accuracy = static_cast<float>(std::sqrt(v_covariance[0] + v_covariance[4]));
   // 0 means that there is none, so that north is 36000.
-  double yaw_deg = pose.state.rpy_rad[2] * kDegrees;
+  double yaw_deg = pose.state.rpy_rad[2] * kDegPerRad;
   if (yaw_deg < 0.0) yaw_deg += 360.0;
   const auto hundredths = static_cast<std::uint16_t>(std::lround(yaw_deg * 100.0) % 36'000);
   out.yaw = hundredths == 0 ? 36'000 : hundredths;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
+#include "base/units.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 #include "samples/position/gives_position.hpp"
@@ -18,7 +18,6 @@ using config::NmeaSentence;
 using exchange::Quality;
 using exchange::nmea::Validity;
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kSecondsPerMinute = 60.0;
 
 char letter_of(NavMode mode) {
@@ -59,12 +58,12 @@ bool has_attitude(const NavState& state) {
 void fill_attitude(const NavState& state, const config::NmeaOutConfig& config, Report& out) {
   const auto [roll, pitch, yaw] = state.rpy_rad;
   // An unknown sigma is not within the limit: the comparison is false for NaN.
-  if (state.rpy_sigma_rad[2] <= config.valid_heading_rad) out.point.heading_deg = yaw * kDegrees;
-  out.uncertainty.heading_sigma_deg = state.rpy_sigma_rad[2] * kDegrees;
-  out.uncertainty.tilt_sigma_deg = std::max(state.rpy_sigma_rad[0], state.rpy_sigma_rad[1]) * kDegrees;
+  if (state.rpy_sigma_rad[2] <= config.valid_heading_rad) out.point.heading_deg = yaw * kDegPerRad;
+  out.uncertainty.heading_sigma_deg = state.rpy_sigma_rad[2] * kDegPerRad;
+  out.uncertainty.tilt_sigma_deg = std::max(state.rpy_sigma_rad[0], state.rpy_sigma_rad[1]) * kDegPerRad;
   const auto& rate = state.angular_rate_B_rad_s;
   const double yaw_rate_rad_s = (rate[1] * std::sin(roll) + rate[2] * std::cos(roll)) / std::cos(pitch);
-  if (std::isfinite(yaw_rate_rad_s)) out.turn_deg_per_min = yaw_rate_rad_s * kDegrees * kSecondsPerMinute;
+  if (std::isfinite(yaw_rate_rad_s)) out.turn_deg_per_min = yaw_rate_rad_s * kDegPerRad * kSecondsPerMinute;
 }
 
 void fill_position(const NavState& state, const config::NmeaOutConfig& config, Report& out) {
@@ -83,8 +82,8 @@ void fill_position(const NavState& state, const config::NmeaOutConfig& config, R
     down_m = lever_N.z();
   }
   exchange::Point& point = out.point;
-  point.latitude_deg = place.latitude_rad * kDegrees;
-  point.longitude_deg = place.longitude_rad * kDegrees;
+  point.latitude_deg = place.latitude_rad * kDegPerRad;
+  point.longitude_deg = place.longitude_rad * kDegPerRad;
   if (std::isfinite(state.altitude_m)) point.altitude_m = place.altitude_m;
   point.velocity_N_m_s = {velocity.x(), velocity.y(), velocity.z()};
   for (std::size_t i = 0; i < 3; ++i) point.sigma_N_m[i] = square_root(state.position_covariance_N_m2[4 * i]);

@@ -1,15 +1,14 @@
 #include "codec/actuator/nmea_actuator.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <string_view>
 
+#include "base/units.hpp"
 #include "codec/text/numbers.hpp"
 
 namespace fathom::codec {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kMaxRpm = 1e5;
 constexpr double kMaxDeflection_deg = 180.0;
 constexpr int kPatience = 2;
@@ -59,7 +58,7 @@ std::optional<RejectReason> parse_rsa(const Sentence& sentence, FinsReport& repo
   const char status = fields.letter(1, "AV");
   (void)fields.number(2, -kMaxDeflection_deg, kMaxDeflection_deg);
   (void)fields.letter(3, "AV");
-  report.rudder_rad = status == 'A' ? -starboard_deg * kRadiansPerDegree : kUnknown;
+  report.rudder_rad = status == 'A' ? -starboard_deg * kRadPerDeg : kUnknown;
   return fields.refused();
 }
 
@@ -73,8 +72,7 @@ std::optional<RejectReason> parse_xdr(const Sentence& sentence, FinsReport& repo
     const bool rudder = same_word(fields.text(i + 3), "RUDDER");
     if (!rudder && !same_word(fields.text(i + 3), "STERN")) continue;
     if (fields.text(i) != "A" || fields.text(i + 2) != "D") return RejectReason::field;
-    const double value_rad =
-        fields.number(i + 1, -kMaxDeflection_deg, kMaxDeflection_deg) * kRadiansPerDegree;
+    const double value_rad = fields.number(i + 1, -kMaxDeflection_deg, kMaxDeflection_deg) * kRadPerDeg;
     (rudder ? report.rudder_rad : report.stern_rad) = value_rad;
   }
   return fields.refused();

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "codec/depth/depth_line.hpp"
 #include "codec/framer.hpp"
 #include "mavlink/frame.hpp"
@@ -17,7 +17,6 @@ using mavlink::Look;
 
 constexpr double kMilli = 1e-3;
 constexpr double kCenti = 1e-2;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kPascalPerHectopascal = 100.0;
 constexpr std::uint8_t kAutopilot = 1;   // MAV_COMP_ID_AUTOPILOT1
 constexpr std::uint8_t kLooksDown = 25;  // MAV_SENSOR_ROTATION_PITCH_270
@@ -149,9 +148,9 @@ class Mavlink final : public Framer {
       time.clock_ns = static_cast<TimeNs>(in.time_usec) * 1000;
     }
     if (out.fix != GpsFix::none) {
-      out.latitude_rad = 1e-7 * in.lat * kDegree;
-      out.longitude_rad = 1e-7 * in.lon * kDegree;
-      if (std::abs(out.latitude_rad) > 90.0 * kDegree || std::abs(out.longitude_rad) > 180.0 * kDegree)
+      out.latitude_rad = 1e-7 * in.lat * kRadPerDeg;
+      out.longitude_rad = 1e-7 * in.lon * kRadPerDeg;
+      if (std::abs(out.latitude_rad) > 90.0 * kRadPerDeg || std::abs(out.longitude_rad) > 180.0 * kRadPerDeg)
         return RejectReason::out_of_range;
       out.altitude_msl_m = kMilli * in.alt;
       if (in.alt_ellipsoid != 0) out.altitude_m = kMilli * in.alt_ellipsoid;
@@ -159,7 +158,7 @@ class Mavlink final : public Framer {
       const double axis_m = accuracy(in.h_acc) / std::numbers::sqrt2;
       out.position_sigma_N_m = {axis_m, axis_m, accuracy(in.v_acc)};
       if (in.vel != kUnknown16 && (in.cog != kUnknown16 || in.vel == 0)) {
-        const double course_rad = in.cog != kUnknown16 ? kCenti * in.cog * kDegree : 0.0;
+        const double course_rad = in.cog != kUnknown16 ? kCenti * in.cog * kRadPerDeg : 0.0;
         if (in.cog != kUnknown16) out.course_rad = course_rad;
         out.velocity_N_m_s = {kCenti * in.vel * std::cos(course_rad), kCenti * in.vel * std::sin(course_rad),
                               kUnknown};

@@ -11,7 +11,7 @@ namespace {
 
 // Long enough for profilers with all their cells and inserted text; short enough that a damaged length field
 // does not hold back a live stream for more than seconds.
-constexpr std::size_t kMaxFrame = std::size_t{12} * 1024;
+constexpr std::size_t kMaxEnsemble = std::size_t{12} * 1024;
 
 std::uint16_t byte_sum(Bytes bytes) {
   std::uint32_t sum = 0;
@@ -22,7 +22,7 @@ std::uint16_t byte_sum(Bytes bytes) {
 class Pd0 : public Framer {
  public:
   explicit Pd0(double heading_alignment_rad)
-      : Framer(kMaxFrame), heading_alignment_rad_(heading_alignment_rad) {}
+      : Framer(kMaxEnsemble), heading_alignment_rad_(heading_alignment_rad) {}
 
  private:
   [[nodiscard]] Probe probe(Bytes front) const override {
@@ -34,7 +34,7 @@ class Pd0 : public Framer {
     if (front.size() < pd0::kHeaderBytes) return Probe::need(pd0::kHeaderBytes);
     const std::size_t summed = load_le<std::uint16_t>(front, 2);
     const std::size_t length = summed + pd0::kChecksumBytes;
-    if (summed < pd0::kHeaderBytes || length > kMaxFrame) return Probe::bad(RejectReason::length, 2);
+    if (summed < pd0::kHeaderBytes || length > kMaxEnsemble) return Probe::bad(RejectReason::length, 2);
     if (front.size() < length) return Probe::need(length);
     if (byte_sum(front.first(summed)) != load_le<std::uint16_t>(front, summed)) {
       return Probe::bad(RejectReason::checksum, length);

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMaxFrame = 8 * 1024;
+constexpr std::size_t kMaxReport = 8 * 1024;
 constexpr double kBeamAngle_rad = 22.5 * std::numbers::pi / 180.0;
 constexpr double kMaxSpeed_m_s = 50.0;
 constexpr DurationNs kMaxAge_ns = 60 * kNsPerSecond;
@@ -126,7 +126,7 @@ std::optional<std::string> type_of(const Json& report) {
 
 class WaterLinked : public Framer {
  public:
-  WaterLinked() : Framer(kMaxFrame, LineEnds::belong_to_frames) {}
+  WaterLinked() : Framer(kMaxReport, LineEnds::belong_to_frames) {}
 
  private:
   [[nodiscard]] Probe probe(Bytes front) const override { return probe_json_object(front); }

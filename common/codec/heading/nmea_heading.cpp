@@ -3,15 +3,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.hpp"
+
 namespace fathom::codec {
 namespace {
 
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kTurn = 2.0 * std::numbers::pi;
 
 double heading(FieldReader& fields) {
   const double value_deg = fields.number(0, 0.0, 360.0);
-  return value_deg == 360.0 ? 0.0 : value_deg * kRadiansPerDegree;
+  return value_deg == 360.0 ? 0.0 : value_deg * kRadPerDeg;
 }
 
 /// [0, 2 pi) from anything within one turn of it.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string_view>
 
 #include "base/little_endian.hpp"
+#include "base/units.hpp"
 #include "codec/framer.hpp"
 #include "codec/imu/vectornav_layout.hpp"
 #include "codec/text/numbers.hpp"
@@ -37,7 +37,6 @@ namespace imu_field = vectornav::imu_field;
 constexpr std::size_t kMaxFrame = 2048;
 constexpr std::size_t kMaxLine = 256;
 constexpr std::string_view kTextStart = "$VN";
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 // Beyond every instrument of the family (2000 deg/s, 16 g and their high-range variants).
 constexpr double kMaxRate_rad_s = 100.0;

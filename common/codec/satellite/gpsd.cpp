@@ -2,13 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "base/iso8601.hpp"
+#include "base/units.hpp"
 #include "codec/framer.hpp"
 #include "codec/text/json_object.hpp"
 
@@ -18,7 +18,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kMaxFrame = 16 * 1024;  // gpsd's own limit is 10 kB
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMostAltitude_m = 50'000.0;
 constexpr double kMostSpeed_m_s = 600.0;
 constexpr double kMostSpeedSigma_m_s = 5.0;
@@ -65,7 +64,7 @@ GpsFix fix_of(double mode, double status) {
 }
 
 void read_velocity(const Json& report, GpsSample& out) {
-  const double course_rad = number(report, "track") * kDegree;
+  const double course_rad = number(report, "track") * kRadPerDeg;
   const double speed_m_s = number(report, "speed");
   out.velocity_N_m_s = {number(report, "velN"), number(report, "velE"), -number(report, "climb")};
   if (!known(out.velocity_N_m_s[0]) || !known(out.velocity_N_m_s[1])) {
@@ -80,7 +79,7 @@ void read_velocity(const Json& report, GpsSample& out) {
 }
 
 bool in_range(const GpsSample& s) {
-  if (!(std::abs(s.latitude_rad) <= 90.0 * kDegree) || !(std::abs(s.longitude_rad) <= 180.0 * kDegree))
+  if (!(std::abs(s.latitude_rad) <= 90.0 * kRadPerDeg) || !(std::abs(s.longitude_rad) <= 180.0 * kRadPerDeg))
     return false;
   if (std::abs(s.altitude_m) > kMostAltitude_m || std::abs(s.altitude_msl_m) > kMostAltitude_m) return false;
   for (const double v : s.velocity_N_m_s)
@@ -145,8 +144,8 @@ class Gpsd final : public Framer {
     s.satellites = satellites_;
     s.hdop = hdop_;
     if (s.fix >= GpsFix::dead_reckoning) {
-      s.latitude_rad = number(report, "lat") * kDegree;
-      s.longitude_rad = number(report, "lon") * kDegree;
+      s.latitude_rad = number(report, "lat") * kRadPerDeg;
+      s.longitude_rad = number(report, "lon") * kRadPerDeg;
       if (!known(s.latitude_rad) || !known(s.longitude_rad))
         return Outcome::refused(RejectReason::incomplete);
       s.altitude_m = number(report, "altHAE");

@@ -1,9 +1,9 @@
 #include "codec/satellite/nmea_gps.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <string_view>
 
+#include "base/units.hpp"
 #include "codec/text/numbers.hpp"
 
 namespace fathom::codec {
@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr double kKmh_m_s = 1.0 / 3.6;
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kMaxSpeed_kn = 20'000.0;
 constexpr double kMaxAltitude_m = 1e6;
 constexpr double kMaxSigma_m = 1e7;
@@ -138,7 +137,7 @@ bool parse_rmc(const Sentence& sentence, FieldReader& fields, GpsReport& report)
   const char status = fields.letter(1, "AV");
   read_position(fields, 2, report);
   report.speed_m_s = fields.number(6, 0.0, kMaxSpeed_kn) * kKnot_m_s;
-  report.course_rad = fields.number(7, 0.0, 360.0) * kRadiansPerDegree;
+  report.course_rad = fields.number(7, 0.0, 360.0) * kRadPerDeg;
   read_date(fields, 8, report);
   const char mode = fields.letter(11, kModes);
   // Without a mode letter status A says no more than that there is a position. The last field, navigational
@@ -149,7 +148,7 @@ bool parse_rmc(const Sentence& sentence, FieldReader& fields, GpsReport& report)
 
 bool parse_vtg(const Sentence& sentence, FieldReader& fields, GpsReport& report) {
   if (!fields_between(sentence, 8, 9)) return false;
-  report.course_rad = fields.number(0, 0.0, 360.0) * kRadiansPerDegree;
+  report.course_rad = fields.number(0, 0.0, 360.0) * kRadPerDeg;
   const double knots = fields.number(4, 0.0, kMaxSpeed_kn);
   const double kmh = fields.number(6, 0.0, kMaxSpeed_kn / kKmh_m_s);
   (void)fields.letter(1, "T");

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/little_endian.hpp"
+#include "base/units.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 
 namespace fathom::codec {
@@ -16,7 +17,6 @@ constexpr std::uint8_t kClassNav = 0x01;
 constexpr std::uint8_t kIdPvt = 0x07;
 constexpr std::size_t kPvtLength = 92;
 constexpr std::size_t kPvtLengthGeneration7 = 84;
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 constexpr double kMilli = 1e-3;
 
 Probe probe_ubx(Bytes front) {
@@ -119,15 +119,15 @@ std::optional<RejectReason> read_pvt(Bytes payload, GpsSample& sample, DeviceTim
   if (std::abs(pvt.latitude_deg) > 90.0 || std::abs(pvt.longitude_deg) > 180.0) {
     return RejectReason::out_of_range;
   }
-  sample.latitude_rad = pvt.latitude_deg * kRadiansPerDegree;
-  sample.longitude_rad = pvt.longitude_deg * kRadiansPerDegree;
+  sample.latitude_rad = pvt.latitude_deg * kRadPerDeg;
+  sample.longitude_rad = pvt.longitude_deg * kRadPerDeg;
   sample.altitude_m = pvt.height_m;
   sample.altitude_msl_m = pvt.height_msl_m;
   const double axis_m = pvt.horizontal_accuracy_m / std::numbers::sqrt2;
   sample.position_sigma_N_m = {axis_m, axis_m, pvt.vertical_accuracy_m};
   sample.velocity_N_m_s = pvt.velocity_N_m_s;
   sample.velocity_sigma_N_m_s.fill(pvt.speed_accuracy_m_s);
-  sample.course_rad = pvt.course_deg * kRadiansPerDegree;
+  sample.course_rad = pvt.course_deg * kRadPerDeg;
   return std::nullopt;
 }
 

@@ -1,16 +1,15 @@
 #include "codec/text/fix_text.hpp"
 
-#include <numbers>
 #include <string>
 
 #include "base/iso8601.hpp"
+#include "base/units.hpp"
 #include "codec/framer.hpp"
 #include "codec/text/nmea_sentence.hpp"
 
 namespace fathom::codec {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kLeastSigma_m = 0.01;
 constexpr double kMostSigma_m = 1e5;
 constexpr double kHighest_m = -50.0;

@@ -1,7 +1,6 @@
 #include "codec/text/nmea_sentence.hpp"
 
-#include <numbers>
-
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "codec/text/numbers.hpp"
 
@@ -10,7 +9,6 @@ namespace {
 
 constexpr std::size_t kMinAddress = 3;
 constexpr std::size_t kMaxAddress = 10;
-constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 bool starts_sentence(std::uint8_t byte) {
   return byte == '$' || byte == '!';
@@ -187,14 +185,14 @@ double FieldReader::angle(std::size_t index, std::string_view hemispheres, doubl
     refuse(RejectReason::out_of_range);
     return kUnknown;
   }
-  return (hemisphere == hemispheres.front() ? value_deg : -value_deg) * kRadiansPerDegree;
+  return (hemisphere == hemispheres.front() ? value_deg : -value_deg) * kRadPerDeg;
 }
 
 double FieldReader::east_west(std::size_t index, double limit_deg) {
   const double value_deg = number(index, 0.0, limit_deg);
   const char side = letter(index + 1, "EW");
   if (!known(value_deg) || side == '\0') return kUnknown;
-  return (side == 'E' ? value_deg : -value_deg) * kRadiansPerDegree;
+  return (side == 'E' ? value_deg : -value_deg) * kRadPerDeg;
 }
 
 }  // namespace fathom::codec

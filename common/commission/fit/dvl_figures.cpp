@@ -17,8 +17,8 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kMargin_s = 2.0;
-constexpr double kLeastStep_s = 0.15;
+constexpr double kFiguresMargin_s = 2.0;
+constexpr double kLeastDvlStep_s = 0.15;
 constexpr double kTimeStep_s = 0.02;
 // Unknowns: turn of the mounting, log of the scale, lever, latency, bias of the rate, bias of the force.
 constexpr int kTurn = 0, kScale = 3, kLever = 4, kLatency = 7, kRateBias = 8, kForceBias = 11, kCommon = 14;
@@ -60,11 +60,11 @@ double weight_of(double residual, double scale) {
 
 void add_window(const Series& series, const Span& window, const Unknowns& u, double robust_scale,
                 WindowFit& fit, std::vector<double>& residuals) {
-  const double from_s = window.from_s - kMargin_s;
-  const double to_s = window.to_s + kMargin_s;
+  const double from_s = window.from_s - kFiguresMargin_s;
+  const double to_s = window.to_s + kFiguresMargin_s;
   const Strapdown strapdown(series.imu, u.reading, from_s, to_s);
   Rows rows;
-  for (const std::size_t i : rows_in(series.dvl, window, kLeastStep_s)) {
+  for (const std::size_t i : rows_in(series.dvl, window, kLeastDvlStep_s)) {
     const double t = series.dvl.t_s[i] - u.latency_s;
     if (!strapdown.covers(t - 0.05) || !strapdown.covers(t + 0.05)) continue;
     rows.t_s.push_back(t);

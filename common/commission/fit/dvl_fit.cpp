@@ -20,12 +20,12 @@ using Eigen::VectorXd;
 using Vector9d = Eigen::Matrix<double, 9, 1>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
-constexpr double kApart_s = 0.9;
-constexpr double kGap_s = 2.5;
-constexpr double kMargin_s = 2.0;
+constexpr double kDvlApart_s = 0.9;
+constexpr double kDvlGap_s = 2.5;
+constexpr double kDvlMargin_s = 2.0;
 // What the turn of the Earth, which is not modelled here, adds between two rows: quieter residuals decide
 // nothing.
-constexpr double kModel_m_s = 0.005;
+constexpr double kDvlModel_m_s = 0.005;
 constexpr int kLinear = 12;          // columns of M, lever
 constexpr double kSigma_m_s = 0.05;  // beside which the lever's prior of 3 m is nothing
 
@@ -35,11 +35,11 @@ DvlFit fit_dvl_linear(const Series& series, const std::vector<Span>& windows, co
                       double latency_s) {
   WindowFit fit(kLinear);
   for (const Span& window : windows) {
-    const Strapdown strapdown(series.imu, reading, window.from_s - kMargin_s, window.to_s + kMargin_s);
+    const Strapdown strapdown(series.imu, reading, window.from_s - kDvlMargin_s, window.to_s + kDvlMargin_s);
     std::vector<MatrixXd> blocks;
     std::vector<Vector3d> felt;
     std::vector<double> spans;
-    for (const auto& [i, j] : pairs_in(series.dvl, window, kApart_s, kGap_s)) {
+    for (const auto& [i, j] : pairs_in(series.dvl, window, kDvlApart_s, kDvlGap_s)) {
       const double from = series.dvl.t_s[i] - latency_s;
       const double to = series.dvl.t_s[j] - latency_s;
       if (!strapdown.covers(from) || !strapdown.covers(to)) continue;
@@ -70,7 +70,7 @@ DvlFit fit_dvl_linear(const Series& series, const std::vector<Span>& windows, co
   const WindowFit::Solution solution = fit.solve();
   DvlFit out;
   out.done = solution.windows >= 2 && solution.step.allFinite();
-  out.squares = solution.squares + solution.freedom * kModel_m_s * kModel_m_s;
+  out.squares = solution.squares + solution.freedom * kDvlModel_m_s * kDvlModel_m_s;
   out.freedom = solution.freedom;
   out.windows = solution.windows;
   for (int column = 0; column < 3; ++column) out.M.col(column) = solution.step.segment<3>(3 * column);

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "base/median.hpp"
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -22,15 +22,16 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kApart_s = 0.4;
-constexpr double kGap_s = 2.5;
-constexpr double kLeastStep_s = 0.15;  // receivers that are quicker filter: what they add is not independent
+constexpr double kGpsApart_s = 0.4;
+constexpr double kGpsGap_s = 2.5;
+constexpr double kLeastFixStep_s =
+    0.15;  // receivers that are quicker filter: what they add is not independent
 // What the turn of the Earth, which is not modelled here, adds within a window: quieter residuals decide
 // nothing.
-constexpr double kModel_m_s = 0.015;
+constexpr double kGpsModel_m_s = 0.015;
 constexpr double kManyCourses =
     0.6;  // length of the mean direction over ground below which the courses were many
-constexpr double kMargin_s = 2.0;  // of the integration around a window: latencies up to this
+constexpr double kGpsMargin_s = 2.0;  // of the integration around a window: latencies up to this
 
 double gravity_of(const Series& series) {
   return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : kStandardGravity_m_s2;
@@ -61,10 +62,10 @@ double gps_squares(const Series& series, const VectorSeries& velocity_N, const s
   const Vector3d gravity(0.0, 0.0, gravity_of(series));
   double squares = 0.0;
   for (const Span& window : windows) {
-    const Strapdown strapdown(series.imu, reading, window.from_s - kMargin_s, window.to_s + kMargin_s);
+    const Strapdown strapdown(series.imu, reading, window.from_s - kGpsMargin_s, window.to_s + kGpsMargin_s);
     std::vector<Vector3d> x;
     std::vector<Vector3d> y;
-    for (const std::size_t i : rows_in(velocity_N, window, kLeastStep_s)) {
+    for (const std::size_t i : rows_in(velocity_N, window, kLeastFixStep_s)) {
       const double t = velocity_N.t_s[i] - latency_s;
       if (!strapdown.covers(t)) continue;
       x.push_back(strapdown.at(t).S);
@@ -98,8 +99,8 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
     WindowFit fit(kCommon);
     std::vector<double> residuals;
     for (std::size_t w = 0; w < windows.size(); ++w) {
-      const double from_s = windows[w].from_s - kMargin_s;
-      const double to_s = windows[w].to_s + kMargin_s;
+      const double from_s = windows[w].from_s - kGpsMargin_s;
+      const double to_s = windows[w].to_s + kGpsMargin_s;
       const Strapdown strapdown(series.imu, now, from_s, to_s);
       // Points of the window: v = v0 + R x + g t, v0 and R of the window.
       const double begin_s = windows[w].from_s;
@@ -108,7 +109,7 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
       std::vector<Vector3d> y;
       Vector3d mean_x = Vector3d::Zero();
       Vector3d mean_y = Vector3d::Zero();
-      for (const std::size_t i : rows_in(velocity_N, windows[w], kLeastStep_s)) {
+      for (const std::size_t i : rows_in(velocity_N, windows[w], kLeastFixStep_s)) {
         const double t = velocity_N.t_s[i] - out.latency_s;
         if (!strapdown.covers(t - 0.05) || !strapdown.covers(t + 0.05)) continue;
         times.push_back(t);
@@ -185,12 +186,13 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
   double most = 0.0;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (turns[w].isZero()) continue;
-    const Strapdown strapdown(series.imu, now, windows[w].from_s - kMargin_s, windows[w].to_s + kMargin_s);
+    const Strapdown strapdown(series.imu, now, windows[w].from_s - kGpsMargin_s,
+                              windows[w].to_s + kGpsMargin_s);
     if (changes[w] > most && strapdown.covers(windows[w].from_s)) {
       most = changes[w];
       out.attitude = AttitudeAt{windows[w].from_s, turns[w] * strapdown.at(windows[w].from_s).C_WB};
     }
-    for (const auto& [i, j] : pairs_in(velocity_N, windows[w], kApart_s, kGap_s)) {
+    for (const auto& [i, j] : pairs_in(velocity_N, windows[w], kGpsApart_s, kGpsGap_s)) {
       const double t = velocity_N.t_s[i] - out.latency_s;
       if (!strapdown.covers(t)) continue;
       sum += (turns[w] * strapdown.at(t).C_WB).transpose() * velocity_N.v[i];

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/median.hpp"
+#include "base/units.hpp"
 #include "commission/fit/joint_filter.hpp"
+#include "commission/fit/latency.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 
@@ -17,22 +18,19 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using I = JointIndex;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kPasses = 5;
 constexpr double kUnderWay_m_s = 0.7;
 constexpr double kBefore_s = 10.0;
-constexpr double kGap_s = 0.5;         // of the inertial unit
-constexpr double kApart_s = 0.09;      // of two rows that are used
-constexpr double kSmooth_s = 0.05;     // to both sides of an instant
-constexpr double kOvertakes_s = 1000;  // the wandering of a bias overtakes white noise here
-constexpr double kMargin = 1.25;       // of every sigma, for what no model here has
-constexpr std::size_t kCommon = 20;    // innovations that may have something in common
+constexpr double kImuGap_s = 0.5;               // of the inertial unit
+constexpr double kRowsApart_s = 0.09;           // of two rows that are used
+constexpr double kSmooth_s = 0.05;              // to both sides of an instant
+constexpr double kOvertakes_s = 1000;           // the wandering of a bias overtakes white noise here
+constexpr std::size_t kSharedInnovations = 20;  // innovations that may have something in common
 constexpr double kMostStretch = 2.5;
 constexpr double kWellBelow = 0.4549;  // median of the square of a normal number
 // No figure is surer than this: axes of an inertial unit are not square, samples are not instants.
-constexpr double kLeastTurn_rad = 0.02 * kDegree;
+constexpr double kLeastTurn_rad = 0.02 * kRadPerDeg;
 constexpr double kLeastLever_m = 0.003;
-constexpr double kLeastLatency_s = 5e-4;
 
 // Means of the inertial samples about an instant.
 class Smooth {
@@ -41,7 +39,7 @@ class Smooth {
     sum_.reserve(values.size());
     Vector3d sum = Vector3d::Zero();
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (i > 0) sum += values[i] * std::min(kGap_s, t_s_[i] - t_s_[i - 1]);
+      if (i > 0) sum += values[i] * std::min(kImuGap_s, t_s_[i] - t_s_[i - 1]);
       sum_.push_back(sum);
     }
   }
@@ -59,7 +57,7 @@ class Smooth {
   std::vector<Vector3d> sum_;
 };
 
-struct Row {
+struct JointRow {
   double t_s;
   bool dvl;
   std::size_t index;
@@ -86,13 +84,13 @@ struct Innovations {
   [[nodiscard]] double stretch() const {
     double most = 1.0;
     for (const std::vector<double>& all : of_axis) {
-      if (all.size() < 10 * kCommon) continue;
+      if (all.size() < 10 * kSharedInnovations) continue;
       std::vector<double> v;
       for (const double one : all) v.push_back(std::clamp(one, -4.0, 4.0));
       double power = 0.0;
       for (const double one : v) power += one * one;
       double sum = 1.0;
-      for (std::size_t lag = 1; lag <= kCommon; ++lag) {
+      for (std::size_t lag = 1; lag <= kSharedInnovations; ++lag) {
         double product = 0.0;
         for (std::size_t i = lag; i < v.size(); ++i) product += v[i] * v[i - lag];
         sum += 2.0 * product / power;
@@ -173,28 +171,29 @@ class Fit {
     return velocity_N_.v[static_cast<std::size_t>(at - velocity_N_.t_s.begin())];
   }
 
-  [[nodiscard]] std::vector<Row> rows(const JointState& state) const {
-    std::vector<Row> out;
+  [[nodiscard]] std::vector<JointRow> rows(const JointState& state) const {
+    std::vector<JointRow> out;
     const double from_s = series_.imu.t_s[first_] + 0.3;
     const double to_s = series_.imu.t_s.back() - 0.3;
     const auto add = [&](const VectorSeries& of, bool dvl, double latency_s) {
       double last = -1e9;
       for (std::size_t i = 0; i < of.size(); ++i) {
         const double t = of.t_s[i] - latency_s;
-        if (t < from_s || t > to_s || t - last < kApart_s) continue;
+        if (t < from_s || t > to_s || t - last < kRowsApart_s) continue;
         out.push_back({t, dvl, i});
         last = t;
       }
     };
     add(velocity_N_, false, state.gps_latency_s);
     if (start_.with_dvl) add(series_.dvl, true, state.dvl_latency_s);
-    std::stable_sort(out.begin(), out.end(), [](const Row& a, const Row& b) { return a.t_s < b.t_s; });
+    std::stable_sort(out.begin(), out.end(),
+                     [](const JointRow& a, const JointRow& b) { return a.t_s < b.t_s; });
     return out;
   }
 
   [[nodiscard]] JointFilter::Vector first_sigma(bool rough) const {
     JointFilter::Vector s;
-    s.segment<3>(I::kAttitude) = Vector3d(1.0, 1.0, 5.0) * (rough ? 3.0 : 1.0) * kDegree;
+    s.segment<3>(I::kAttitude) = Vector3d(1.0, 1.0, 5.0) * (rough ? 3.0 : 1.0) * kRadPerDeg;
     s.segment<3>(I::kVelocity).setConstant(1.0);
     s.segment<3>(I::kGyroBias).setConstant(start_.rate_bias_sigma);
     s.segment<3>(I::kForceBias).setConstant(0.2);
@@ -205,7 +204,7 @@ class Fit {
       s[scale] = 3e-3;
     s.segment<3>(I::kGpsLever).setConstant(3.0);
     s[I::kGpsLatency] = 0.3;
-    s.segment<3>(I::kDvlTurn).setConstant(5.0 * kDegree);
+    s.segment<3>(I::kDvlTurn).setConstant(5.0 * kRadPerDeg);
     s[I::kDvlScale] = 0.1;
     s.segment<3>(I::kDvlLever).setConstant(3.0);
     s[I::kDvlLatency] = 0.3;
@@ -218,7 +217,7 @@ class Fit {
     noise.rate_bias = std::sqrt(3.0) * noise.rate / kOvertakes_s;
     noise.force_bias = std::sqrt(3.0) * noise.force / kOvertakes_s;
     JointFilter filter(state, first_sigma(!last), noise, series_.latitude_rad);
-    const std::vector<Row> all = rows(state);
+    const std::vector<JointRow> all = rows(state);
     if (all.size() < 100) return false;
     Innovations of_gps;
     Innovations of_dvl;
@@ -229,10 +228,10 @@ class Fit {
     result_ = {};
     for (std::size_t i = first_; i < imu.size(); ++i) {
       const double dt = imu.t_s[i] - imu.t_s[i - 1];
-      if (dt > kGap_s) filter.lost();
-      filter.propagate(rate_[i], force_[i], std::min(dt, kGap_s));
+      if (dt > kImuGap_s) filter.lost();
+      filter.propagate(rate_[i], force_[i], std::min(dt, kImuGap_s));
       for (; next < all.size() && all[next].t_s <= imu.t_s[i]; ++next) {
-        const Row& row = all[next];
+        const JointRow& row = all[next];
         const double t = row.t_s;
         const Vector3d turn =
             (smooth_rate_->mean(t, t + 2.0 * kSmooth_s) - smooth_rate_->mean(t - 2.0 * kSmooth_s, t)) /
@@ -281,7 +280,7 @@ class Fit {
 
   void finish(const JointFilter& filter, const Innovations& of_gps, const Innovations& of_dvl) {
     const JointState& end = filter.state();
-    const JointFilter::Vector sigma = kMargin * filter.sigmas();
+    const JointFilter::Vector sigma = kModelMargin * filter.sigmas();
     const double gps = of_gps.stretch();
     const double dvl = of_dvl.stretch();
     const auto three = [&](int at, double stretch, double least) {

@@ -5,6 +5,11 @@
 
 namespace fathom::commission {
 
+/// Of every sigma of a fit, for what no model here has.
+inline constexpr double kModelMargin = 1.25;
+/// No latency is known better.
+inline constexpr double kLeastLatency_s = 5e-4;
+
 /// The latency of the least sum of squares among -steps * step_s ... steps * step_s; 0 where none is less.
 template <class Squares>
 [[nodiscard]] double scan_latency(double step_s, int steps, const Squares& squares) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/median.hpp"
+#include "commission/fit/latency.hpp"
 #include "commission/fit/window_fit.hpp"
 #include "geo/wgs84.hpp"
 
@@ -14,15 +15,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kGap_s = 0.5;     // of the track
-constexpr double kHalf_s = 0.1;    // to both sides of an instant, for what changes there
-constexpr double kPiece_s = 30.0;  // of a window
-constexpr double kFar = 4.0;       // sigmas: readings further off count nowhere
+constexpr double kTrackGap_s = 0.5;  // of the track
+constexpr double kHalf_s = 0.1;      // to both sides of an instant, for what changes there
+constexpr double kPiece_s = 30.0;    // of a window
+constexpr double kFar = 4.0;         // sigmas: readings further off count nowhere
 constexpr int kIterations = 4;
-constexpr double kMargin = 1.25;  // as of the joint fit
-constexpr double kLeastLatency_s = 5e-4;
 
-struct Row {
+struct TrackRow {
   double residual = 0.0;
   VectorXd by;
 };
@@ -31,7 +30,7 @@ struct Row {
 template <class RowOf>
 std::optional<WindowFit::Solution> solve(const ScalarSeries& series, int common, bool own_offset,
                                          const RowOf& row_of) {
-  std::vector<std::pair<double, Row>> rows;
+  std::vector<std::pair<double, TrackRow>> rows;
   for (std::size_t i = 0; i < series.size(); ++i)
     if (auto row = row_of(series.t_s[i], series.v[i])) rows.emplace_back(series.t_s[i], std::move(*row));
   if (rows.size() < 100) return std::nullopt;
@@ -81,7 +80,7 @@ std::optional<WindowFit::Solution> solve(const ScalarSeries& series, int common,
 }
 
 double sigma_of(const WindowFit::Solution& solution, int i) {
-  return kMargin * std::sqrt(std::max(0.0, solution.covariance(i, i)));
+  return kModelMargin * std::sqrt(std::max(0.0, solution.covariance(i, i)));
 }
 
 }  // namespace
@@ -93,7 +92,7 @@ std::optional<CompassFit> fit_compass(const ScalarSeries& heading, const VectorS
   // Near enough to begin with that no difference wraps.
   std::vector<double> first;
   for (std::size_t i = 0; i < heading.size(); ++i)
-    if (const auto rpy = at(rpy_rad, heading.t_s[i] - latency_s, kGap_s))
+    if (const auto rpy = at(rpy_rad, heading.t_s[i] - latency_s, kTrackGap_s))
       first.push_back(geo::wrap_pi(heading.v[i] - rpy->z()));
   if (first.size() < 100) return std::nullopt;
   double sine = 0.0;
@@ -105,23 +104,24 @@ std::optional<CompassFit> fit_compass(const ScalarSeries& heading, const VectorS
   x[0] = std::atan2(sine, cosine);
   CompassFit out;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const auto solution = solve(heading, kCommon, false, [&](double t, double value) -> std::optional<Row> {
-      const double when = t - x[5];
-      const auto rpy = at(rpy_rad, when, kGap_s);
-      const auto before = at(rpy_rad, when - kHalf_s, kGap_s);
-      const auto behind = at(rpy_rad, when + kHalf_s, kGap_s);
-      if (!rpy || !before || !behind) return std::nullopt;
-      const double yaw = rpy->z();
-      VectorXd by(kCommon);
-      by << 1.0, std::sin(yaw), std::cos(yaw), std::sin(2.0 * yaw), std::cos(2.0 * yaw),
-          -(behind->z() - before->z()) / (2.0 * kHalf_s);
-      double expected = yaw;
-      for (int i = 0; i < 5; ++i) expected += x[static_cast<std::size_t>(i)] * by[i];
-      Row row;
-      row.residual = geo::wrap_pi(value - expected);
-      row.by = -by;
-      return row;
-    });
+    const auto solution =
+        solve(heading, kCommon, false, [&](double t, double value) -> std::optional<TrackRow> {
+          const double when = t - x[5];
+          const auto rpy = at(rpy_rad, when, kTrackGap_s);
+          const auto before = at(rpy_rad, when - kHalf_s, kTrackGap_s);
+          const auto behind = at(rpy_rad, when + kHalf_s, kTrackGap_s);
+          if (!rpy || !before || !behind) return std::nullopt;
+          const double yaw = rpy->z();
+          VectorXd by(kCommon);
+          by << 1.0, std::sin(yaw), std::cos(yaw), std::sin(2.0 * yaw), std::cos(2.0 * yaw),
+              -(behind->z() - before->z()) / (2.0 * kHalf_s);
+          double expected = yaw;
+          for (int i = 0; i < 5; ++i) expected += x[static_cast<std::size_t>(i)] * by[i];
+          TrackRow row;
+          row.residual = geo::wrap_pi(value - expected);
+          row.by = -by;
+          return row;
+        });
     if (!solution) return std::nullopt;
     for (int i = 0; i < kCommon; ++i) x[static_cast<std::size_t>(i)] += solution->step[i];
     for (int i = 0; i < 5; ++i)
@@ -138,13 +138,13 @@ std::optional<DepthFit> fit_depth(const ScalarSeries& depth, const ScalarSeries&
   out.scale.value = scale;
   out.latency_s.value = latency_s;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
-    const auto solution = solve(depth, 2, true, [&](double t, double value) -> std::optional<Row> {
+    const auto solution = solve(depth, 2, true, [&](double t, double value) -> std::optional<TrackRow> {
       const double when = t - out.latency_s.value;
-      const auto sunk = at(sunk_m, when, kGap_s);
-      const auto before = at(sunk_m, when - kHalf_s, kGap_s);
-      const auto behind = at(sunk_m, when + kHalf_s, kGap_s);
+      const auto sunk = at(sunk_m, when, kTrackGap_s);
+      const auto before = at(sunk_m, when - kHalf_s, kTrackGap_s);
+      const auto behind = at(sunk_m, when + kHalf_s, kTrackGap_s);
       if (!sunk || !before || !behind) return std::nullopt;
-      Row row;
+      TrackRow row;
       row.residual = value - out.scale.value * *sunk;
       row.by = VectorXd(2);
       row.by << -*sunk, out.scale.value * (*behind - *before) / (2.0 * kHalf_s);

@@ -82,7 +82,7 @@ void describe(Schema<MountingConfig>& s) {
           "roll, pitch, yaw (about z, y, x in turn) of these axes in the body")
       .unit("deg")
       .range(-360, 360)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
   s.field("R_BS", &MountingConfig::R_BS,
           "frame matrix: rotation of instrument axes into body FRD, row by row");
   s.check([](const MountingConfig& c) -> Violation {
@@ -111,7 +111,7 @@ void describe(Schema<ImuSensorConfig>& s) {
   s.field("max_angular_rate_deg_s", &ImuSensorConfig::max_angular_rate_rad_s, "samples beyond are refused")
       .unit("deg/s")
       .range(1, 100'000)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
   s.field("max_specific_force_m_s2", &ImuSensorConfig::max_specific_force_m_s2, "samples beyond are refused")
       .unit("m/s^2")
       .range(10, 1e6);
@@ -123,7 +123,7 @@ void describe(Schema<DvlSensorConfig>& s) {
           "rotation of recorded instrument axes about down onto the vehicle")
       .unit("deg")
       .range(-360, 360)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .only_for({"pd0"});
   s.field("max_speed_m_s", &DvlSensorConfig::max_speed_m_s, "samples beyond are refused")
       .unit("m/s")
@@ -152,7 +152,7 @@ void describe(Schema<DepthSensorConfig>& s) {
   s.field("latitude_deg", &DepthSensorConfig::latitude_rad, "of the area of operation, for gravity")
       .unit("deg")
       .range(-90, 90)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .required();
   s.field("atmosphere_Pa", &DepthSensorConfig::atmosphere_Pa,
           "air pressure at the surface, taken off the measured one")
@@ -190,7 +190,7 @@ void describe(Schema<ActuatorSensorConfig>& s) {
   s.field("max_fin_deg", &ActuatorSensorConfig::max_fin_rad, "samples beyond are refused")
       .unit("deg")
       .range(1, 180)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
 }
 
 template LoadedConfig<ImuBridgeConfig> load_service_config(const LoadRequest& request);

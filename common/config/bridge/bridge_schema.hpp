@@ -2,18 +2,16 @@
 
 // For *_config.cpp of bridges: the file of a bridge, and what every instrument plans alike.
 
-#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "base/units.hpp"
 #include "config/bridge/bridge_config.hpp"
 #include "config/scenario/sensor_schema.hpp"
 #include "config/service_schema.hpp"
 
 namespace fathom::config {
-
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 template <class Sensor>
 void describe(Schema<BridgeConfig<Sensor>>& s) {

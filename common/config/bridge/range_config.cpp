@@ -12,12 +12,12 @@ void describe(Schema<BeaconConfig>& s) {
   s.field("latitude_deg", &C::latitude_rad, "where it is")
       .unit("deg")
       .range(-90, 90)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .required();
   s.field("longitude_deg", &C::longitude_rad, "where it is")
       .unit("deg")
       .range(-180, 180)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .required();
   s.field("depth_m", &C::depth_m, "below the surface").unit("m").range(-100, 12'000).required();
   s.check([](const C& beacon) -> std::pair<std::string, std::string> {

@@ -1,8 +1,8 @@
 #include "config/doors/mavlink_gateway_config.hpp"
 
-#include <numbers>
 #include <utility>
 
+#include "base/units.hpp"
 #include "config/service_schema.hpp"
 #include "runtime/byte_source.hpp"
 
@@ -12,8 +12,6 @@ namespace {
 using Fault = std::pair<std::string, std::string>;
 using runtime::ByteLinkConfig;
 using runtime::LinkType;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 }  // namespace
 
@@ -66,12 +64,12 @@ void describe(Schema<MavlinkOrigin>& s) {
   s.field("lat_deg", &MavlinkOrigin::latitude_rad, "latitude")
       .unit("deg")
       .range(-90, 90)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .required();
   s.field("lon_deg", &MavlinkOrigin::longitude_rad, "longitude")
       .unit("deg")
       .range(-180, 360)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .required();
   s.field("altitude_m", &MavlinkOrigin::altitude_m, "above the ellipsoid").unit("m").range(-12'000, 100'000);
 }
@@ -97,7 +95,7 @@ void describe(Schema<MavlinkGatewayConfig>& s) {
           "nothing is said as long as the sigma of the heading is larger")
       .unit("deg")
       .range(0.01, 180)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
   s.field("point_B_m", &C::point_B_m,
           "the point of the vehicle that is told, e.g. the autopilot, from the inertial unit: forward, "
           "right, down")

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
+#include "base/units.hpp"
 #include "config/service_schema.hpp"
 
 namespace fathom::config {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr std::size_t kLongestName = 200;
 using Fault = std::pair<std::string, std::string>;
 
@@ -108,7 +107,7 @@ void describe(Schema<RosStaticFrame>& s) {
           "roll, pitch, yaw (about z, y, x in turn) of its axes in those of the parent")
       .unit("deg")
       .range(-360, 360)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
 }
 
 void describe(Schema<RosFramesConfig>& s) {
@@ -128,12 +127,12 @@ void describe(Schema<RosFramesConfig>& s) {
   s.field("origin_lat_deg", &C::origin_latitude_rad, "of map; null: where the vehicle is first")
       .unit("deg")
       .range(-90, 90)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .nullable();
   s.field("origin_lon_deg", &C::origin_longitude_rad, "likewise")
       .unit("deg")
       .range(-180, 360)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .nullable();
   s.field("origin_altitude_m", &C::origin_altitude_m, "likewise, above the WGS-84 ellipsoid")
       .unit("m")
@@ -228,7 +227,7 @@ void describe(Schema<RosInputConfig>& s) {
   s.field("lat_deg", &C::latitude_rad, "of the area of operation, for gravity")
       .unit("deg")
       .range(-90, 90)
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .only_for({"fluid_pressure"})
       .required_for({"fluid_pressure"});
   s.field("atmosphere_Pa", &C::atmosphere_Pa, "at the surface; 0: the messages are of gauge pressure")

@@ -1,19 +1,12 @@
 #include "config/fusion/fusion_config.hpp"
 
-#include <numbers>
-
+#include "base/units.hpp"
 #include "config/fusion/engine_schema.hpp"
 #include "config/service_schema.hpp"
 
 namespace fathom::config {
 
 using estimation::StartMode;
-
-namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
-
-}  // namespace
 
 void describe(Schema<GivenState>& s) {
   s.field("stamp_ns", &GivenState::stamp_ns,

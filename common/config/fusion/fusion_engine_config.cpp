@@ -8,11 +8,10 @@
 namespace fathom::config {
 
 using estimation::EngineConfig;
-using estimation::SensorConfig;
 using estimation::VehicleModelConfig;
 
 /// What a sensor's entry leaves out is that of its kind.
-void describe(Schema<SensorConfig>& s) {
+void describe(Schema<estimation::SensorConfig>& s) {
   estimation::describe(s);
   s.defaults_by_choice(
       [](const std::string& kind) { return estimation::default_sensor(*kind_named(kind), ""); });

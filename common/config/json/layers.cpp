@@ -16,12 +16,6 @@ namespace {
 
 constexpr std::size_t kMostBytes = 4UL << 20;
 
-std::string shorten(std::string text) {
-  constexpr std::size_t kMost = 60;
-  if (text.size() > kMost) text = text.substr(0, kMost - 3) + "...";
-  return text;
-}
-
 /// The whole of a configuration file. A device would be read without end and a pipe waits for a writer, so
 /// that only a regular file is opened.
 std::string read_text(const std::string& file) {

@@ -7,15 +7,12 @@
 #include "config/json/strict_json.hpp"
 
 namespace fathom::config {
-namespace {
 
 std::string shorten(std::string text) {
   constexpr std::size_t kMost = 60;
   if (text.size() > kMost) text = text.substr(0, kMost - 3) + "...";
   return text;
 }
-
-}  // namespace
 
 ConfigError::ConfigError(const std::string& file, const std::string& key, const std::string& value,
                          const std::string& expectation)

@@ -23,6 +23,9 @@
 
 namespace fathom::config {
 
+/// As much of a value as an error shows.
+[[nodiscard]] std::string shorten(std::string text);
+
 /// Where in which file a value stands.
 struct Place {
   std::string file;

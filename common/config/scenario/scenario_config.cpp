@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <numbers>
 #include <system_error>
 
+#include "base/units.hpp"
 #include "config/scenario/scenario_schema.hpp"
 
 namespace fathom::config {
 namespace {
 
 using Fault = std::pair<std::string, std::string>;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // The services of the table of kinds by the words of a scenario: roles without their ending.
 std::vector<std::pair<std::string, std::string>> bridge_words() {
@@ -38,7 +37,7 @@ void describe(Schema<sim::EnvironmentConfig>& s) {
   s.field("bottom_slope_N", &C::bottom_slope_N, "metres deeper per metre north").range(-1, 1);
   s.field("magnetic_variation_deg", &C::magnetic_variation_rad, "east positive")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-180, 180);
   s.field("current_N_m_s", &C::current_N_m_s, "velocity of the water: north, east").unit("m/s").range(-5, 5);
   s.field("current_spread_m_s", &C::current_spread_m_s,
@@ -56,7 +55,7 @@ void describe(Schema<sim::EnvironmentConfig>& s) {
   s.field("wave_height_m", &C::wave_height_m, "amplitude of the heave of the surface").unit("m").range(0, 5);
   s.field("wave_tilt_deg", &C::wave_tilt_rad, "amplitude of the slope of the surface")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0, 30);
   s.field("wave_period_s", &C::wave_period_s, "of the swell").unit("s").range(1, 30);
 }
@@ -67,7 +66,7 @@ void describe(Schema<sim::StartSpread>& s) {
   s.field("velocity_N_m_s", &C::velocity_N_m_s, "1 sigma north, east, down").unit("m/s").range(0, 100);
   s.field("attitude_deg", &C::attitude_rad, "1 sigma about north, east, down")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0, 60);
 }
 
@@ -75,17 +74,17 @@ void describe(Schema<sim::StartConfig>& s) {
   using C = sim::StartConfig;
   s.field("latitude_deg", &C::latitude_rad, "of the body origin")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-85, 85)
       .required();
   s.field("longitude_deg", &C::longitude_rad, "of the body origin")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-180, 180)
       .required();
   s.field("depth_m", &C::depth_m, "below the mean surface; negative above").unit("m").range(-20000, 11000);
   s.field("speed_m_s", &C::speed_m_s, "ahead, through water or air").unit("m/s").range(0, 300);
-  s.field("rpy_deg", &C::rpy_rad, "roll, pitch, yaw").unit("deg").scaled(kDegree).range(-180, 360);
+  s.field("rpy_deg", &C::rpy_rad, "roll, pitch, yaw").unit("deg").scaled(kRadPerDeg).range(-180, 360);
   s.field("spread", &C::spread, "by which the true start differs from this one, drawn once a run");
 }
 
@@ -98,7 +97,7 @@ void describe(Schema<sim::MissionStep>& s) {
       .nullable();
   s.field("heading_deg", &C::heading_rad, "to steer; null or absent: as before")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-360, 360)
       .nullable();
   s.field("depth_m", &C::depth_m, "below the mean surface, negative above; null or absent: as before")
@@ -107,12 +106,12 @@ void describe(Schema<sim::MissionStep>& s) {
       .nullable();
   s.field("bank_deg", &C::bank_rad, "aircraft: turn at this bank, 0 holds the heading")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-60, 60)
       .nullable();
   s.field("dutch_roll_deg", &C::dutch_roll_rad, "aircraft: amplitude of a Dutch roll, 0 ends it")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0, 45)
       .nullable();
 }
@@ -129,12 +128,12 @@ void describe(Schema<sim::ScenarioLimits>& s) {
       .nullable();
   s.field("roll_pitch_rms_deg", &C::roll_pitch_rms_rad, "of each; null: not asked for")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0.001, 90)
       .nullable();
   s.field("yaw_rms_deg", &C::yaw_rms_rad, "null: not asked for")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0.001, 180)
       .nullable();
   s.field("aligned_within_s", &C::aligned_within_s, "of the start; null: not asked for")

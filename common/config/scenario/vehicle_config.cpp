@@ -1,26 +1,28 @@
-#include <numbers>
 
+#include "base/units.hpp"
 #include "config/scenario/scenario_schema.hpp"
 
 namespace fathom::config {
 namespace {
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Fins, shaft and what the autopilot orders of them: the same fields in every vehicle that has them.
 template <class C>
 void describe_steering(Schema<C>& s) {
-  s.field("fin_limit_deg", &C::fin_limit_rad, "largest fin angle").unit("deg").scaled(kDegree).range(1, 60);
+  s.field("fin_limit_deg", &C::fin_limit_rad, "largest fin angle")
+      .unit("deg")
+      .scaled(kRadPerDeg)
+      .range(1, 60);
   s.field("fin_tau_s", &C::fin_tau_s, "time constant of the fins").unit("s").range(0.02, 5);
   s.field("propulsor_tau_s", &C::propulsor_tau_s, "time constant of the shaft speed")
       .unit("s")
       .range(0.02, 30);
   s.field("maximum_pitch_deg", &C::maximum_pitch_rad, "ordered at most")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(1, 60);
   s.field("maximum_turn_rate_deg_s", &C::maximum_turn_rate_rad_s, "ordered at most")
       .unit("deg/s")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0.1, 60);
 }
 }  // namespace
@@ -97,21 +99,21 @@ void describe(Schema<sim::AirDropConfig>& s) {
   s.field("speed_per_rpm", &C::speed_per_rpm, "speed through the water per rpm").unit("m/s").range(1e-5, 1);
   s.field("dive_pitch_deg", &C::dive_pitch_rad, "of the dive after water entry")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-80, -1);
   s.field("limited_pitch_deg", &C::limited_pitch_rad, "largest pitch ordered near the set depth")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0.5, 45);
   s.field("limited_range_m", &C::limited_range_m, "what near means").unit("m").range(0.5, 100);
   s.field("pitch_slew_deg_s", &C::pitch_slew_rad_s, "of the pitch ordered after water entry")
       .unit("deg/s")
       .range(0.5, 200)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
   s.field("flare_slew_deg_s", &C::flare_slew_rad_s, "of the pitch ordered from the flare on")
       .unit("deg/s")
       .range(0.5, 200)
-      .scaled(kDegree);
+      .scaled(kRadPerDeg);
   s.field("flare_s", &C::flare_s, "the flare starts at this depth error per sink rate")
       .unit("s")
       .range(0, 20);
@@ -133,12 +135,15 @@ void describe(Schema<sim::AircraftConfig>& s) {
       .range(0.1, 10);
   s.field("angle_of_attack_deg", &C::angle_of_attack_rad, "in level flight")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0, 15);
-  s.field("maximum_climb_deg", &C::maximum_climb_rad, "of the path").unit("deg").scaled(kDegree).range(1, 45);
+  s.field("maximum_climb_deg", &C::maximum_climb_rad, "of the path")
+      .unit("deg")
+      .scaled(kRadPerDeg)
+      .range(1, 45);
   s.field("maximum_bank_deg", &C::maximum_bank_rad, "when turning to a heading")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(1, 60);
   s.field("dutch_roll_period_s", &C::dutch_roll_period_s, "of an ordered Dutch roll").unit("s").range(1, 30);
 }

@@ -1,10 +1,10 @@
 #include "config/vehicle/vehicle_config.hpp"
 
 #include <algorithm>
-#include <numbers>
 #include <set>
 
 #include "base/nearest.hpp"
+#include "base/units.hpp"
 #include "config/bridge/byte_source_config.hpp"
 #include "config/scenario/sensor_schema.hpp"
 #include "config/service_schema.hpp"
@@ -14,7 +14,6 @@
 namespace fathom::config {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 using Violation = std::pair<std::string, std::string>;
 
 std::vector<std::string> words_of(std::initializer_list<SourceKind> kinds) {

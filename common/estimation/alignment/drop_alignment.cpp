@@ -19,7 +19,6 @@ constexpr double kConsistency_s = 4.0;
 constexpr double kConsistent = 2.0;  // limit of the mean normalised innovation squared
 constexpr double kLimitSigma = 7.0;  // a single measurement further off is not taken
 constexpr double kAgree_sigma = 4.0;
-constexpr double kLeastSpeed_m_s = 3.0;
 constexpr double kCoarseShown_s = 0.1;  // so that every reader sees each phase
 constexpr double kLostShown_s = 1.0;    // less than any window takes
 constexpr double kLagDoubt = 0.2;

@@ -85,6 +85,8 @@ class DropAlignment {
   static void fields(Archive& archive, Self& self);
 
  private:
+  static constexpr double kLeastSpeed_m_s = 3.0;  ///< of a body that its fins steer
+
   void enter(AlignmentPhase phase);
   [[nodiscard]] bool fresh(double at_s) const {
     return at_s >= 0.0 && time_s_ - at_s <= config_.sensor_timeout_s;

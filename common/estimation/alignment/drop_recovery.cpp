@@ -11,11 +11,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFarTurn_rad = 0.06;  // a correction as large as this is no small angle ...
-constexpr double kArrived_rad = 0.01;  // ... and done when the tilt is known to this
-constexpr double kTurnDoubt = 0.15;    // share of it that may still be missing
-constexpr double kLevel_s = 0.5;       // time constant of the accelerometers' level
-constexpr double kLeastSpeed_m_s = 3.0;
+constexpr double kFarTurn_rad = 0.06;    // a correction as large as this is no small angle ...
+constexpr double kArrived_rad = 0.01;    // ... and done when the tilt is known to this
+constexpr double kTurnDoubt = 0.15;      // share of it that may still be missing
+constexpr double kLevel_s = 0.5;         // time constant of the accelerometers' level
 constexpr double kContradicted_s = 3.0;  // measurements contradict the filter for this long ...
 constexpr double kDisagree_sigma = 3.0;  // ... and its tilt is this far from the level
 constexpr double kLevelTilt_rad =

@@ -12,7 +12,7 @@ using Eigen::Matrix3d;
 using Eigen::RowVector3d;
 using Eigen::Vector3d;
 
-constexpr double kLeastForce_m_s2 = 1.0;
+constexpr double kLeastFelt_m_s2 = 1.0;
 /// The horizontal part of the forward axis: a vehicle that points within 15 degrees of the vertical has no
 /// heading to speak of.
 constexpr double kLeastForward = 0.26;
@@ -64,7 +64,7 @@ std::optional<MovingStart> start_moving(const VelocityWindow& window, const Movi
   const VelocityMark& last = window.last();
   const double t_s = last.span.duration_s;
   const Vector3d felt = last.span.dv_m_s / t_s;
-  if (!felt.allFinite() || felt.norm() < kLeastForce_m_s2) return std::nullopt;
+  if (!felt.allFinite() || felt.norm() < kLeastFelt_m_s2) return std::nullopt;
   const Matrix3d C_S_now = geo::to_matrix(window.now().q_start_now);
   const Matrix3d C_S_last = geo::to_matrix(last.span.q_start_now);
   const Vector3d forward_start = in.heading_rad ? Vector3d(C_S_now.col(0)) : C_S_last * in.course_axis_B;
@@ -76,7 +76,7 @@ std::optional<MovingStart> start_moving(const VelocityWindow& window, const Movi
   Vector3d up_N_m_s2;
   for (int round = 0; round < 3; ++round) {
     up_N_m_s2 = (v_last - v_first) / t_s - in.gravity_N_m_s2;
-    if (!up_N_m_s2.allFinite() || up_N_m_s2.norm() < kLeastForce_m_s2) return std::nullopt;
+    if (!up_N_m_s2.allFinite() || up_N_m_s2.norm() < kLeastFelt_m_s2) return std::nullopt;
     const double heading = in.heading_rad.value_or(std::atan2(v_last.y(), v_last.x()));
     const auto found = attitude(felt.normalized(), up_N_m_s2.normalized(), forward_start, heading);
     if (!found) return std::nullopt;

@@ -7,7 +7,7 @@ namespace fathom::estimation {
 namespace {
 
 // Sums of sample intervals meet a hold time to rounding.
-constexpr double kRounding_s = 1e-6;
+constexpr double kGateRounding_s = 1e-6;
 constexpr double kWider = 1.2;
 constexpr double kJitter_s = 0.5;          // memory of the noise that vibration makes
 constexpr double kFlow_s = 4.0;            // memory of the side force that the flow makes
@@ -72,7 +72,7 @@ std::string_view to_string(StabilityReset reset) {
 }
 
 bool StabilityGate::Watched::met() const {
-  return held_s >= needed_s - kRounding_s;
+  return held_s >= needed_s - kGateRounding_s;
 }
 
 StabilityGate::StabilityGate(const StabilityConfig& config) : config_(config) {
@@ -113,7 +113,7 @@ StabilityReset StabilityGate::fault(const StabilityInput& in) const {
       !std::isfinite(in.pitch_rad) || !std::isfinite(in.dt_s) || !std::isfinite(in.speed_slope_m_s2))
     return StabilityReset::not_finite;
   if (in.dt_s <= 0.0) return StabilityReset::stale;
-  if (in.dt_s > config_.max_gap_s + kRounding_s) return StabilityReset::gap;
+  if (in.dt_s > config_.max_gap_s + kGateRounding_s) return StabilityReset::gap;
   if (has_before_ && in.rate_B_rad_s == raw_rate_ && in.force_B_m_s2 == raw_force_)
     return StabilityReset::repeated;
   if (!std::isfinite(in.depth_error_m)) return StabilityReset::no_depth;
@@ -136,7 +136,7 @@ void StabilityGate::smooth(const StabilityInput& in) {
     primed_ = has_before_ = false;
     return;
   }
-  const bool chained = primed_ && in.dt_s > 0.0 && in.dt_s <= config_.max_gap_s + kRounding_s;
+  const bool chained = primed_ && in.dt_s > 0.0 && in.dt_s <= config_.max_gap_s + kGateRounding_s;
   const auto keep = [&](double time_s) {
     return chained && time_s > 0.0 ? std::exp(-in.dt_s / time_s) : 0.0;
   };
@@ -233,7 +233,7 @@ void StabilityGate::average(const StabilityInput& in) {
   const Eigen::Vector2d excess = light - first_light_;
   excess_ += excess;
   excess_square_ += excess.cwiseAbs2();
-  if (averaged_s_ < config_.window_s - kRounding_s) return;
+  if (averaged_s_ < config_.window_s - kGateRounding_s) return;
   const double n = samples_;
   window_.roll_rad = sum_.roll_rad / n;
   window_.pitch_rad = sum_.pitch_rad / n;

@@ -8,7 +8,7 @@ namespace {
 /// A window does not wait for longer for a velocity.
 constexpr double kLongestSilence_s = 3.0;
 /// Sums of intervals are not exact.
-constexpr double kRounding_s = 1e-3;
+constexpr double kWindowRounding_s = 1e-3;
 
 }  // namespace
 
@@ -58,8 +58,8 @@ void VelocityWindow::mark(const Eigen::Vector3d& rate_B_rad_s, double length_s) 
     return;
   }
   last_ = {pending_v_N_m_s_, pending_sigma_m_s_, rate_B_rad_s, now_};
-  complete_ = now_.duration_s >= length_s - kRounding_s;
-  if (!complete_ && !has_middle_ && now_.duration_s >= 0.4 * length_s - kRounding_s) {
+  complete_ = now_.duration_s >= length_s - kWindowRounding_s;
+  if (!complete_ && !has_middle_ && now_.duration_s >= 0.4 * length_s - kWindowRounding_s) {
     middle_ = last_;
     has_middle_ = true;
   }

@@ -2,13 +2,10 @@
 
 // Factors from the units of configuration files and data sheets to SI.
 
-#include <numbers>
-
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 
 namespace fathom::estimation {
 
-inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 inline constexpr double kRadPerSecond_per_degPerHour = kRadPerDeg / 3600.0;
 inline constexpr double kPerSqrtSecond_per_perSqrtHour = 1.0 / 60.0;
 

@@ -5,6 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "base/units.hpp"
 #include "estimation/engine/output.hpp"
 #include "samples/alignment/help.hpp"
 
@@ -14,7 +15,6 @@ namespace {
 using Eigen::Vector3d;
 using Text = std::array<char, 128>;
 
-constexpr double kDegree = 0.017453292519943295;
 /// A fault is told until all timers may have run and a window may be full again.
 constexpr double kFaultTold_s = 4.0;
 
@@ -84,15 +84,15 @@ const char* manoeuvre(const DropAlignment& drop, Text& text) {
   if (!met(C::depth)) {
     write(text, "hold depth within %.0f m of the set %.0f m", limit(C::depth), drop.config().set_depth_m);
   } else if (!met(C::roll)) {
-    write(text, "hold roll within %.0f deg", limit(C::roll) / kDegree);
+    write(text, "hold roll within %.0f deg", limit(C::roll) / kRadPerDeg);
   } else if (!met(C::pitch)) {
-    write(text, "level off: pitch within %.0f deg", limit(C::pitch) / kDegree);
+    write(text, "level off: pitch within %.0f deg", limit(C::pitch) / kRadPerDeg);
   } else if (!met(C::force_x)) {
     write(text, "hold the speed: forward force within %.1f m/s2", limit(C::force_x));
   } else if (!met(C::rate_z)) {
-    write(text, "run straight: turn slower than %.0f deg/s", limit(C::rate_z) / kDegree);
+    write(text, "run straight: turn slower than %.0f deg/s", limit(C::rate_z) / kRadPerDeg);
   } else if (!met(C::rate_y)) {
-    write(text, "hold the pitch steady: within %.0f deg/s", limit(C::rate_y) / kDegree);
+    write(text, "hold the pitch steady: within %.0f deg/s", limit(C::rate_y) / kRadPerDeg);
   } else if (!met(C::gravity)) {
     write(text, "hold the depth rate steady: heave force within %.2f m/s2", limit(C::gravity));
   } else if (!met(C::speed_slope)) {

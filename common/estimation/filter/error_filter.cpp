@@ -12,7 +12,6 @@ namespace fathom::estimation {
 namespace {
 
 constexpr int kRows = Observation::kMaxRows;
-constexpr std::size_t kStride = Observation::kMaxRows;
 /// A measurement whose variance is less than this share of what P has there: of the fifteen digits of
 /// P - K S K' six are left.
 constexpr double kDwarfed = 1e-9;
@@ -20,9 +19,9 @@ constexpr double kDwarfed = 1e-9;
 constexpr double kRoundingLeaves = 0.5;
 
 /// Lower Cholesky factor in place; false when not positive definite.
-bool factorise(std::array<double, kStride * kStride>& a, int n) {
+bool factorise(std::array<double, kStatisticsStride * kStatisticsStride>& a, int n) {
   const auto at = [](int i, int j) {
-    return static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j);
+    return static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(j);
   };
   for (int j = 0; j < n; ++j) {
     double diagonal = a[at(j, j)];
@@ -190,8 +189,8 @@ FATHOM_WIDE void ErrorFilter::statistics(const Observation& observation, double 
         out.noise[static_cast<std::size_t>(i)] = noise_scale * sigma * sigma;
         sum += out.noise[static_cast<std::size_t>(i)];
       }
-      out.s[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j)] = sum;
-      out.s[static_cast<std::size_t>(j) * kStride + static_cast<std::size_t>(i)] = sum;
+      out.s[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(j)] = sum;
+      out.s[static_cast<std::size_t>(j) * kStatisticsStride + static_cast<std::size_t>(i)] = sum;
     }
   }
   out.squared_distance = squared_distance(observation, out);
@@ -206,9 +205,9 @@ double squared_distance(const Observation& observation, const InnovationStatisti
   for (int i = 0; i < m; ++i) {
     double value = observation.innovation[static_cast<std::size_t>(i)];
     for (int k = 0; k < i; ++k)
-      value -= lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(k)] *
+      value -= lower[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(k)] *
                y[static_cast<std::size_t>(k)];
-    value /= lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
+    value /= lower[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(i)];
     y[static_cast<std::size_t>(i)] = value;
     distance += value * value;
   }
@@ -230,12 +229,14 @@ FATHOM_WIDE bool ErrorFilter::update(const Observation& observation, const Innov
     std::copy_n(statistics.ph.data() + static_cast<std::size_t>(i) * kMaxStates, n, row);
     double value = observation.innovation[static_cast<std::size_t>(i)];
     for (int k = 0; k < i; ++k) {
-      const double factor = lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(k)];
+      const double factor =
+          lower[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(k)];
       const double* other = v.data() + static_cast<std::size_t>(k) * kMaxStates;
       for (std::size_t j = 0; j < n; ++j) row[j] -= factor * other[j];
       value -= factor * y[static_cast<std::size_t>(k)];
     }
-    const double inverse = 1.0 / lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
+    const double inverse =
+        1.0 / lower[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(i)];
     for (std::size_t j = 0; j < n; ++j) row[j] *= inverse;
     y[static_cast<std::size_t>(i)] = value * inverse;
   }
@@ -249,7 +250,7 @@ FATHOM_WIDE bool ErrorFilter::update(const Observation& observation, const Innov
   std::array<double, kMaxStates> least;
   double left = kRoundingLeaves;
   for (int i = 0; i < m; ++i) {
-    const double root = lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
+    const double root = lower[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(i)];
     left *= statistics.noise[static_cast<std::size_t>(i)] / (root * root);
   }
   for (int i = 0; i < n_; ++i) least[static_cast<std::size_t>(i)] = left * p_[at(i, i)];
@@ -265,11 +266,13 @@ FATHOM_WIDE bool ErrorFilter::update(const Observation& observation, const Innov
     for (int i = m - 1; i >= 0; --i) {
       double* row = v.data() + static_cast<std::size_t>(i) * kMaxStates;
       for (int k = i + 1; k < m; ++k) {
-        const double factor = lower[static_cast<std::size_t>(k) * kStride + static_cast<std::size_t>(i)];
+        const double factor =
+            lower[static_cast<std::size_t>(k) * kStatisticsStride + static_cast<std::size_t>(i)];
         const double* other = v.data() + static_cast<std::size_t>(k) * kMaxStates;
         for (std::size_t j = 0; j < n; ++j) row[j] -= factor * other[j];
       }
-      const double inverse = 1.0 / lower[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(i)];
+      const double inverse =
+          1.0 / lower[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(i)];
       for (std::size_t j = 0; j < n; ++j) row[j] *= inverse;
       std::fill(row + estimated_, row + n, 0.0);
     }
@@ -297,7 +300,7 @@ void ErrorFilter::settle_rounding(const Observation& observation, const Innovati
   const int m = statistics.rows;
   const auto row_of = [](int i) { return static_cast<std::size_t>(i) * kMaxStates; };
   std::array<double, static_cast<std::size_t>(kRows) * kMaxStates> q{};
-  std::array<double, kStride * kStride> hq{};
+  std::array<double, kStatisticsStride * kStatisticsStride> hq{};
   for (int i = 0; i < m; ++i) {
     double* row = q.data() + row_of(i);
     const auto& h = observation.h[static_cast<std::size_t>(i)];
@@ -314,13 +317,14 @@ void ErrorFilter::settle_rounding(const Observation& observation, const Innovati
     for (int j = 0; j < m; ++j)
       for (int c = 0; c < observation.column_count; ++c) {
         const auto column = observation.columns[static_cast<std::size_t>(c)];
-        hq[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j)] +=
+        hq[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(j)] +=
             h[column] * q[row_of(j) + column];
       }
   }
   for (int j = 0; j < m; ++j)
     for (int i = 0; i < m; ++i) {
-      const double half = 0.5 * hq[static_cast<std::size_t>(i) * kStride + static_cast<std::size_t>(j)];
+      const double half =
+          0.5 * hq[static_cast<std::size_t>(i) * kStatisticsStride + static_cast<std::size_t>(j)];
       for (std::size_t k = 0; k < static_cast<std::size_t>(n_); ++k)
         q[row_of(j) + k] -= half * gain[row_of(i) + k];
     }

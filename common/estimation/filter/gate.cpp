@@ -8,7 +8,6 @@
 namespace fathom::estimation {
 namespace {
 
-constexpr std::size_t kStride = Observation::kMaxRows;
 /// Of the squared distance, where everything is to pass.
 constexpr double kNoLimit = 1e30;
 
@@ -40,13 +39,13 @@ void drop_row(Observation& observation, int row) {
 /// The statistics of those rows alone.
 void keep_rows(InnovationStatistics& statistics, unsigned refused) {
   std::size_t kept = 0;
-  std::array<std::size_t, kStride> from{};
+  std::array<std::size_t, kStatisticsStride> from{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
     if ((refused & 1U << i) == 0) from[kept++] = i;
   for (std::size_t i = 0; i < kept; ++i) {
     statistics.noise[i] = statistics.noise[from[i]];
     for (std::size_t j = 0; j < kept; ++j)
-      statistics.s[i * kStride + j] = statistics.s[from[i] * kStride + from[j]];
+      statistics.s[i * kStatisticsStride + j] = statistics.s[from[i] * kStatisticsStride + from[j]];
     if (from[i] != i)
       std::copy_n(statistics.ph.data() + from[i] * kMaxStates, kMaxStates,
                   statistics.ph.data() + i * kMaxStates);
@@ -74,7 +73,7 @@ GateResult gate(const SensorConfig& sensor, const GateLimits& limits, Observatio
                 InnovationStatistics& statistics) {
   GateResult result;
   for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i)
-    result.innovation_sigma[i] = std::sqrt(statistics.s[i * kStride + i]);
+    result.innovation_sigma[i] = std::sqrt(statistics.s[i * kStatisticsStride + i]);
   if (observation.each_alone || sensor.gate_mode == GateMode::per_component) {
     // (GATE-1), each component on its own.
     result.limit = limits.chi_square[1];
@@ -83,15 +82,15 @@ GateResult gate(const SensorConfig& sensor, const GateLimits& limits, Observatio
     int row = 0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i) {
       const double z = observation.innovation[static_cast<std::size_t>(row)];
-      const double squared = z * z / statistics.s[i * kStride + i];
+      const double squared = z * z / statistics.s[i * kStatisticsStride + i];
       const bool hopeless = squared > sensor.robust_reject_ratio * result.limit;
       const double scale = hopeless ? 1.0 : noise_scale(sensor, squared, 1);
       const double sigma = observation.sigma[static_cast<std::size_t>(row)];
-      const double s = statistics.s[i * kStride + i] + (scale - 1.0) * sigma * sigma;
+      const double s = statistics.s[i * kStatisticsStride + i] + (scale - 1.0) * sigma * sigma;
       const double ratio = z * z / s / result.limit;
       if (ratio <= 1.0) {
         observation.sigma[static_cast<std::size_t>(row)] = std::sqrt(scale) * sigma;
-        statistics.s[i * kStride + i] = s;
+        statistics.s[i * kStatisticsStride + i] = s;
         statistics.noise[i] = scale * sigma * sigma;
         worst_kept = std::max(worst_kept, ratio);
         ++row;
@@ -116,7 +115,7 @@ GateResult gate(const SensorConfig& sensor, const GateLimits& limits, Observatio
   const double scale = hopeless ? 1.0 : noise_scale(sensor, statistics.squared_distance, observation.rows);
   if (scale > 1.0 && std::isfinite(scale)) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(statistics.rows); ++i) {
-      statistics.s[i * kStride + i] += (scale - 1.0) * observation.sigma[i] * observation.sigma[i];
+      statistics.s[i * kStatisticsStride + i] += (scale - 1.0) * observation.sigma[i] * observation.sigma[i];
       statistics.noise[i] *= scale;
     }
     statistics.squared_distance = squared_distance(observation, statistics);

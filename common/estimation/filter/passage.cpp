@@ -8,23 +8,25 @@
 namespace fathom::estimation {
 namespace {
 
-constexpr int kRows = Observation::kMaxRows;
 /// Cholesky factor of S.
 struct Lower {
   explicit Lower(const InnovationStatistics& statistics) : rows(statistics.rows) {
     for (int j = 0; j < rows; ++j)
       for (int i = j; i < rows; ++i) {
-        double value = statistics.s[static_cast<std::size_t>(i * kRows + j)];
+        double value = statistics.s[static_cast<std::size_t>(i * Observation::kMaxRows + j)];
         for (int k = 0; k < j; ++k) value -= (*this)(i, k) * (*this)(j, k);
-        l[static_cast<std::size_t>(i * kRows + j)] = i == j ? std::sqrt(value) : value / (*this)(j, j);
+        l[static_cast<std::size_t>(i * Observation::kMaxRows + j)] =
+            i == j ? std::sqrt(value) : value / (*this)(j, j);
       }
   }
-  [[nodiscard]] double operator()(int i, int j) const { return l[static_cast<std::size_t>(i * kRows + j)]; }
+  [[nodiscard]] double operator()(int i, int j) const {
+    return l[static_cast<std::size_t>(i * Observation::kMaxRows + j)];
+  }
 
   int rows;
-  std::array<double, static_cast<std::size_t>(kRows) * kRows> l{};
+  std::array<double, static_cast<std::size_t>(Observation::kMaxRows) * Observation::kMaxRows> l{};
 };
-using Block = std::array<double, static_cast<std::size_t>(kRows) * kMaxStates>;
+using Block = std::array<double, static_cast<std::size_t>(Observation::kMaxRows) * kMaxStates>;
 
 /// Rows <- L^-1 rows, in place.
 FATHOM_WITHIN void solve(const Lower& lower, double* rows, int columns) {
@@ -107,7 +109,7 @@ void Passage::updated(const Observation& observation, const InnovationStatistics
   const Lower lower(statistics);
   Block gain;
   Block seen;
-  std::array<double, kRows> y{};
+  std::array<double, Observation::kMaxRows> y{};
   for (int i = 0; i < m; ++i) {
     const auto row = static_cast<std::size_t>(i) * kMaxStates;
     std::copy_n(statistics.ph.data() + row, kMaxStates, gain.data() + row);

@@ -12,7 +12,7 @@ struct GroupRow {
   Names names;
 };
 
-constexpr std::array<GroupRow, kGroups> kRows{{
+constexpr std::array<GroupRow, kGroups> kGroupRows{{
     {3, {"position_north_m", "position_east_m", "position_down_m"}},
     {3, {"velocity_north_m_s", "velocity_east_m_s", "velocity_down_m_s"}},
     {3, {"attitude_north_rad", "attitude_east_rad", "attitude_down_rad"}},
@@ -91,13 +91,13 @@ std::array<bool, kGroups> active(const StateGroups& g) {
 }  // namespace
 
 int group_size(Group group) {
-  return kRows[static_cast<std::size_t>(group)].size;
+  return kGroupRows[static_cast<std::size_t>(group)].size;
 }
 
 int state_count(const StateGroups& groups) {
   const auto on = active(groups);
   int count = 0;
-  for (std::size_t i = 0; i < on.size(); ++i) count += on[i] ? kRows[i].size : 0;
+  for (std::size_t i = 0; i < on.size(); ++i) count += on[i] ? kGroupRows[i].size : 0;
   return count;
 }
 
@@ -107,22 +107,22 @@ StateIndex::StateIndex(const StateGroups& groups, const StateGroups& considered,
   for (std::size_t i = 0; i < on.size(); ++i) on[i] = on[i] || (as == Considered::found && also[i]);
   for (std::size_t i = 0; i < on.size(); ++i) {
     start_[i] = on[i] ? size_ : -1;
-    if (on[i]) size_ += kRows[i].size;
+    if (on[i]) size_ += kGroupRows[i].size;
     if (i == static_cast<std::size_t>(Group::gyro_misalignment)) imu_end_ = size_;
   }
   estimated_ = size_;
   for (std::size_t i = 0; i < also.size(); ++i) {
     if (on[i] || !also[i]) continue;
     start_[i] = size_;
-    size_ += kRows[i].size;
+    size_ += kGroupRows[i].size;
   }
   assert(size_ <= kMaxStates);
 }
 
 std::string_view StateIndex::name(int state) const {
   for (std::size_t i = 0; i < start_.size(); ++i) {
-    if (start_[i] >= 0 && state >= start_[i] && state < start_[i] + kRows[i].size)
-      return kRows[i].names[static_cast<std::size_t>(state - start_[i])];
+    if (start_[i] >= 0 && state >= start_[i] && state < start_[i] + kGroupRows[i].size)
+      return kGroupRows[i].names[static_cast<std::size_t>(state - start_[i])];
   }
   return "";
 }

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "estimation/aiding/model.hpp"
 #include "estimation/aiding/policy.hpp"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "estimation/aiding/registry.hpp"
 
 namespace fathom::estimation {

@@ -1,6 +1,6 @@
 #include "estimation/navigator/stride.hpp"
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 
 namespace fathom::estimation {
 

@@ -15,7 +15,7 @@ constexpr DurationNs kTogether_ns = 3 * kNsPerSecond;  // services of a host not
 // before by the width of that, and by what no bus and no queue adds to every sample.
 constexpr std::size_t kBefore = 10;
 constexpr std::size_t kAfter = 3;
-constexpr double kLeast_s = 0.2;
+constexpr double kLeastOffset_s = 0.2;
 
 void hosts(const History& history, Findings& out) {
   std::map<std::uint32_t, const LifeSign*> last;
@@ -76,7 +76,7 @@ double jump_s(const std::vector<Second>& rows, std::size_t i) {
     sum += rows[k].age_sum_s;
     count += rows[k].count;
   }
-  const double margin = std::max(kLeast_s, high - low);
+  const double margin = std::max(kLeastOffset_s, high - low);
   double after_low = rows[i + 1].age_low_s;
   double after_high = rows[i + 1].age_high_s;
   double after_sum = 0.0;
@@ -126,7 +126,8 @@ void stamps(const Stream& stream, Findings& out) {
     i += kAfter + 1;
   }
   // A clock that was not set back is wrong to the end.
-  if (open < out.size() && std::abs(off_s) > kLeast_s) out[open].end_ns = rows.back().at_ns + kNsPerSecond;
+  if (open < out.size() && std::abs(off_s) > kLeastOffset_s)
+    out[open].end_ns = rows.back().at_ns + kNsPerSecond;
 }
 
 }  // namespace

@@ -10,9 +10,9 @@ namespace fathom::explain {
 namespace {
 
 constexpr DurationNs kWindow_ns = 10 * kNsPerSecond;
-constexpr std::size_t kFixes = 5;                  // of a window
-constexpr DurationNs kNear_ns = kNsPerSecond / 2;  // between a fix and the DVL beside it
-constexpr double kSlow_m_s = 0.5;                  // below it a course means little
+constexpr std::size_t kWindowFixes = 5;              // of a window
+constexpr DurationNs kBeside_ns = kNsPerSecond / 2;  // between a fix and the DVL beside it
+constexpr double kSlow_m_s = 0.5;                    // below it a course means little
 // Mountings of a DVL and a compass are known to some degrees; less than this is nothing to name.
 constexpr double kLeast_rad = 5.0 * std::numbers::pi / 180.0;
 constexpr double kSigmas = 5.0;
@@ -67,7 +67,7 @@ class Compared {
     std::vector<Window> out;
     Window window;
     const auto close = [&] {
-      if (window.off_rad.size() >= kFixes) out.push_back(window);
+      if (window.off_rad.size() >= kWindowFixes) out.push_back(window);
       window = {};
     };
     for (const FixRow& fix : history_.fixes()) {
@@ -99,9 +99,9 @@ class Compared {
   /// the ratio of the two speeds.
   bool beside(TimeNs stamp_ns, double& off_rad, double& ratio) const {
     const auto by_stamp = [](const auto* row, TimeNs t) { return row->stamp_ns < t; };
-    auto verdict = std::lower_bound(verdicts_.begin(), verdicts_.end(), stamp_ns - kNear_ns, by_stamp);
+    auto verdict = std::lower_bound(verdicts_.begin(), verdicts_.end(), stamp_ns - kBeside_ns, by_stamp);
     const VerdictRow* best = nullptr;
-    for (; verdict != verdicts_.end() && (*verdict)->stamp_ns <= stamp_ns + kNear_ns; ++verdict) {
+    for (; verdict != verdicts_.end() && (*verdict)->stamp_ns <= stamp_ns + kBeside_ns; ++verdict) {
       const VerdictRow& row = **verdict;
       if (row.dimensions < 2 || (row.kind != VerdictKind::used && !is_refusal(row.kind))) continue;
       if (history_.name(row.model) != "dvl_velocity") continue;  // beams have axes of their own
@@ -132,7 +132,8 @@ const Stream* compass_of(const History& history, TimeNs from_ns, TimeNs to_ns) {
   for (const VerdictRow& row : history.verdicts())
     if (row.kind == VerdictKind::used && row.stamp_ns >= from_ns && row.stamp_ns <= to_ns) ++used[row.stream];
   for (std::size_t i = 0; i < used.size(); ++i)
-    if (history.streams()[i].kind == SourceKind::heading && used[i] >= kFixes) return &history.streams()[i];
+    if (history.streams()[i].kind == SourceKind::heading && used[i] >= kWindowFixes)
+      return &history.streams()[i];
   return nullptr;
 }
 

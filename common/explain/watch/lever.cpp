@@ -11,9 +11,9 @@ namespace fathom::explain {
 namespace {
 
 // Chi-square of two dimensions that chance passes in one of three million logs.
-constexpr double kChance = 30.0;
-constexpr double kLeast_m = 1.0;  // less than a good fix is worth nobody can tell, and nobody need
-constexpr std::size_t kFixes = 40;
+constexpr double kLeverChance = 30.0;
+constexpr double kLeastLever_m = 1.0;  // less than a good fix is worth nobody can tell, and nobody need
+constexpr std::size_t kLeastFixes = 40;
 
 struct Row {
   Eigen::Matrix2d pattern;     // innovation over lever, along B
@@ -116,7 +116,7 @@ double correlation(const std::vector<Row>& rows, const Eigen::Vector2d& lever) {
 /// as much weaker as the rests scatter more than they should.
 Fit whitened(const std::vector<Row>& rows) {
   Fit out;
-  if (rows.size() < kFixes) return out;
+  if (rows.size() < kLeastFixes) return out;
   Eigen::Vector2d lever = Eigen::Vector2d::Zero();
   std::vector<Row> white;
   for (int round = 0; round < 3; ++round) {
@@ -154,7 +154,7 @@ void watch_lever(const History& history, const Track& track, Findings& out) {
     const Eigen::Matrix2d covariance = information.inverse();
     const Eigen::Vector2d lever = covariance * seen;
     const double evidence = seen.dot(lever);
-    if (evidence < kChance || lever.norm() < kLeast_m) continue;
+    if (evidence < kLeverChance || lever.norm() < kLeastLever_m) continue;
     out.push_back(
         {.kind = Kind::wrong_lever,
          .subject = stream.sensor.str(),

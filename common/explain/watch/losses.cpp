@@ -11,7 +11,7 @@ namespace {
 // A source is missed when it gave nothing for ten of its usual steps, and for five seconds: shorter losses
 // are what filters are made for.
 constexpr double kSteps = 10.0;
-constexpr double kLeast_s = 5.0;
+constexpr double kLeastLoss_s = 5.0;
 constexpr std::size_t kEnough = 5;  // used ones, before a usual step means anything
 constexpr double kWet_m = 0.5;      // an antenna is under water
 
@@ -60,7 +60,7 @@ void watch_losses(const History& history, const Track& track, Findings& out) {
     if (used.size() < kEnough) continue;
     std::vector<double> steps;
     for (std::size_t k = 1; k < used.size(); ++k) steps.push_back(to_seconds(used[k] - used[k - 1]));
-    const double bound_s = std::max(kLeast_s, kSteps * median(steps));
+    const double bound_s = std::max(kLeastLoss_s, kSteps * median(steps));
     // Up to the end of the recording, too, as far as states and their verdicts go.
     if (!track.rows().empty()) used.push_back(track.rows().back()->at_ns);
     for (std::size_t k = 1; k < used.size(); ++k) {

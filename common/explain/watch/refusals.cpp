@@ -20,7 +20,7 @@ constexpr double kOneWay = 0.8;
 constexpr double kAtOnce = 4.0;
 // Instruments give some values far off. More than this share of them, and more than chance makes of it.
 constexpr double kUsualOutliers = 0.02;
-constexpr double kChance = 1e-4;
+constexpr double kRefusalChance = 1e-4;
 constexpr std::uint64_t kFewest = 4;
 constexpr std::size_t kFrozenInARow = 3;  // as the monitor's watch over fixes
 constexpr double kManyRefused = 0.01;     // of all; fewer late or doubled ones are everyday
@@ -238,7 +238,7 @@ class Refusals {
     if (lone_.size() < kFewest) return;
     const boost::math::binomial_distribution<double> chance(static_cast<double>(judged_count),
                                                             kUsualOutliers);
-    if (boost::math::cdf(boost::math::complement(chance, alone - 1.0)) > kChance) return;
+    if (boost::math::cdf(boost::math::complement(chance, alone - 1.0)) > kRefusalChance) return;
     double most = 0.0;
     double refused = 0.0;
     TimeNs begin_ns = lone_.front()->stamp_ns;

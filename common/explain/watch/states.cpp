@@ -9,7 +9,7 @@ namespace {
 constexpr double kSilence_s = 1.0;  // as the monitor's nav_state_missing
 // Twice as uncertain, and by as much as a good fix is.
 constexpr double kTimes = 2.0;
-constexpr double kLeast_m = 1.0;
+constexpr double kLeastStep_m = 1.0;
 
 void gaps(const History& history, Findings& out) {
   const StateRow* last = nullptr;
@@ -69,7 +69,7 @@ void growth(const History& history, const Track& track, Findings& out) {
   const StateRow* high = nullptr;
   const auto close = [&] {
     if (low != nullptr && high != nullptr && high->sigma_m > kTimes * low->sigma_m &&
-        high->sigma_m - low->sigma_m > kLeast_m) {
+        high->sigma_m - low->sigma_m > kLeastStep_m) {
       out.push_back({.kind = Kind::growth,
                      .weight = Weight::note,
                      .begin_ns = low->at_ns,

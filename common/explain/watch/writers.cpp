@@ -11,7 +11,7 @@ namespace {
 // successor share at most one or two.
 constexpr std::size_t kTogether = 3;
 // A life sign comes once a second; a process whose last one came this long before is another story.
-constexpr DurationNs kNear_ns = 10 * kNsPerSecond;
+constexpr DurationNs kTakesOver_ns = 10 * kNsPerSecond;
 
 void second_writers(const History& history, const Stream& stream, Findings& out) {
   std::map<std::uint32_t, std::uint64_t> samples;  // by writer, in shared seconds
@@ -54,7 +54,7 @@ double silence_s(const History& history, TimeNs near_ns) {
   DurationNs longest = 0;
   const StateRow* last = nullptr;
   for (const StateRow& row : history.states()) {
-    if (last != nullptr && row.log_ns > near_ns - kNear_ns && last->log_ns < near_ns + kNear_ns)
+    if (last != nullptr && row.log_ns > near_ns - kTakesOver_ns && last->log_ns < near_ns + kTakesOver_ns)
       longest = std::max(longest, row.log_ns - last->log_ns);
     last = &row;
   }

@@ -3,16 +3,16 @@
 #include <cmath>
 #include <limits>
 
+#include "health/gps/receivers.hpp"
 #include "health/text.hpp"
 
 namespace fathom::health {
 namespace {
 
-constexpr std::size_t kMaxReceivers = 16;  // names come from the network: bounded
-constexpr double kSilent_s = 10.0;         // then it says nothing any more
-constexpr double kClearHold_s = 3.0;
+constexpr double kSilent_s = 10.0;  // then it says nothing any more
+constexpr double kDisputeHold_s = 3.0;
 
-bool is_refusal(VerdictKind kind) {
+bool is_disagreement(VerdictKind kind) {
   return kind == VerdictKind::rejected || kind == VerdictKind::disputed;
 }
 
@@ -26,7 +26,7 @@ void DisputeWatch::add(const Verdict& verdict, const Instant& now) {
     found = receivers_.emplace(verdict.header.sensor, Receiver{}).first;
   }
   Receiver& receiver = found->second;
-  if (!is_refusal(verdict.kind)) {
+  if (!is_disagreement(verdict.kind)) {
     if (verdict.kind == VerdictKind::used) receiver = {};
     return;
   }
@@ -53,7 +53,7 @@ void DisputeWatch::report(AlarmBook& book, const Instant& now) const {
          .value = receiver.apart_m,
          .limit = receiver.sigma_m,
          .began_ago_s = for_s,
-         .clear_hold_s = kClearHold_s},
+         .clear_hold_s = kDisputeHold_s},
         now);
   }
 }

@@ -5,6 +5,7 @@
 
 #include "geo/wgs84.hpp"
 #include "health/gps/gps_outage.hpp"
+#include "health/gps/receivers.hpp"
 #include "health/navigation/nav_watch.hpp"
 #include "health/text.hpp"
 #include "samples/position/gives_position.hpp"
@@ -12,9 +13,8 @@
 namespace fathom::health {
 namespace {
 
-constexpr std::size_t kMaxReceivers = 16;  // names come from the network: bounded
-constexpr double kLongestStepS = 2.5;      // of a velocity that is integrated, and between fixes of a window
-constexpr double kStillM_s = 0.2;          // slower than this is noise, not travel
+constexpr double kLongestStepS = 2.5;  // of a velocity that is integrated, and between fixes of a window
+constexpr double kStillM_s = 0.2;      // slower than this is noise, not travel
 constexpr double kNavHistoryS = 5.0;
 constexpr double kNavHistoryStepS = 0.1;
 constexpr std::size_t kMaxWindow = 512;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "health/gps/receivers.hpp"
 #include "health/text.hpp"
 #include "samples/gps_quality.hpp"
 
 namespace fathom::health {
 namespace {
 
-constexpr std::size_t kMaxReceivers = 16;  // names come from the network: bounded
 constexpr std::size_t kMostUnjudged = 64;
 
 bool is_refusal(VerdictKind kind) {

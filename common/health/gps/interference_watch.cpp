@@ -1,13 +1,13 @@
 #include "health/gps/interference_watch.hpp"
 
+#include "health/gps/receivers.hpp"
 #include "health/text.hpp"
 
 namespace fathom::health {
 namespace {
 
-constexpr std::size_t kMaxReceivers = 16;  // names come from the network: bounded
-constexpr double kWordHolds_s = 10.0;      // of a receiver that is heard no more
-constexpr double kClearHold_s = 3.0;
+constexpr double kWordHolds_s = 10.0;  // of a receiver that is heard no more
+constexpr double kInterferenceHold_s = 3.0;
 
 void follow(bool active, TimeNs& since_ns, const Instant& now) {
   if (!active) {
@@ -50,7 +50,7 @@ void InterferenceWatch::report(AlarmBook& book, const Instant& now) const {
               .value = static_cast<double>(receiver.jamming),
               .limit = static_cast<double>(GpsJamming::warning),
               .began_ago_s = ago_s(receiver.jammed_since_ns),
-              .clear_hold_s = kClearHold_s},
+              .clear_hold_s = kInterferenceHold_s},
              now);
     const bool affirmed = receiver.spoofing == GpsSpoofing::affirmed;
     book.set(heard && receiver.spoofed_since_ns != 0,
@@ -62,7 +62,7 @@ void InterferenceWatch::report(AlarmBook& book, const Instant& now) const {
               .value = static_cast<double>(receiver.spoofing),
               .limit = static_cast<double>(GpsSpoofing::indicated),
               .began_ago_s = ago_s(receiver.spoofed_since_ns),
-              .clear_hold_s = kClearHold_s},
+              .clear_hold_s = kInterferenceHold_s},
              now);
   }
 }

@@ -8,7 +8,6 @@
 namespace fathom::logs {
 namespace {
 
-constexpr double kTeslaPerGauss = 1e-4;
 /// The Earth has 0.7 gauss at most: above this the log has milligauss and does not say so.
 constexpr double kMostGauss = 10.0;
 

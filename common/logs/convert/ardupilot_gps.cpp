@@ -2,20 +2,19 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/median.hpp"
+#include "base/units.hpp"
 #include "geo/wgs84.hpp"
 
 namespace fathom::logs {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kNoAltitude_m = -2.1e7;  // -2^31 cm
 constexpr std::int64_t kTogether_us = 50'000;
 
-GpsFix fix_of(double status) {
+GpsFix ardupilot_fix(double status) {
   if (status == 2.0) return GpsFix::fix_2d;
   if (status == 3.0) return GpsFix::fix_3d;
   if (status == 4.0) return GpsFix::differential;
@@ -24,10 +23,6 @@ GpsFix fix_of(double status) {
   if (status == 7.0) return GpsFix::fix_3d;        // a static base
   if (status == 8.0) return GpsFix::differential;  // precise point positioning
   return GpsFix::none;
-}
-
-double positive(double value) {
-  return value > 0.0 ? value : kUnknown;
 }
 
 // Seconds that GPS is ahead of UTC, from these GPS weeks and days on.
@@ -107,7 +102,7 @@ void convert(const Log& log, const Series& series, const Clock& clock, Vehicle& 
   for (std::size_t row = 0; row < series.rows(); ++row) {
     GpsSample& sample = samples.emplace_back();
     sample.header = clock.header(0, series.t_us[row]);
-    sample.fix = fix_of(series.at(row, status));
+    sample.fix = ardupilot_fix(series.at(row, status));
     place(series, row, sample);
     const double course_rad = series.at(row, course) * kRadPerDeg;
     const double speed_m_s = series.at(row, speed);

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/median.hpp"
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 
 namespace fathom::logs {
 namespace {

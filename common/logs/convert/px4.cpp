@@ -8,7 +8,6 @@
 namespace fathom::logs {
 namespace {
 
-constexpr double kTeslaPerGauss = 1e-4;
 constexpr double kNoRelativeTime = 2147483647.0;
 /// Pressures below are hectopascal: a barometer of an early PX4. Above 5000 hPa it would be 40 m under water,
 /// below 5000 Pa 20 km up.

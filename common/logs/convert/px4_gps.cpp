@@ -1,19 +1,18 @@
 #include "logs/convert/px4_gps.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "base/median.hpp"
+#include "base/units.hpp"
 #include "geo/wgs84.hpp"
 
 namespace fathom::logs {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kYear2001_us = 978'307'200e6;
 
-GpsFix fix_of(double code) {
+GpsFix px4_fix(double code) {
   if (code == 2.0) return GpsFix::fix_2d;
   if (code == 3.0) return GpsFix::fix_3d;
   if (code == 4.0) return GpsFix::differential;
@@ -21,10 +20,6 @@ GpsFix fix_of(double code) {
   if (code == 6.0) return GpsFix::rtk_fixed;
   if (code == 8.0) return GpsFix::dead_reckoning;
   return GpsFix::none;
-}
-
-double positive(double value) {
-  return value > 0.0 ? value : kUnknown;
 }
 
 // The columns of vehicle_gps_position and sensor_gps of all years. Until 2023 positions were integers.
@@ -79,7 +74,7 @@ void convert(const Series& series, const Clock& clock, Vehicle& out) {
     const double valid_us = series.at(row, c.valid_us);
     GpsSample& sample = samples.emplace_back();
     sample.header = clock.header(whole_us(valid_us), series.t_us[row]);
-    sample.fix = fix_of(series.at(row, c.fix));
+    sample.fix = px4_fix(series.at(row, c.fix));
     const double latitude_deg = series.at(row, c.latitude) * c.degrees;
     const double longitude_deg = series.at(row, c.longitude) * c.degrees;
     if (std::abs(latitude_deg) <= 90.0 && std::abs(longitude_deg) <= 180.0) {

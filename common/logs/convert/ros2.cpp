@@ -4,7 +4,7 @@
 #include <cstdio>
 
 #include "base/median.hpp"
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"

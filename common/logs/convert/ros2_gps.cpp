@@ -1,20 +1,19 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/median.hpp"
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "logs/convert/ros2_parts.hpp"
 
 namespace fathom::logs {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 /// A velocity belongs to a fix that is no further away: at 1 m/s² it has changed by 2 cm/s.
 constexpr TimeNs kTogether_ns = 20 * kNsPerMillisecond;
 constexpr double kMostlyTogether = 0.8;
 
-GpsFix fix_of(double status) {
+GpsFix ros2_fix(double status) {
   if (status == 0.0) return GpsFix::fix_3d;
   if (status == 1.0 || status == 2.0) return GpsFix::differential;
   return GpsFix::none;
@@ -34,7 +33,7 @@ void convert(const Series& series, const Ros2Clock& clock, std::vector<GpsSample
     if (!header) continue;
     GpsSample& sample = samples.emplace_back();
     sample.header = *header;
-    sample.fix = fix_of(series.at(row, status));
+    sample.fix = ros2_fix(series.at(row, status));
     const double latitude_deg = series.at(row, latitude);
     const double longitude_deg = series.at(row, longitude);
     if (std::abs(latitude_deg) <= 90.0 && std::abs(longitude_deg) <= 180.0) {

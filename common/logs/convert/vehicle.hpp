@@ -10,11 +10,19 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "base/unknown.hpp"
 #include "dataset/dataset.hpp"
 #include "logs/series.hpp"
 
 /// What a log becomes: a data set, and beside it what the layout of data sets has no place for.
 namespace fathom::logs {
+
+inline constexpr double kTeslaPerGauss = 1e-4;
+
+/// A figure that is none where it is not positive.
+inline double positive(double value) {
+  return value > 0.0 ? value : kUnknown;
+}
 
 /// A file beside those of the data set, with t_s first.
 struct Table {

@@ -66,7 +66,7 @@ std::optional<std::size_t> whole(std::string_view text) {
   return value;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   return "'" + std::string(text.substr(0, kShown)) + "'";
 }
 
@@ -97,7 +97,7 @@ Result<std::optional<Line>> parse_line(std::string_view text, std::size_t number
   text = trimmed(text);
   if (text.empty() || text.front() == '#') return Answer{};
   const auto fail = [&](const std::string& why) {
-    return Error{"line " + std::to_string(number) + ": " + quoted(text) + ": " + why};
+    return Error{"line " + std::to_string(number) + ": " + in_quotes(text) + ": " + why};
   };
   const std::size_t gap = text.find_first_of(" \t");
   if (gap == std::string_view::npos) return fail("expected a type and a name");
@@ -160,7 +160,7 @@ class Parser {
       }
       if (expects_name && !bare.empty()) {
         if (!bare.starts_with("MSG:"))
-          return "line " + std::to_string(number) + ": " + quoted(bare) + ": expected MSG: and a type";
+          return "line " + std::to_string(number) + ": " + in_quotes(bare) + ": expected MSG: and a type";
         name = short_type(trimmed(bare.substr(4)));
         now = &definitions_[name];
         *now = {};
@@ -209,8 +209,8 @@ class Parser {
         std::string inner;
         if (find(line.type, name, inner) == nullptr)
           return "line " + std::to_string(line.number) + ": field " + node.name + ": type " +
-                 quoted(line.type) +
-                 " is not defined, expected a basic type or a definition behind MSG: " + quoted(inner);
+                 in_quotes(line.type) +
+                 " is not defined, expected a basic type or a definition behind MSG: " + in_quotes(inner);
         if (std::string why = resolve(inner, node, depth + 1); !why.empty()) return why;
       }
       // Held against the limit before it is multiplied: none of these overflows.

@@ -1,8 +1,8 @@
 #include "ros2/input/samples.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "codec/depth/pressure.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -10,8 +10,6 @@
 
 namespace fathom::ros2 {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 bool finite(const Vector3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -91,8 +89,8 @@ Entry<GpsSample> gps_sample(const NavSatFix& message, const SampleHeader& header
                                 number(message.longitude) + " deg, expected -90 to 90 and -180 to 360"};
   }
   if (std::isinf(message.altitude)) return {Refusal::value, "altitude is infinite, expected m or NaN"};
-  out.latitude_rad = message.latitude * kDegree;
-  out.longitude_rad = geo::wrap_pi(message.longitude * kDegree);
+  out.latitude_rad = message.latitude * kRadPerDeg;
+  out.longitude_rad = geo::wrap_pi(message.longitude * kRadPerDeg);
   out.altitude_m = message.altitude;
   if (message.position_covariance_type == NavSatFix::kUnknownCovariance) return out;
   const Covariance3& c = message.position_covariance;

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
+
+#include "base/units.hpp"
 
 namespace fathom::ros2 {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Header header_of(TimeNs stamp_ns, const std::string& frame) {
   return {time_of(stamp_ns), frame};
@@ -27,7 +26,7 @@ TwistWithCovariance twist_of(const Motion& motion, const Attitude& attitude, con
 }
 
 GeoPoint geo_point(const geo::Geodetic& place) {
-  return {place.latitude_rad / kDegree, geo::wrap_pi(place.longitude_rad) / kDegree, place.altitude_m};
+  return {place.latitude_rad / kRadPerDeg, geo::wrap_pi(place.longitude_rad) / kRadPerDeg, place.altitude_m};
 }
 
 }  // namespace

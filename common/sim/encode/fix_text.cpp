@@ -1,14 +1,12 @@
 #include "sim/encode/fix_text.hpp"
 
-#include <numbers>
-
+#include "base/units.hpp"
 #include "sim/encode/decimal.hpp"
 #include "sim/encode/nmea.hpp"
 
 namespace fathom::sim::encode {
 
 std::string fix_text(const FixSample& sample) {
-  constexpr double kDegPerRad = 180.0 / std::numbers::pi;
   std::string body = "PFTHX," + to_iso8601(sample.header.stamp_ns) + ',' +
                      decimal(kDegPerRad * sample.latitude_rad, 8) + ',' +
                      decimal(kDegPerRad * sample.longitude_rad, 8) + ',' + decimal(sample.sigma_m, 2);

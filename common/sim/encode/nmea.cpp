@@ -6,8 +6,8 @@
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "codec/text/nmea_sentence.hpp"
 #include "geo/so3.hpp"
 #include "sim/encode/decimal.hpp"
@@ -15,7 +15,6 @@
 namespace fathom::sim::encode {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr double kKmhPerKnot = 1.852;
 
@@ -42,7 +41,7 @@ std::string angle_text(double angle_rad, int degree_digits, std::string_view hem
   if (!known(angle_rad)) return ",";
   constexpr std::int64_t kUnitsPerMinute = 10'000'000;
   const std::int64_t units =
-      std::llround(std::abs(angle_rad) * kDegreesPerRadian * 60.0 * static_cast<double>(kUnitsPerMinute));
+      std::llround(std::abs(angle_rad) * kDegPerRad * 60.0 * static_cast<double>(kUnitsPerMinute));
   const std::int64_t minutes = units / kUnitsPerMinute;
   return format("%0*d%02d.%07d,%c", degree_digits, static_cast<int>(minutes / 60),
                 static_cast<int>(minutes % 60), static_cast<int>(units % kUnitsPerMinute),
@@ -96,11 +95,11 @@ char mode_of(GpsFix fix) {
 /// East positive angle and its letter.
 std::string east_west_text(double angle_rad) {
   if (!known(angle_rad)) return ",";
-  return format("%.3f,%c", std::abs(angle_rad) * kDegreesPerRadian, angle_rad < 0.0 ? 'W' : 'E');
+  return format("%.3f,%c", std::abs(angle_rad) * kDegPerRad, angle_rad < 0.0 ? 'W' : 'E');
 }
 
 double turn_deg(double angle_rad) {
-  const double angle_deg = std::fmod(angle_rad * kDegreesPerRadian, 360.0);
+  const double angle_deg = std::fmod(angle_rad * kDegPerRad, 360.0);
   return angle_deg < 0.0 ? angle_deg + 360.0 : angle_deg;
 }
 
@@ -180,10 +179,10 @@ std::string nmea_rpm(const PropulsionSample& sample, std::string_view talker) {
 
 std::string nmea_fins(const FinsSample& sample, std::string_view talker) {
   const std::string name(talker);
-  const double bow_to_starboard_deg = -sample.rudder_rad * kDegreesPerRadian;
+  const double bow_to_starboard_deg = -sample.rudder_rad * kDegPerRad;
   return nmea_sentence(name + "RSA," + decimal(bow_to_starboard_deg, 3) + "," +
                        (known(sample.rudder_rad) ? 'A' : 'V') + ",,V") +
-         nmea_sentence(name + "XDR,A," + decimal(sample.stern_rad * kDegreesPerRadian, 3) + ",D,STERN");
+         nmea_sentence(name + "XDR,A," + decimal(sample.stern_rad * kDegPerRad, 3) + ",D,STERN");
 }
 
 std::string psimssb(const UsblSample& sample, TimeNs utc_ns) {

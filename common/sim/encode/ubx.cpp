@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/little_endian.hpp"
+#include "base/units.hpp"
 #include "codec/satellite/ubx.hpp"
 
 namespace fathom::sim::encode {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 /// 1980-01-06, the start of GPS time, and the leap seconds since.
 constexpr TimeNs kGpsEpoch = 315'964'800 * kNsPerSecond;
 constexpr DurationNs kLeapSeconds = 18 * kNsPerSecond;
@@ -88,7 +87,7 @@ std::vector<std::uint8_t> ubx_nav_pvt(const GpsSample& sample, TimeNs utc_ns) {
   const auto& sigma = sample.position_sigma_N_m;
   const auto& speed_sigma = sample.velocity_sigma_N_m_s;
   const double speed_m_s = std::hypot(v[0], v[1]);
-  double course_deg = std::atan2(v[1], v[0]) * kDegreesPerRadian;
+  double course_deg = std::atan2(v[1], v[0]) * kDegPerRad;
   if (course_deg < 0.0) course_deg += 360.0;
 
   std::vector<std::uint8_t> p;
@@ -106,8 +105,8 @@ std::vector<std::uint8_t> ubx_nav_pvt(const GpsSample& sample, TimeNs utc_ns) {
   p.push_back(fix_flags(sample.fix));
   p.push_back(0);
   p.push_back(static_cast<std::uint8_t>(std::clamp(sample.satellites, 0, 255)));
-  append_le<std::int32_t>(p, scaled(sample.longitude_rad * kDegreesPerRadian, 1e7));
-  append_le<std::int32_t>(p, scaled(sample.latitude_rad * kDegreesPerRadian, 1e7));
+  append_le<std::int32_t>(p, scaled(sample.longitude_rad * kDegPerRad, 1e7));
+  append_le<std::int32_t>(p, scaled(sample.latitude_rad * kDegPerRad, 1e7));
   append_le<std::int32_t>(p, scaled(sample.altitude_m, 1e3));
   append_le<std::int32_t>(p, scaled(sample.altitude_msl_m, 1e3));
   append_le<std::uint32_t>(p, accuracy(std::hypot(sigma[0], sigma[1])));

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cassert>
-#include <numbers>
 
 #include "base/little_endian.hpp"
+#include "base/units.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/vectornav_layout.hpp"
 
@@ -13,7 +13,6 @@ namespace {
 
 namespace vn = codec::vectornav;
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr TimeNs kGpsEpoch_ns = 315'964'800 * kNsPerSecond;
 constexpr DurationNs kGpsAheadOfUtc_ns = 18 * kNsPerSecond;
 

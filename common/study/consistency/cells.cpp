@@ -20,12 +20,12 @@ constexpr double kDive_s = 180.0;
 
 constexpr GpsFigures kMarineGps{};
 /// An aircraft crabs.
-constexpr double kAirborneCourse_rad = 15.0 * kDegree;
+constexpr double kAirborneCourse_rad = 15.0 * kRadPerDeg;
 
 // What a state that is given is known to.
 constexpr std::array<double, 3> kGivenPosition_m{2.0, 2.0, 4.0};
 constexpr std::array<double, 3> kGivenVelocity_m_s{0.2, 0.2, 0.2};
-constexpr std::array<double, 3> kGivenAttitude_rad{1.0 * kDegree, 1.0 * kDegree, 3.0 * kDegree};
+constexpr std::array<double, 3> kGivenAttitude_rad{1.0 * kRadPerDeg, 1.0 * kRadPerDeg, 3.0 * kRadPerDeg};
 
 Cell submersible(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellStart start,
                  const ImuGrade& grade, double latitude_deg) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "samples/position/gives_position.hpp"
 #include "study/consistency/cell_run.hpp"
@@ -71,7 +72,6 @@ class Contender {
     const auto rms = [&](auto field) {
       return std::sqrt(mean([&](const Errors& one) { return field(one) * field(one); }));
     };
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
     scores.add(name_, kTilt, mean([](const Errors& one) { return one.tilt; }));
     scores.add(name_, kHeading, mean([](const Errors& one) { return one.heading; }));
     scores.add(name_, kVelocity, mean([](const Errors& one) { return one.velocity; }));
@@ -79,8 +79,8 @@ class Contender {
     scores.add(name_, kFirstTilt, errors_.empty() ? kUnknown : errors_.front().tilt);
     scores.add(name_, kCovered, mean([](const Errors& one) { return one.covered ? 1.0 : 0.0; }));
     scores.add(name_, kForecast, forecast_holds_);
-    scores.add(name_, kTiltError, kDegrees * rms([](const Errors& one) { return one.tilt_rad; }));
-    scores.add(name_, kHeadingError, kDegrees * rms([](const Errors& one) { return one.heading_rad; }));
+    scores.add(name_, kTiltError, kDegPerRad * rms([](const Errors& one) { return one.tilt_rad; }));
+    scores.add(name_, kHeadingError, kDegPerRad * rms([](const Errors& one) { return one.heading_rad; }));
     scores.add(name_, kHorizontalError, rms([](const Errors& one) { return one.horizontal_m; }));
     scores.add(name_, kAligned, aligned_s_);
   }

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "study/instruments.hpp"
 
 /// Instruments of the consistency study, by grade: from one set of figures the errors are drawn and the
@@ -13,7 +13,7 @@ namespace fathom::study {
 /// A tactical unit with the in-run drift of its data sheet.
 inline constexpr ImuGrade kTacticalGrade{.gyro_bias_rad_s = 1.0 * kDegreePerHour,
                                          .gyro_in_run_rad_s = 0.3 * kDegreePerHour,
-                                         .angle_walk_rad_sqrt_s = 0.1 * kDegree / 60.0,
+                                         .angle_walk_rad_sqrt_s = 0.1 * kRadPerDeg / 60.0,
                                          .gyro_scale = 150e-6,
                                          .accel_bias_m_s2 = 1.0 * kMilliG,
                                          .accel_in_run_m_s2 = 0.1 * kMilliG,
@@ -25,7 +25,7 @@ inline constexpr ImuGrade kTacticalGrade{.gyro_bias_rad_s = 1.0 * kDegreePerHour
 inline constexpr ImuGrade kIndustrialGrade{
     .gyro_bias_rad_s = 20.0 * kDegreePerHour,
     .gyro_in_run_rad_s = 3.0 * kDegreePerHour,
-    .angle_walk_rad_sqrt_s = 0.15 * kDegree / 60.0,
+    .angle_walk_rad_sqrt_s = 0.15 * kRadPerDeg / 60.0,
     .gyro_scale = 1e-3,
     .accel_bias_m_s2 = 4.0 * kMilliG,
     .accel_in_run_m_s2 = 0.3 * kMilliG,
@@ -33,12 +33,12 @@ inline constexpr ImuGrade kIndustrialGrade{
     .accel_scale = 1e-3,
     .misalignment_rad = 1e-3,
     .in_run_s = 900.0,
-    .gyro_g_sensitivity_rad_s_per_m_s2 = 0.005 * kDegree / kStandardGravity_m_s2};
+    .gyro_g_sensitivity_rad_s_per_m_s2 = 0.005 * kRadPerDeg / kStandardGravity_m_s2};
 /// A MEMS chip as it comes (consumer parts on autopilots).
 inline constexpr ImuGrade kConsumerGrade{
-    .gyro_bias_rad_s = 0.2 * kDegree,
+    .gyro_bias_rad_s = 0.2 * kRadPerDeg,
     .gyro_in_run_rad_s = 30.0 * kDegreePerHour,
-    .angle_walk_rad_sqrt_s = 0.4 * kDegree / 60.0,
+    .angle_walk_rad_sqrt_s = 0.4 * kRadPerDeg / 60.0,
     .gyro_scale = 1e-2,
     .accel_bias_m_s2 = 30.0 * kMilliG,
     .accel_in_run_m_s2 = 1.0 * kMilliG,
@@ -46,7 +46,7 @@ inline constexpr ImuGrade kConsumerGrade{
     .accel_scale = 5e-3,
     .misalignment_rad = 5e-3,
     .in_run_s = 600.0,
-    .gyro_g_sensitivity_rad_s_per_m_s2 = 0.1 * kDegree / kStandardGravity_m_s2};
+    .gyro_g_sensitivity_rad_s_per_m_s2 = 0.1 * kRadPerDeg / kStandardGravity_m_s2};
 
 struct GpsFigures {
   double rate_hz = 5.0;

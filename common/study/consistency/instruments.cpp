@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 
 namespace fathom::study {
 namespace {

@@ -158,9 +158,9 @@ void report(const Runner& one, bool outage, Scores& scores) {
   const Errors e = outage ? one.scored : one.sums.rms();
   scores.add(one.method, kHorizontal, e.horizontal_m);
   scores.add(one.method, kVertical, e.vertical_m);
-  scores.add(one.method, kTilt, e.tilt_rad / kDegree);
-  scores.add(one.method, kHeading, e.heading_rad / kDegree);
-  scores.add(one.method, kAttitude, std::hypot(e.tilt_rad, e.heading_rad) / kDegree);
+  scores.add(one.method, kTilt, e.tilt_rad / kRadPerDeg);
+  scores.add(one.method, kHeading, e.heading_rad / kRadPerDeg);
+  scores.add(one.method, kAttitude, std::hypot(e.tilt_rad, e.heading_rad) / kRadPerDeg);
   if (one.engine) scores.add(one.method, kNees, e.nees9);
   if (!outage) return;
   scores.add(one.method, kTimeTo, one.time_to_limit_s);

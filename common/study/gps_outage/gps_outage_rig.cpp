@@ -11,11 +11,11 @@
 namespace fathom::study {
 namespace {
 
-constexpr double kLatitude_rad = 40.1 * kDegree;
-constexpr double kLongitude_rad = -83.1 * kDegree;
+constexpr double kLatitude_rad = 40.1 * kRadPerDeg;
+constexpr double kLongitude_rad = -83.1 * kRadPerDeg;
 constexpr double kHeight_m = 1000.0;
 constexpr double kSpeed_m_s = 50.0;
-constexpr double kHeading_rad = 60.0 * kDegree;
+constexpr double kHeading_rad = 60.0 * kRadPerDeg;
 constexpr double kAttack_rad = 0.05;
 constexpr std::array<double, 3> kWind_N_m_s{4.0, -3.0, 0.0};
 
@@ -32,7 +32,7 @@ constexpr double kAccelScale = 3e-3;
 constexpr double kInRun_s = 600.0;
 constexpr double kCounts = 32768.0;
 constexpr double kAccelRange_m_s2 = 2000.0 * kMilliG;
-constexpr double kGyroRange_rad_s = 100.0 * kDegree;
+constexpr double kGyroRange_rad_s = 100.0 * kRadPerDeg;
 
 constexpr double kGpsDrift_m = 1.8;
 constexpr double kGpsDriftDown_m = 3.0;
@@ -45,10 +45,10 @@ constexpr std::array<double, 3> kGpsLever_B_m{0.5, 0.0, -0.8};
 
 constexpr std::array<double, 3> kStartPosition_m{2.0, 2.0, 4.0};
 constexpr std::array<double, 3> kStartVelocity_m_s{0.2, 0.2, 0.3};
-constexpr std::array<double, 3> kStartAttitude_rad{1.0 * kDegree, 1.0 * kDegree, 3.0 * kDegree};
+constexpr std::array<double, 3> kStartAttitude_rad{1.0 * kRadPerDeg, 1.0 * kRadPerDeg, 3.0 * kRadPerDeg};
 
 /// Course less heading of an aircraft in a wind of a fifth of its speed.
-constexpr double kCrab_rad = 11.5 * kDegree;
+constexpr double kCrab_rad = 11.5 * kRadPerDeg;
 
 constexpr double kClimb_s = 250.0;
 constexpr double kBank_s = 500.0;
@@ -109,7 +109,7 @@ sim::Scenario flight_scenario() {
   // A square, then a circle with a climb between them.
   double heading = kHeading_rad;
   const auto turn_at = [&](double at_s) -> sim::MissionStep& {
-    heading = geo::wrap_pi(heading + 90.0 * kDegree);
+    heading = geo::wrap_pi(heading + 90.0 * kRadPerDeg);
     sim::MissionStep& step = order(at_s);
     step.heading_rad = heading;
     step.bank_rad = 0.0;
@@ -118,15 +118,15 @@ sim::Scenario flight_scenario() {
   for (double t = 30.0; t < 240.0; t += 45.0) (void)turn_at(t);
   order(kClimb_s).depth_m = -kHeight_m - 300.0;
   (void)turn_at(305.0);
-  order(330.0).bank_rad = 25.0 * kDegree;
+  order(330.0).bank_rad = 25.0 * kRadPerDeg;
   (void)turn_at(410.0);
   (void)turn_at(450.0);
-  order(kBank_s).bank_rad = 45.0 * kDegree;
+  order(kBank_s).bank_rad = 45.0 * kRadPerDeg;
   (void)turn_at(525.0);
-  order(kDutchRoll_s).dutch_roll_rad = 35.0 * kDegree;
+  order(kDutchRoll_s).dutch_roll_rad = 35.0 * kRadPerDeg;
   order(580.0).dutch_roll_rad = 0.0;
   for (double t = 600.0; t < 760.0; t += 45.0) (void)turn_at(t);
-  order(770.0).bank_rad = -25.0 * kDegree;
+  order(770.0).bank_rad = -25.0 * kRadPerDeg;
   (void)turn_at(850.0);
 
   sim::ImuConfig& imu = s.sensors.of<ImuSample>();

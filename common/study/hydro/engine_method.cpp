@@ -1,16 +1,14 @@
 #include "study/hydro/engine_method.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 
 namespace fathom::study::hydro {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 estimation::EngineConfig config_of(const Run& run, EngineMethod method) {
   estimation::EngineConfig c;
@@ -19,10 +17,10 @@ estimation::EngineConfig config_of(const Run& run, EngineMethod method) {
   c.left_out = estimation::LeftOut::noise;  // the simulated instruments have no other errors than these
   c.alignment.mode = estimation::StartMode::given;
   // The data sheet of the instruments.
-  c.imu.angle_random_walk_rad_sqrt_s = 0.05 * kDegree / 60.0;
+  c.imu.angle_random_walk_rad_sqrt_s = 0.05 * kRadPerDeg / 60.0;
   c.imu.velocity_random_walk_m_s_sqrt_s = 5e-4;
-  c.imu.gyro_bias_sigma_rad_s = 1.0 * kDegree / 3600.0;
-  c.imu.gyro_bias_instability_rad_s = 0.05 * kDegree / 3600.0;
+  c.imu.gyro_bias_sigma_rad_s = 1.0 * kRadPerDeg / 3600.0;
+  c.imu.gyro_bias_instability_rad_s = 0.05 * kRadPerDeg / 3600.0;
   c.imu.accel_bias_sigma_m_s2 = 0.5e-3 * 9.80665;
   c.imu.accel_bias_instability_m_s2 = 0.02e-3 * 9.80665;
   c.imu.gyro_scale_sigma = c.imu.accel_scale_sigma = 0.0;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/units.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 
 namespace fathom::study::hydro {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDepth_m = 20.0;
 
 sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
@@ -24,17 +24,17 @@ sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
   s.environment.water_depth_m = 60.0;
   s.environment.turbulence_m_s = 0.01;
   s.environment.turbulence_tau_s = 2.0;
-  s.start.latitude_rad = 35.0 * kDegree;
-  s.start.longitude_rad = 127.0 * kDegree;
+  s.start.latitude_rad = 35.0 * kRadPerDeg;
+  s.start.longitude_rad = 127.0 * kRadPerDeg;
   s.start.depth_m = kDepth_m;
   s.start.speed_m_s = kSpeed_m_s;
-  s.start.rpy_rad = {-5.3 * kDegree, 0.0, 40.0 * kDegree};
+  s.start.rpy_rad = {-5.3 * kRadPerDeg, 0.0, 40.0 * kRadPerDeg};
   s.vehicle.kind = sim::VehicleConfig::Kind::remus;
   const auto order = [&](double at_s, double heading_deg, double depth_m) {
     sim::MissionStep step;
     step.at_s = at_s;
     step.speed_m_s = kSpeed_m_s;
-    step.heading_rad = heading_deg * kDegree;
+    step.heading_rad = heading_deg * kRadPerDeg;
     step.depth_m = depth_m;
     s.mission.push_back(step);
   };
@@ -58,8 +58,8 @@ sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
   auto& imu = s.sensors.of<ImuSample>();
   imu.enabled = true;
   imu.rate_hz = 100.0;
-  imu.gyro.bias_sigma = 1.0 * kDegree / 3600.0;
-  imu.gyro.random_walk = 0.05 * kDegree / 60.0;
+  imu.gyro.bias_sigma = 1.0 * kRadPerDeg / 3600.0;
+  imu.gyro.random_walk = 0.05 * kRadPerDeg / 60.0;
   imu.accelerometer.bias_sigma = 0.5e-3 * 9.80665;
   imu.accelerometer.random_walk = 5e-4;
   auto& dvl = s.sensors.of<DvlSample>();
@@ -85,7 +85,7 @@ sim::Scenario scenario_of(const Case& one, std::uint64_t seed) {
   fins.enabled = true;
   fins.rate_hz = 10.0;
   fins.phase_s = 0.03;
-  fins.sigma_rad = 0.1 * kDegree;
+  fins.sigma_rad = 0.1 * kRadPerDeg;
   return s;
 }
 
@@ -129,8 +129,8 @@ Run make_run(const Case& one, std::uint64_t seed) {
   given.velocity_sigma_N_m_s = {0.05, 0.05, 0.05};
   for (std::size_t i = 0; i < 3; ++i)
     given.velocity_N_m_s[i] = start.velocity_N_m_s[i] + random.normal(given.velocity_sigma_N_m_s[i]);
-  given.attitude_sigma_rad = {one.tilt_sigma_deg * kDegree, one.tilt_sigma_deg * kDegree,
-                              kHeadingSigma_deg * kDegree};
+  given.attitude_sigma_rad = {one.tilt_sigma_deg * kRadPerDeg, one.tilt_sigma_deg * kRadPerDeg,
+                              kHeadingSigma_deg * kRadPerDeg};
   // The error about north, east and down: C_estimated = (I - [phi x]) C.
   const geo::Quaternion q = geo::from_rpy(geo::vec(start.rpy_rad));
   const Eigen::Vector3d phi(random.normal(given.attitude_sigma_rad[0]),

@@ -13,27 +13,27 @@ namespace {
 constexpr DvlNoise kDvl{.beam_m_s = 0.0020, .beam_per_speed = 0.00177};
 constexpr double kDvlScale = 0.004;
 constexpr double kDvlBias_m_s = 0.004;
-constexpr double kDvlMisalignment_rad = 0.5 * kDegree;
+constexpr double kDvlMisalignment_rad = 0.5 * kRadPerDeg;
 constexpr std::array<double, 3> kDvlLever_B_m{0.3, 0.1, 0.2};
 // Magnetic compass in a steel hall: A + B sin psi + D sin 2 psi.
-constexpr double kCompassA_rad = 1.0 * kDegree;
-constexpr double kCompassB_rad = 8.0 * kDegree;
-constexpr double kCompassD_rad = 3.0 * kDegree;
-constexpr double kCompassNoise_rad = 0.3 * kDegree;
-constexpr double kCompassAccuracy_rad = 0.5 * kDegree;  // as its data sheet has it
+constexpr double kCompassA_rad = 1.0 * kRadPerDeg;
+constexpr double kCompassB_rad = 8.0 * kRadPerDeg;
+constexpr double kCompassD_rad = 3.0 * kRadPerDeg;
+constexpr double kCompassNoise_rad = 0.3 * kRadPerDeg;
+constexpr double kCompassAccuracy_rad = 0.5 * kRadPerDeg;  // as its data sheet has it
 // What a filter assumes whose states hold the curve: while the curve is still being learned, its slope enters
 // the rows with errors that would feign knowledge of the heading (STUDY-3).
-constexpr double kCompassFilter_rad = 2.0 * kDegree;
+constexpr double kCompassFilter_rad = 2.0 * kRadPerDeg;
 constexpr double kDepthNoise_m = 0.01;
 constexpr double kDepthBias_m = 0.05;
 
 constexpr double kSurface_m = 60.0;
 constexpr double kDepth_m = 1.0;
-constexpr double kHeading_rad = 20.0 * kDegree;
-constexpr double kHeadingSigma_rad = 0.5 * kDegree;
+constexpr double kHeading_rad = 20.0 * kRadPerDeg;
+constexpr double kHeadingSigma_rad = 0.5 * kRadPerDeg;
 constexpr double kPositionSigma_m = 0.01;
-constexpr double kLatitude_rad = 45.76 * kDegree;
-constexpr double kLongitude_rad = 126.68 * kDegree;
+constexpr double kLatitude_rad = 45.76 * kRadPerDeg;
+constexpr double kLongitude_rad = 126.68 * kRadPerDeg;
 
 constexpr std::array<ArmCase, kArmCases> kCases{{
     {.name = "speed_0.5", .speed_m_s = 0.5},
@@ -147,9 +147,9 @@ estimation::EngineConfig arm_config(const ArmCase& one, ArmFilter filter, const 
   states.surface_altitude_m = kSurface_m;
   states.surface_altitude_sigma_m = kDepthBias_m;
   states.surface_altitude_walk_m_sqrt_s = 0.0;
-  states.heading_bias_sigma_rad = 2.0 * kDegree;
+  states.heading_bias_sigma_rad = 2.0 * kRadPerDeg;
   states.heading_bias_time_constant_s = 0.0;
-  states.heading_deviation_sigma_rad = 5.0 * kDegree;
+  states.heading_deviation_sigma_rad = 5.0 * kRadPerDeg;
 
   estimation::AlignmentConfig& alignment = c.alignment;
   alignment.mode = estimation::StartMode::at_rest;

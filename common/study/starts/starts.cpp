@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <vector>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "samples/position/gives_position.hpp"
 #include "sim/random.hpp"
@@ -52,9 +52,9 @@ constexpr ImuGrade fog_with_accelerometers_of(double bias_mg) {
 constexpr ImuGrade kFog300ug = fog_with_accelerometers_of(0.3);
 constexpr ImuGrade kFog21mg = fog_with_accelerometers_of(21.0);
 /// A MEMS unit between industrial and consumer grade.
-constexpr ImuGrade kMems10mg{.gyro_bias_rad_s = 0.05 * kDegree,
+constexpr ImuGrade kMems10mg{.gyro_bias_rad_s = 0.05 * kRadPerDeg,
                              .gyro_in_run_rad_s = 10.0 * kDegreePerHour,
-                             .angle_walk_rad_sqrt_s = 0.3 * kDegree / 60.0,
+                             .angle_walk_rad_sqrt_s = 0.3 * kRadPerDeg / 60.0,
                              .gyro_scale = 3e-3,
                              .accel_bias_m_s2 = 10.0 * kMilliG,
                              .accel_in_run_m_s2 = 0.5 * kMilliG,
@@ -62,7 +62,7 @@ constexpr ImuGrade kMems10mg{.gyro_bias_rad_s = 0.05 * kDegree,
                              .accel_scale = 2e-3,
                              .misalignment_rad = 2e-3,
                              .in_run_s = 600.0,
-                             .gyro_g_sensitivity_rad_s_per_m_s2 = 0.02 * kDegree / kStandardGravity_m_s2};
+                             .gyro_g_sensitivity_rad_s_per_m_s2 = 0.02 * kRadPerDeg / kStandardGravity_m_s2};
 
 struct Start {
   std::string_view name;
@@ -128,8 +128,7 @@ class Contender {
       scores.add(name_, kAges[i].tilt, there ? errors_[i].tilt : kUnknown);
       scores.add(name_, kAges[i].heading, there ? errors_[i].heading : kUnknown);
     }
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
-    scores.add(name_, kTiltError, errors_.empty() ? kUnknown : kDegrees * errors_.front().tilt_rad);
+    scores.add(name_, kTiltError, errors_.empty() ? kUnknown : kDegPerRad * errors_.front().tilt_rad);
     scores.add(name_, kFirst, first_s_);
     scores.add(name_, kAligned, aligned_s_);
   }

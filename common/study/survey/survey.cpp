@@ -86,7 +86,7 @@ class Survey final : public Study {
       const double scale = state_value(engine.engine(), "dvl_scale");
       const double yaw_rad = state_value(engine.engine(), "dvl_misalignment_z_rad");
       scores.add(method, kScaleError, 100.0 * (scale - fault.scale));
-      scores.add(method, kYawError, (yaw_rad - fault.yaw_rad) / kDegree);
+      scores.add(method, kYawError, (yaw_rad - fault.yaw_rad) / kRadPerDeg);
     }
   }
 };

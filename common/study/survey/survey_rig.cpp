@@ -13,7 +13,7 @@ namespace {
 constexpr DvlNoise kDvl{.beam_m_s = 0.003, .beam_per_speed = 0.001};
 constexpr double kDvlScale = 0.004;
 constexpr double kDvlBias_m_s = 0.001;
-constexpr double kDvlMisalignment_rad = 0.5 * kDegree;
+constexpr double kDvlMisalignment_rad = 0.5 * kRadPerDeg;
 constexpr std::array<double, 3> kDvlLever_B_m{0.5, 0.0, 0.2};
 constexpr std::array<double, 3> kGpsLever_B_m{0.0, 0.0, -0.4};
 constexpr double kGpsNoise_m = 0.5;
@@ -26,11 +26,11 @@ constexpr double kUnkindGpsVelocity_m_s = 0.1;
 constexpr double kUnkindGpsRate_hz = 1.0;
 constexpr double kUnkindAccelDrift_m_s2 = 0.3 * kMilliG;
 // Deviation of a magnetic compass in the vehicle, A and each of B to E, 1 sigma.
-constexpr double kCompassA_rad = 1.0 * kDegree;
-constexpr double kCompassCurve_rad = 2.0 * kDegree;
-constexpr double kCompassNoise_rad = 0.3 * kDegree;
-constexpr double kCompassAccuracy_rad = 1.0 * kDegree;  // as its data sheet has it
-constexpr double kCompassFilter_rad = 2.0 * kDegree;    // while the curve is being learned: STUDY-3
+constexpr double kCompassA_rad = 1.0 * kRadPerDeg;
+constexpr double kCompassCurve_rad = 2.0 * kRadPerDeg;
+constexpr double kCompassNoise_rad = 0.3 * kRadPerDeg;
+constexpr double kCompassAccuracy_rad = 1.0 * kRadPerDeg;  // as its data sheet has it
+constexpr double kCompassFilter_rad = 2.0 * kRadPerDeg;    // while the curve is being learned: STUDY-3
 constexpr double kDepthNoise_m = 0.02;
 constexpr double kDepthBias_m = 0.03;
 constexpr std::array<double, 2> kCurrent_N_m_s{0.12, -0.18};
@@ -38,7 +38,7 @@ constexpr std::array<double, 2> kCurrent_N_m_s{0.12, -0.18};
 constexpr double kSurface_m = 18.5;
 constexpr double kUnderWay_s = 60.0;
 constexpr double kRunDepth_m = 15.0;
-constexpr double kCourse_rad = 50.0 * kDegree;
+constexpr double kCourse_rad = 50.0 * kRadPerDeg;
 constexpr double kOrder_m_s = 2.2;  // 2.0 through the water, after the drag of hull and fins
 constexpr double kLeg_s = 290.0;
 constexpr double kCrossing_s = 30.0;
@@ -84,7 +84,7 @@ double gps_velocity_m_s(const SurveyCase& one) {
 }
 
 double surface_course_rad(SurfaceLeg leg) {
-  return leg == SurfaceLeg::course_90_off ? kCourse_rad - 90.0 * kDegree : kCourse_rad;
+  return leg == SurfaceLeg::course_90_off ? kCourse_rad - 90.0 * kRadPerDeg : kCourse_rad;
 }
 
 /// At rest, then under way. Turns both ways at two speeds show the compass curve and tell the scale of the
@@ -97,7 +97,7 @@ void order_surface(sim::Scenario& s, SurfaceLeg leg) {
   double t = kUnderWay_s + 12.0;
   for (int quarter = 1; quarter <= 16; ++quarter, t += 14.0) {
     const double turned = quarter <= 8 ? quarter : 16 - quarter;
-    order(s, t, kCourse_rad + 0.25 * turned * 360.0 * kDegree,
+    order(s, t, kCourse_rad + 0.25 * turned * 360.0 * kRadPerDeg,
           quarter == 7    ? 1.2
           : quarter == 11 ? kOrder_m_s
                           : kUnknown);
@@ -107,9 +107,9 @@ void order_surface(sim::Scenario& s, SurfaceLeg leg) {
 void order_lawn(sim::Scenario& s) {
   double t = kSurveyDive_s;
   for (int leg = 0; t < kSurveyDuration_s; ++leg) {
-    order(s, t, kCourse_rad + (leg % 2 == 0 ? 0.0 : 180.0 * kDegree));
+    order(s, t, kCourse_rad + (leg % 2 == 0 ? 0.0 : 180.0 * kRadPerDeg));
     t += kLeg_s;
-    order(s, t, kCourse_rad + 90.0 * kDegree);
+    order(s, t, kCourse_rad + 90.0 * kRadPerDeg);
     t += kCrossing_s;
   }
 }
@@ -130,8 +130,8 @@ sim::Scenario survey_scenario(const SurveyCase& one, std::uint64_t seed) {
   s.environment.current_from_s = kUnderWay_s - 5.0;  // the quay is sheltered
   s.environment.turbulence_m_s = 0.01;
   s.environment.turbulence_tau_s = 2.0;
-  s.start.latitude_rad = 36.4 * kDegree;
-  s.start.longitude_rad = 127.4 * kDegree;
+  s.start.latitude_rad = 36.4 * kRadPerDeg;
+  s.start.longitude_rad = 127.4 * kRadPerDeg;
   s.start.depth_m = 0.12;
   s.start.rpy_rad = {0.0, 0.0, surface_course_rad(one.surface)};
   order_surface(s, one.surface);

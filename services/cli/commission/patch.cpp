@@ -6,14 +6,13 @@
 #include <optional>
 #include <string_view>
 
+#include "base/units.hpp"
 #include "geo/so3.hpp"
 
 namespace fathom::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 
 double rounded(double value, double step) {
   return std::round(value / step) * step + 0.0;
@@ -31,7 +30,7 @@ Json list(const Eigen::Vector3d& v, int digits) {
 }
 
 Json rpy_deg(const Eigen::Matrix3d& C) {
-  return list(geo::to_rpy(geo::from_matrix(C)) * kDegrees, 3);
+  return list(geo::to_rpy(geo::from_matrix(C)) * kDegPerRad, 3);
 }
 
 Json::json_pointer pointer_of(std::string key) {
@@ -78,7 +77,7 @@ std::vector<Change> changes_of(const commission::Patch& patch, const Json& confi
   if (heading && patch.heading_latency_s)
     change(*heading + "latency_s", decimal(*patch.heading_latency_s, 4));
   if (heading && patch.heading_yaw_rad)
-    change(*heading + "mounting_rpy_deg", list({0.0, 0.0, *patch.heading_yaw_rad * kDegrees}, 3));
+    change(*heading + "mounting_rpy_deg", list({0.0, 0.0, *patch.heading_yaw_rad * kDegPerRad}, 3));
   return out;
 }
 
@@ -121,7 +120,7 @@ std::vector<Change> vehicle_changes_of(const commission::Patch& patch, const Jso
   if (patch.heading_latency_s)
     change(first("heading"), "fusion.latency_s", decimal(*patch.heading_latency_s, 4));
   if (patch.heading_yaw_rad)
-    change(first("heading"), "mounting_rpy_deg", list({0.0, 0.0, *patch.heading_yaw_rad * kDegrees}, 3));
+    change(first("heading"), "mounting_rpy_deg", list({0.0, 0.0, *patch.heading_yaw_rad * kDegPerRad}, 3));
   return out;
 }
 

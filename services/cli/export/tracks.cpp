@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
 #include "base/iso8601.hpp"
+#include "base/units.hpp"
 #include "cli/command.hpp"
 #include "dataset/csv_reader.hpp"
 #include "dataset/csv_writer.hpp"
@@ -22,8 +22,6 @@ namespace {
 using exchange::Point;
 using exchange::Quality;
 using exchange::Track;
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 Quality quality_of(GpsFix fix) {
   switch (fix) {

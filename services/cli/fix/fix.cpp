@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <thread>
@@ -13,6 +12,7 @@
 
 #include "base/clock.hpp"
 #include "base/iso8601.hpp"
+#include "base/units.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "cli/bus_options.hpp"
@@ -22,8 +22,6 @@
 
 namespace fathom::cli {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 struct FixOptions {
   bus::ParticipantOptions bus;

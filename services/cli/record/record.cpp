@@ -35,7 +35,7 @@ struct RecordOptions {
   bus::ParticipantOptions bus;
 };
 
-volatile std::sig_atomic_t stopped = 0;
+volatile std::sig_atomic_t recording_stopped = 0;
 
 void recover(const std::string& path) {
   const auto recovery = record::recover(path);
@@ -73,9 +73,9 @@ ExitCode record(const RecordOptions& options) {
                                                      : record::Compression::zstd;
   keep.library = "fathom record " + std::string(runtime::version());
   const std::vector<std::string> topics = topics_of(options.topics);
-  stopped = 0;
-  std::signal(SIGINT, [](int) { stopped = 1; });
-  std::signal(SIGTERM, [](int) { stopped = 1; });
+  recording_stopped = 0;
+  std::signal(SIGINT, [](int) { recording_stopped = 1; });
+  std::signal(SIGTERM, [](int) { recording_stopped = 1; });
   blackbox::StoreCounts counts;
   {
     bus::Participant participant(options.bus);
@@ -88,7 +88,8 @@ ExitCode record(const RecordOptions& options) {
       recorder.queue().put(std::move(one));
     for (const std::string& line : tap.refused()) std::fprintf(stderr, "fathom: record: %s\n", line.c_str());
     const TimeNs end_ns = clock.monotonic_ns() + from_seconds(options.duration_s);
-    for (int i = 0; stopped == 0 && (options.duration_s <= 0.0 || clock.monotonic_ns() < end_ns); ++i) {
+    for (int i = 0; recording_stopped == 0 && (options.duration_s <= 0.0 || clock.monotonic_ns() < end_ns);
+         ++i) {
       constexpr int kLookEvery = 10;
       if (i % kLookEvery == 0 && !options.foreign.empty()) {
         for (const std::string& line : tap.look_around(options.foreign))

@@ -33,7 +33,7 @@ struct ReplayOptions {
   bus::ParticipantOptions bus;
 };
 
-volatile std::sig_atomic_t stopped = 0;
+volatile std::sig_atomic_t replay_stopped = 0;
 
 ExitCode replay(const ReplayOptions& options) {
   std::vector<record::Reader> readers;
@@ -56,22 +56,23 @@ ExitCode replay(const ReplayOptions& options) {
                     "--rename " + rename + ": expected OLD=NEW, names of vehicles");
     play.vehicles[rename.substr(0, at)] = rename.substr(at + 1);
   }
-  stopped = 0;
-  std::signal(SIGINT, [](int) { stopped = 1; });
-  std::signal(SIGTERM, [](int) { stopped = 1; });
+  replay_stopped = 0;
+  std::signal(SIGINT, [](int) { replay_stopped = 1; });
+  std::signal(SIGTERM, [](int) { replay_stopped = 1; });
   bus::Participant participant(options.bus);
   blackbox::Played sum;
   bool came = true;
   do {
     came = false;
     for (record::Reader& reader : readers) {
-      const blackbox::Played played = blackbox::play(reader, participant, play, [] { return stopped == 0; });
+      const blackbox::Played played =
+          blackbox::play(reader, participant, play, [] { return replay_stopped == 0; });
       sum.samples += played.samples;
       sum.refused += played.refused;
       sum.problems.insert(sum.problems.end(), played.problems.begin(), played.problems.end());
       came = came || played.samples > 0;
     }
-  } while (options.loop && stopped == 0 && came && sum.problems.empty());
+  } while (options.loop && replay_stopped == 0 && came && sum.problems.empty());
   for (const std::string& problem : sum.problems)
     std::fprintf(stderr, "fathom: %s: %s\n", options.files.front().c_str(), problem.c_str());
   std::printf("%s: %llu samples published, %llu refused\n", options.files.front().c_str(),

@@ -130,7 +130,7 @@ void write_file(const std::string& path, const Calibration& found, const std::st
   if (!file) throw Failure(ExitCode::runtime_failure, path + ": cannot be written, expected a writable path");
 }
 
-std::string text_of(const Calibration& found) {
+std::string calibration_text(const Calibration& found) {
   std::string text;
   std::array<char, 200> line{};
   const auto say = [&](const char* format, auto... values) {
@@ -185,7 +185,7 @@ std::string calibrate_hydro(const SolveRun& solve_run, const std::string& direct
   const Calibration found = estimation::hydro::calibrate(start, log.points());
   if (!found.failure.empty()) throw Failure(ExitCode::bad_input, directory + ": " + found.failure);
   write_file(out_file, found, solve_run.config->common.vehicle, directory);
-  return text_of(found);
+  return calibration_text(found);
 }
 
 }  // namespace fathom::cli

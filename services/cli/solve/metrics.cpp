@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "runtime/build_info.hpp"
 #include "samples/alignment/help.hpp"
 
@@ -15,8 +15,6 @@ namespace fathom::cli {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 json number(double value) {
   return std::isfinite(value) ? json(value) : json(nullptr);

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <string_view>
 #include <tuple>
 
+#include "base/units.hpp"
 #include "health/text.hpp"
 #include "samples/alignment/help.hpp"
 #include "samples/uncertainty.hpp"
@@ -22,7 +22,6 @@ using status::Judgement;
 using status::StatusView;
 using status::VerdictCounts;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNavFresh_s = 1.0;
 constexpr double kMonitorFresh_s = 3.0;
 constexpr double kServiceFresh_s = 3.0;
@@ -95,8 +94,8 @@ Shown shown_of(std::string_view name) {
     std::string_view name;
     double size;
   };
-  static constexpr std::array<Unit, 5> kUnits{{{"_rad_s", " deg/s", kDegree},
-                                               {"_rad", " deg", kDegree},
+  static constexpr std::array<Unit, 5> kUnits{{{"_rad_s", " deg/s", kRadPerDeg},
+                                               {"_rad", " deg", kRadPerDeg},
                                                {"_m_s2", " m/s2", 1.0},
                                                {"_m_s", " m/s", 1.0},
                                                {"_m", " m", 1.0}}};
@@ -168,8 +167,8 @@ class Table {
             .add("  " + number("%.1f", view_.nav_rate_hz) + " Hz  ")
             .add(number("%.2f", age_s) + " s old", age_s > kNavFresh_s ? Style::bad : Style::plain));
     put(row("position")
-            .add(number("%.7f", nav.latitude_rad / kDegree) + " deg N  " +
-                 number("%.7f", nav.longitude_rad / kDegree) + " deg E  altitude " +
+            .add(number("%.7f", nav.latitude_rad / kRadPerDeg) + " deg N  " +
+                 number("%.7f", nav.longitude_rad / kRadPerDeg) + " deg E  altitude " +
                  number("%.1f", nav.altitude_m) + " m  depth " + number("%.1f", nav.depth_m) + " m" +
                  (known(nav.altitude_above_bottom_m)
                       ? "  above bottom " + number("%.1f", nav.altitude_above_bottom_m) + " m"
@@ -182,10 +181,10 @@ class Table {
             .add("north " + number("%.2f", v[0]) + "  east " + number("%.2f", v[1]) + "  down " +
                  number("%.2f", v[2]) + " m/s"));
     put(row("attitude")
-            .add("roll " + number("%.1f", nav.rpy_rad[0] / kDegree) + "  pitch " +
-                 number("%.1f", nav.rpy_rad[1] / kDegree) + "  yaw " +
-                 number("%.1f", nav.rpy_rad[2] / kDegree) + " deg, +-" +
-                 number("%.2f", nav.rpy_sigma_rad[2] / kDegree) + " deg (1 sigma)"));
+            .add("roll " + number("%.1f", nav.rpy_rad[0] / kRadPerDeg) + "  pitch " +
+                 number("%.1f", nav.rpy_rad[1] / kRadPerDeg) + "  yaw " +
+                 number("%.1f", nav.rpy_rad[2] / kRadPerDeg) + " deg, +-" +
+                 number("%.2f", nav.rpy_sigma_rad[2] / kRadPerDeg) + " deg (1 sigma)"));
   }
 
   void alignment() {
@@ -205,8 +204,8 @@ class Table {
     put(line);
     if (known(sigma[0])) {
       put(row("  1 sigma")
-              .add("roll " + number("%.2f", sigma[0] / kDegree) + "  pitch " +
-                   number("%.2f", sigma[1] / kDegree) + "  yaw " + number("%.2f", sigma[2] / kDegree) +
+              .add("roll " + number("%.2f", sigma[0] / kRadPerDeg) + "  pitch " +
+                   number("%.2f", sigma[1] / kRadPerDeg) + "  yaw " + number("%.2f", sigma[2] / kRadPerDeg) +
                    " deg"));
     }
     if (aligned) return;

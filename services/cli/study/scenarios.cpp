@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "cli/study/device_path.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/scenario/scenario_config.hpp"
@@ -31,7 +32,6 @@ using study::Summary;
 
 constexpr std::string_view kMethod = "fusion";
 constexpr TimeNs kEpochNs = 1'700'000'000 * kNsPerSecond;
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kInside95 = 5.991464547107979;  // of chi-square with two degrees of freedom
 
 struct ScenarioCase {
@@ -152,8 +152,8 @@ void report(const std::vector<Kept>& kept, const dataset::TruthTrack& track, dou
   add("horizontal_rms", score.horizontal_m.rms);
   add("horizontal_max", score.horizontal_m.max);
   add("horizontal_end_error", score.horizontal_m.end);
-  add("roll_pitch_rms", std::max(score.rpy_rad[0].rms, score.rpy_rad[1].rms) / kDegree);
-  add("yaw_rms", score.rpy_rad[2].rms / kDegree);
+  add("roll_pitch_rms", std::max(score.rpy_rad[0].rms, score.rpy_rad[1].rms) / kRadPerDeg);
+  add("yaw_rms", score.rpy_rad[2].rms / kRadPerDeg);
   add("aligned", known(aligned_s) ? 1.0 : 0.0);
   add("time_to_aligned", aligned_s);
   add("nees_tilt", tilt);

@@ -2,12 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
+
+#include "base/units.hpp"
 
 namespace fathom::console {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 constexpr double kEarthM = 6371000.0;
 
 /// Components along the frame of the fix; from range and direction where it has none.
@@ -38,8 +38,8 @@ std::optional<FixRow> place_of(const GpsSample& sample) {
     return std::nullopt;
   FixRow row;
   row.utc_ns = sample.header.stamp_ns;
-  row.latitude_deg = sample.latitude_rad * kDegrees;
-  row.longitude_deg = sample.longitude_rad * kDegrees;
+  row.latitude_deg = sample.latitude_rad * kDegPerRad;
+  row.longitude_deg = sample.longitude_rad * kDegPerRad;
   row.sigma_m = sample.position_sigma_N_m[0];
   row.source = SourceKind::gps;
   row.sensor = sample.header.sensor;
@@ -50,8 +50,8 @@ std::optional<FixRow> place_of(const FixSample& sample) {
   if (!std::isfinite(sample.latitude_rad) || !std::isfinite(sample.longitude_rad)) return std::nullopt;
   FixRow row;
   row.utc_ns = sample.header.stamp_ns;
-  row.latitude_deg = sample.latitude_rad * kDegrees;
-  row.longitude_deg = sample.longitude_rad * kDegrees;
+  row.latitude_deg = sample.latitude_rad * kDegPerRad;
+  row.longitude_deg = sample.longitude_rad * kDegPerRad;
   row.sigma_m = sample.sigma_m;
   row.source = SourceKind::fix;
   row.sensor = sample.header.sensor;
@@ -78,8 +78,8 @@ std::optional<FixRow> place_of(const UsblSample& sample) {
     return std::nullopt;
   }
   if (!std::isfinite(latitude) || !std::isfinite(longitude)) return std::nullopt;
-  row.latitude_deg = latitude * kDegrees;
-  row.longitude_deg = longitude * kDegrees;
+  row.latitude_deg = latitude * kDegPerRad;
+  row.longitude_deg = longitude * kDegPerRad;
   return row;
 }
 

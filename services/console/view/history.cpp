@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "samples/uncertainty.hpp"
 
 namespace fathom::console {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
 // Between two ticks no more is kept than a slow tick could need: names and rates come from the network.
 constexpr std::size_t kMostFresh = 256;
 
@@ -68,16 +67,16 @@ NavRow nav_row(const NavState& state) {
   const auto& v = state.velocity_covariance_N_m2_s2;
   NavRow row;
   row.utc_ns = state.header.stamp_ns;
-  row.values = {state.latitude_rad * kDegrees,
-                state.longitude_rad * kDegrees,
+  row.values = {state.latitude_rad * kDegPerRad,
+                state.longitude_rad * kDegPerRad,
                 state.altitude_m,
                 state.depth_m,
                 state.velocity_N_m_s[0],
                 state.velocity_N_m_s[1],
                 state.velocity_N_m_s[2],
-                state.rpy_rad[0] * kDegrees,
-                state.rpy_rad[1] * kDegrees,
-                state.rpy_rad[2] * kDegrees,
+                state.rpy_rad[0] * kDegPerRad,
+                state.rpy_rad[1] * kDegPerRad,
+                state.rpy_rad[2] * kDegPerRad,
                 horizontal_95_m(p),
                 vertical_95_m(p),
                 sigma_of(p[0]),
@@ -86,9 +85,9 @@ NavRow nav_row(const NavState& state) {
                 sigma_of(v[0]),
                 sigma_of(v[4]),
                 sigma_of(v[8]),
-                state.rpy_sigma_rad[0] * kDegrees,
-                state.rpy_sigma_rad[1] * kDegrees,
-                state.rpy_sigma_rad[2] * kDegrees,
+                state.rpy_sigma_rad[0] * kDegPerRad,
+                state.rpy_sigma_rad[1] * kDegPerRad,
+                state.rpy_sigma_rad[2] * kDegPerRad,
                 state.gps_outage_s,
                 static_cast<double>(state.mode)};
   return row;

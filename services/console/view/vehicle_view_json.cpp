@@ -3,20 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string_view>
 
+#include "base/units.hpp"
 #include "console/view/rows.hpp"
 #include "status/json.hpp"
 
 namespace fathom::console {
 namespace {
 
-constexpr double kDegrees = 180.0 / std::numbers::pi;
-
 /// Longitude in [-180, 180] degrees, as the map wants it; unknown stays unknown.
 double wrapped_deg(double longitude_rad) {
-  return std::remainder(longitude_rad * kDegrees, 360.0);
+  return std::remainder(longitude_rad * kDegPerRad, 360.0);
 }
 
 void write(Rows& out, const NavRow& row) {
@@ -161,7 +159,7 @@ void write_services(Rows& out, const Tick& tick) {
 void write(Rows& out, const RouteWaypoint& point) {
   out.open('[');
   out.text(point.name.view());
-  out.number(point.latitude_rad * kDegrees, 10);
+  out.number(point.latitude_rad * kDegPerRad, 10);
   out.number(wrapped_deg(point.longitude_rad), 11);
   out.number(point.depth_m);
   out.number(point.speed_m_s);
@@ -190,7 +188,7 @@ void write_routes(Rows& out, const std::vector<RouteLine>& lines) {
     out.whole(route.mission_count);
     out.key("leg_start");
     out.open('[');
-    out.number(route.leg_start_latitude_rad * kDegrees, 10);
+    out.number(route.leg_start_latitude_rad * kDegPerRad, 10);
     out.number(wrapped_deg(route.leg_start_longitude_rad), 11);
     out.close(']');
     out.key("points");
@@ -213,7 +211,7 @@ void write_beacons(Rows& out, const std::vector<BeaconLine>& lines) {
     out.key("sensor");
     out.text(range.header.sensor.view());
     out.key("lat_deg");
-    out.number(range.beacon_latitude_rad * kDegrees, 10);
+    out.number(range.beacon_latitude_rad * kDegPerRad, 10);
     out.key("lon_deg");
     out.number(wrapped_deg(range.beacon_longitude_rad), 11);
     out.key("depth_m");

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "geo/so3.hpp"
 #include "sim/random.hpp"

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/units.hpp"
 #include "config/scenario/scenario_schema.hpp"
 
 namespace fathom::config {
-
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 // The fields that every sensor has, as members of the sensor's own struct.
 template <class T>

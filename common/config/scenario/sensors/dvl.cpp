@@ -9,7 +9,7 @@ void describe(Schema<sim::SimulatedSensor<DvlSample>>& s) {
   common_fields(s);
   s.field("beam_angle_deg", &C::beam_angle_rad, "of the beams from the instrument's down axis")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(5, 60);
   s.field("beam_sigma_m_s", &C::beam_sigma_m_s, "white error of each beam").unit("m/s").range(0, 10);
   s.field("beam_sigma_per_speed", &C::beam_sigma_per_speed, "and this share of the speed").range(0, 1);
@@ -20,11 +20,11 @@ void describe(Schema<sim::SimulatedSensor<DvlSample>>& s) {
       .range(0, 10);
   s.field("mounting_rpy_deg", &C::mounting_rpy_rad, "attitude of the instrument's axes in the body")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-180, 180);
   s.field("misalignment_sigma_deg", &C::misalignment_sigma_rad, "error of that, each axis, drawn once a run")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0, 20);
   s.field("minimum_range_m", &C::minimum_range_m, "height above the bottom").unit("m").range(0, 1e3);
   s.field("maximum_range_m", &C::maximum_range_m, "along a beam").unit("m").range(1, 1e4);

@@ -10,20 +10,20 @@ void describe(Schema<sim::GyroConfig>& s) {
   };
   field("bias_sigma_deg_h", &T::bias_sigma, "turn-on bias, drawn once a run")
       .unit("deg/h")
-      .scaled(kDegree / hour)
+      .scaled(kRadPerDeg / hour)
       .range(0, 1e5);
   field("instability_sigma_deg_h", &T::instability_sigma, "in-run bias, Gauss-Markov")
       .unit("deg/h")
-      .scaled(kDegree / hour)
+      .scaled(kRadPerDeg / hour)
       .range(0, 1e5);
   field("instability_tau_s", &T::instability_tau_s, "its correlation time").unit("s").range(0.1, 1e6);
   field("random_walk_deg_sqrt_h", &T::random_walk, "white noise")
       .unit("deg/sqrt(h)")
-      .scaled(kDegree / 60.0)
+      .scaled(kRadPerDeg / 60.0)
       .range(0, 100);
   field("vibration_deg_s", &T::vibration_sigma, "white noise of each sample")
       .unit("deg/s")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0, 100);
   field("scale_ppm", &T::scale_sigma, "scale error of each axis").unit("ppm").scaled(1e-6).range(0, 1e5);
   field("misalignment_mrad", &T::misalignment_sigma_rad, "each cross term")
@@ -33,7 +33,7 @@ void describe(Schema<sim::GyroConfig>& s) {
   field("quantum_rad", &T::quantum, "of an increment (of a rate where only rates are given)")
       .unit("rad")
       .range(0, 1);
-  field("range_deg_s", &T::range, "clip; 0: none").unit("deg/s").scaled(kDegree).range(0, 1e5);
+  field("range_deg_s", &T::range, "clip; 0: none").unit("deg/s").scaled(kRadPerDeg).range(0, 1e5);
 }
 
 void describe(Schema<sim::AccelerometerConfig>& s) {
@@ -75,7 +75,7 @@ void describe(Schema<sim::SimulatedSensor<ImuSample>>& s) {
   common_fields(s);
   s.field("mounting_rpy_deg", &sim::ImuConfig::mounting_rpy_rad, "attitude of the unit's axes in the body")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-180, 180);
   s.field("gyro", &sim::ImuConfig::gyro, "error model of the gyros");
   s.field("accelerometer", &sim::ImuConfig::accelerometer, "error model of the accelerometers");

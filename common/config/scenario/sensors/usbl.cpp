@@ -24,7 +24,7 @@ void describe(Schema<sim::SimulatedSensor<UsblSample>>& s) {
       .range(-50, 50);
   s.field("ship_rpy_deg", &C::ship_rpy_rad, "attitude of the ship")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(-360, 360);
   s.field("ship_sigma_m", &C::ship_sigma_m, "error of the ship's place as it is sent, each axis")
       .unit("m")
@@ -39,12 +39,12 @@ void describe(Schema<sim::SimulatedSensor<UsblSample>>& s) {
               {"inverted", C::Output::inverted}});
   s.field("angle_sigma_deg", &C::angle_sigma_rad, "error of a direction, across it")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0, 90);
   s.field("misalignment_sigma_deg", &C::misalignment_sigma_rad,
           "error of the transceiver's axes, each axis, drawn once a run")
       .unit("deg")
-      .scaled(kDegree)
+      .scaled(kRadPerDeg)
       .range(0, 20);
   s.check([](const C& usbl) -> std::pair<std::string, std::string> {
     const bool polar = usbl.output == C::Output::range_bearing || usbl.output == C::Output::inverted;

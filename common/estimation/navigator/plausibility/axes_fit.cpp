@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.hpp"
+
 namespace fathom::estimation {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kG_m_s2 = 9.80665;
 /// Of the mean force of a block: an acceleration of 0.2 m/s^2 that no speed tells of, as swell or a heave.
 constexpr double kShaken_rad = 0.02;
-constexpr double kShare = 0.3;  // of a turn: blocks are not instants
-constexpr double kMost_rad = 1.5;
-constexpr double kLongest_s = 8.0;
+constexpr double kTurnShare = 0.3;  // of a turn: blocks are not instants
+constexpr double kMostTurn_rad = 1.5;
+constexpr double kLongestTurn_s = 8.0;
 
 }  // namespace
 
@@ -31,18 +32,18 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
     const Vector3d as_configured = turned_down(turn, down_before_);
     const double gained_m_s = std::abs(speed_m_s - speed_before_m_s_);
     const double noise =
-        std::hypot(kShaken_rad, (speed_m_s * turn.norm() + gained_m_s) / (lasted_s_ * kG_m_s2));
+        std::hypot(kShaken_rad, (speed_m_s * turn.norm() + gained_m_s) / (lasted_s_ * kStandardGravity_m_s2));
     const double moved = (down - down_before_).norm();
     if (std::max(moved, (as_configured - down_before_).norm()) < kPairStandsOut * noise &&
-        lasted_s_ < kLongest_s && turn.norm() < kMost_rad) {
+        lasted_s_ < kLongestTurn_s && turn.norm() < kMostTurn_rad) {
       turn_rad_ += turn_rad;
       return;
     }
-    for (std::size_t i = 1; i < kAxesHypotheses && turn.norm() < kMost_rad; ++i) {
+    for (std::size_t i = 1; i < kAxesHypotheses && turn.norm() < kMostTurn_rad; ++i) {
       const Vector3d expected = turned_down(axes_hypothesis(i).M * turn, down_before_);
       const double apart = (expected - as_configured).norm();
       if (apart < kPairStandsOut * noise) continue;  // these two say the same
-      const double variance = noise * noise + std::pow(kShare * std::min(moved, apart), 2);
+      const double variance = noise * noise + std::pow(kTurnShare * std::min(moved, apart), 2);
       count_[i] = kPairsKept * count_[i] + 1.0;
       configured_[i] = kPairsKept * configured_[i] + (down - as_configured).squaredNorm() / variance;
       left_[i] = kPairsKept * left_[i] + (down - expected).squaredNorm() / variance;

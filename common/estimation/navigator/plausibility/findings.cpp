@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/units.hpp"
 #include "estimation/navigator/plausibility/plausibility.hpp"
 
 namespace fathom::estimation {
@@ -11,7 +12,6 @@ namespace {
 
 using Eigen::Matrix2d;
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr double kFoot_m = 0.3048;
 /// A likelihood ratio above c is seen once in c times where all is as configured, however often one looks
@@ -28,7 +28,7 @@ constexpr double kRateShare = 0.05;
 /// time is right with either.
 constexpr double kOtherRate = 0.15;
 /// Less may be a compass's deviation, or a current that nobody knows.
-constexpr double kLeastTurn_rad = 25.0 * kDegree;
+constexpr double kLeastTurn_rad = 25.0 * kRadPerDeg;
 
 const Proof kClaimed{.fewest = kFewestPairs, .most_left = 0.25, .claim = kClaim};
 /// Enough not to rely on a vehicle, and far from enough to accuse one.
@@ -57,8 +57,8 @@ struct Plausibility::Best {
   void hear_turns(const PairFit& fit, const Proof& proof) {
     hear(Implausible::gyro_negated, -1.0, fit.evidence(-1.0, proof));
     for (const double sign : {1.0, -1.0}) {
-      hear(Implausible::gyro_in_degrees, sign * kDegree, fit.evidence(sign * kDegree, proof));
-      hear(Implausible::gyro_too_slow, sign / kDegree, fit.evidence(sign / kDegree, proof));
+      hear(Implausible::gyro_in_degrees, sign * kRadPerDeg, fit.evidence(sign * kRadPerDeg, proof));
+      hear(Implausible::gyro_too_slow, sign / kRadPerDeg, fit.evidence(sign / kRadPerDeg, proof));
     }
   }
   void hear_track(const PairFit& fit, const Proof& proof) {
@@ -223,7 +223,7 @@ void write_sentence(const PlausibilityFinding& finding, double nominal_rate_hz, 
       return say(
           "Not plausible: DVL and GPS point apart: turn the DVL's mounting yaw by %+.0f deg, or check the "
           "compass.",
-          v / kDegree);
+          v / kRadPerDeg);
     case Implausible::dvl_mirrored:
       return say("%s", "Not plausible: DVL velocity is mirrored against GPS: negate its y axis.");
     case Implausible::depth_unit:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.hpp"
 #include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/heading.hpp"
 #include "geo/wgs84.hpp"
@@ -14,7 +15,6 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kG_m_s2 = 9.80665;
 constexpr double kDownMemory_s = 2.0;
 constexpr double kQuiet_rad_s = 0.35;
 constexpr double kAlong = 0.97;  // 14 degrees: a vehicle that stands on end has no heading
@@ -26,7 +26,7 @@ constexpr double kTogether_s = 0.3;
 constexpr double kSlowest_m_s = 0.5;
 constexpr double kCompassTurn = 0.2;  // of a turn, that tilt and deviation take or add
 constexpr double kCourseTurn = 0.4;   // and slip and bank
-constexpr double kShare = 0.15;       // of a way or a speed: scale, lever, the curve between two readings
+constexpr double kWayShare = 0.15;    // of a way or a speed: scale, lever, the curve between two readings
 constexpr double kLever_m_s = 0.1;    // that a lever adds in a turn
 constexpr double kAntenna_m = 0.5;    // and one that is not where it is said to be
 constexpr double kStandsOut = 5.0;
@@ -96,8 +96,8 @@ void Plausibility::feel(const Setup& setup, double dt_s, const Vector3d& force_B
   const Vector3d mean = felt_m_s_ / felt_s_;
   const double length = mean.norm();
   const bool falls = setup.config.alignment.mode == StartMode::air_drop;
-  const double spread =
-      0.1 + 3.0 * (setup.config.imu.accel_bias_sigma_m_s2 / kG_m_s2 + setup.config.imu.accel_scale_sigma);
+  const double spread = 0.1 + 3.0 * (setup.config.imu.accel_bias_sigma_m_s2 / kStandardGravity_m_s2 +
+                                     setup.config.imu.accel_scale_sigma);
   const bool in_g = !falls && std::abs(length - 1.0) < spread;
   const bool quiet = felt_rate_rad_s_ < kQuiet_rad_s;
   const bool stands = !falls && quiet && length > 0.5;
@@ -170,7 +170,7 @@ void Plausibility::take(const SensorConfig& config, const DepthSample& depth, Ti
   if (lasted_s <= kLongestPair_s && runs) {
     const double noise = std::hypot(1.4 * config.sigma[0], kTilt_rad * depth_.path_m);
     if (!stands_out(depth_.way_m, depth.depth_m - depth_.depth_m, noise)) return;
-    depth_.fit.add(depth_.way_m, depth.depth_m - depth_.depth_m, noise, kShare);
+    depth_.fit.add(depth_.way_m, depth.depth_m - depth_.depth_m, noise, kWayShare);
   }
   depth_.from_ns = now_ns;
   depth_.depth_m = depth.depth_m;
@@ -193,7 +193,7 @@ void Plausibility::follow(const SensorConfig& config, const GpsSample& gps, cons
                                            {gps.latitude_rad, gps.longitude_rad, 0.0})
                              .head<2>();
     if (lasted_s < 2.0 * kPair_s || std::max(way.norm(), track_.way_m.norm()) < kStandsOut * noise_m) return;
-    track_.fit.add(track_.way_m, way, noise_m, kShare);
+    track_.fit.add(track_.way_m, way, noise_m, kWayShare);
   }
   track_.from_ns = now_ns;
   track_.latitude_rad = gps.latitude_rad;
@@ -231,12 +231,12 @@ void Plausibility::take(const Setup& setup, const SensorConfig& config, const Gp
   if (dvl_ns_ == 0 || to_seconds(now_ns - dvl_ns_) > kTogether_s) return;
   const Vector2d d = dvl_velocity_B_m_s_.head<2>();
   const double noise = std::hypot(noise_m_s, kLever_m_s);
-  speed_.add(d.norm(), speed, noise, kShare);
+  speed_.add(d.norm(), speed, noise, kWayShare);
   if (heading_ns_ == 0 || to_seconds(now_ns - heading_ns_) > kTogether_s) return;
   const double c = std::cos(heading_rad_);
   const double s = std::sin(heading_rad_);
-  ground_.add(Vector2d(c * d.x() - s * d.y(), s * d.x() + c * d.y()), v, noise, kShare);
-  mirror_.add(Vector2d(c * d.x() + s * d.y(), s * d.x() - c * d.y()), v, noise, kShare);
+  ground_.add(Vector2d(c * d.x() - s * d.y(), s * d.x() + c * d.y()), v, noise, kWayShare);
+  mirror_.add(Vector2d(c * d.x() + s * d.y(), s * d.x() - c * d.y()), v, noise, kWayShare);
 }
 
 }  // namespace fathom::estimation

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "base/standard_gravity.hpp"
+#include "base/units.hpp"
 #include "estimation/navigator/plausibility/pair_fit.hpp"
 #include "geo/so3.hpp"
 
@@ -17,12 +17,12 @@ using Eigen::Vector3d;
 
 /// Longer than springs swing, shorter than a hill.
 constexpr double kBlock_s = 1.5;
-constexpr double kLongest_s = 3.0;
+constexpr double kLongestTilt_s = 3.0;
 constexpr double kFloor_rad = 0.005;  // 0.05 m/s^2 that no velocity tells of
-constexpr double kShare = 0.2;        // of what is taken off, and of what turns within a block
-constexpr double kMost_rad = 1.0;
+constexpr double kTiltShare = 0.2;    // of what is taken off, and of what turns within a block
+constexpr double kMostTilt_rad = 1.0;
 constexpr double kMost_m_s = 1e4;
-constexpr double kStandsOut = 2.0;
+constexpr double kTiltStandsOut = 2.0;
 /// A block is no more than this for or against anything, and its square no more than that of three sigmas:
 /// one that a kerb or a bad velocity made says little.
 constexpr double kMostOfABlock = 1.5;
@@ -47,8 +47,8 @@ void TiltFit::interrupt() {
 
 void TiltFit::measured(const Velocity& velocity) {
   if (has_velocity_ && lasted_s_ < kBlock_s) return;
-  const bool sound = turn_rad_.norm() < kMost_rad && dv_m_s_.norm() < kMost_m_s;
-  if (has_velocity_ && lasted_s_ < kLongest_s && sound) {
+  const bool sound = turn_rad_.norm() < kMostTilt_rad && dv_m_s_.norm() < kMost_m_s;
+  if (has_velocity_ && lasted_s_ < kLongestTilt_s && sound) {
     // The body in the middle of the block, seen from its end.
     const geo::Quaternion q_NM = velocity.q_NB * geo::exp(-0.5 * turn_rad_);
     const Block now{
@@ -70,7 +70,8 @@ void TiltFit::measured(const Velocity& velocity) {
 
 void TiltFit::follow(const Block& now, double noise_rad) {
   const double taken_off = now.acceleration_B_m_s2.norm() / kStandardGravity_m_s2;
-  const double variance = kFloor_rad * kFloor_rad + noise_rad * noise_rad + std::pow(kShare * taken_off, 2);
+  const double variance =
+      kFloor_rad * kFloor_rad + noise_rad * noise_rad + std::pow(kTiltShare * taken_off, 2);
   const auto down = [&](std::size_t i) {
     const Matrix3d& A = axes_hypothesis(i).A;
     return Vector3d((now.acceleration_B_m_s2 - A * now.force_B_m_s2).normalized());
@@ -79,7 +80,7 @@ void TiltFit::follow(const Block& now, double noise_rad) {
     // From the middle of one block to that of the other.
     const Vector3d turn = 0.5 * (turn_before_rad_ + now.turn_rad);
     const double tilted_rad = turn.cross(down_B_[0]).norm();
-    variance_ += kFloor_rad * kFloor_rad + std::pow(kShare * tilted_rad, 2);
+    variance_ += kFloor_rad * kFloor_rad + std::pow(kTiltShare * tilted_rad, 2);
     const double gain = variance_ / (variance_ + variance);
     std::array<double, kSeries> squares;
     for (std::size_t i = 0; i < kSeries; ++i) {
@@ -93,7 +94,7 @@ void TiltFit::follow(const Block& now, double noise_rad) {
       down_B_[i] = (expected + gain * innovation).normalized();
     }
     variance_ *= 1.0 - gain;
-    if (std::max(tilted_rad, taken_off) >= kStandsOut * kFloor_rad) judge(squares);
+    if (std::max(tilted_rad, taken_off) >= kTiltStandsOut * kFloor_rad) judge(squares);
   } else {
     for (std::size_t i = 0; i < kSeries; ++i) down_B_[i] = down(i == kNothing ? 0 : i);
     variance_ = variance;

@@ -2,10 +2,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "cli/solve/compare/compare.hpp"
 #include "dataset/csv_writer.hpp"
 
@@ -16,7 +16,6 @@ using Json = nlohmann::ordered_json;
 using report::ComparedSolution;
 using report::Comparison;
 
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 constexpr std::size_t kMostRuns = 15;          // on the terminal
 constexpr std::size_t kMostChanges = 100'000;  // in JSON
 
