@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "explain/watch/watches.hpp"
 
@@ -17,13 +18,18 @@ void second_writers(const History& history, const Stream& stream, Findings& out)
   std::map<std::uint32_t, std::uint64_t> samples;  // by writer, in shared seconds
   std::vector<TimeNs> shared;
   std::map<std::uint32_t, TimeNs> since;
-  for (std::size_t i = 0; i < stream.seconds.size(); ++i) {
-    const Second& one = stream.seconds[i];
+  // Whoever tells a position by hand is a process of its own each time, and gone.
+  std::map<std::uint32_t, std::size_t> seconds_of;
+  for (const Second& one : stream.seconds) ++seconds_of[one.writer];
+  const Second* before = nullptr;
+  for (const Second& one : stream.seconds) {
+    if (seconds_of[one.writer] < kTogether) continue;
     since.try_emplace(one.writer, one.at_ns);
-    if (i == 0 || stream.seconds[i - 1].at_ns != one.at_ns) continue;
+    const Second* last = std::exchange(before, &one);
+    if (last == nullptr || last->at_ns != one.at_ns) continue;
     if (shared.empty() || shared.back() != one.at_ns) {
       shared.push_back(one.at_ns);
-      samples[stream.seconds[i - 1].writer] += stream.seconds[i - 1].count;
+      samples[last->writer] += last->count;
     }
     samples[one.writer] += one.count;
   }

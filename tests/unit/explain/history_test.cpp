@@ -1,6 +1,10 @@
 // The rows of a history, and what is asked of them, by hand and at random.
 
+#include <algorithm>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +12,7 @@
 #include "cli/explain/read.hpp"
 #include "explain/account.hpp"
 #include "explain/sentence.hpp"
+#include "explain/watch/watches.hpp"
 
 namespace fathom::test {
 namespace {
@@ -88,6 +93,32 @@ TEST(History, OnlyTheSpanIsKept) {
 
 TEST(Findings, NothingIsFoundInNothing) {
   EXPECT_TRUE(explain::findings(History{}).empty());
+}
+
+/// How many second writers are found where each of these gives a fix ten times in a second, for so long.
+std::size_t second_writers(const std::vector<std::pair<double, double>>& spans_s) {
+  History history;
+  std::size_t number = 0;
+  std::vector<std::pair<double, std::string>> told;
+  for (const auto& [from_s, to_s] : spans_s) {
+    const std::string writer = "fathom_fix_" + std::to_string(++number);
+    for (int i = 0; from_s + 0.1 * i < to_s; ++i) told.emplace_back(from_s + 0.1 * i, writer);
+  }
+  std::sort(told.begin(), told.end());
+  for (const auto& [t_s, writer] : told)
+    history.add(at<FixSample>(t_s, "operator"),
+                {kStart_ns + from_seconds(t_s), writer, "010f0000000000000000" + writer.substr(11)});
+  explain::Findings out;
+  explain::watch_writers(history, out);
+  return static_cast<std::size_t>(std::count_if(
+      out.begin(), out.end(), [](const auto& one) { return one.kind == explain::Kind::second_writer; }));
+}
+
+TEST(Findings, WhoTellsAPositionByHandAgainAndAgainIsNoSecondWriter) {
+  std::vector<std::pair<double, double>> orders;
+  for (int i = 0; i < 12; ++i) orders.emplace_back(0.4 * i, 0.4 * i + 0.2);
+  EXPECT_EQ(second_writers(orders), 0U);
+  EXPECT_EQ(second_writers({{0.0, 20.0}, {5.0, 15.0}}), 1U);
 }
 
 TEST(Around, TellsWhatWasUsedInTheLastTenSeconds) {
