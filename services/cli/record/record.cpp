@@ -19,6 +19,7 @@
 #include "cli/command.hpp"
 #include "cli/recording.hpp"
 #include "config/vehicle/catalogue.hpp"
+#include "record/reader.hpp"
 #include "record/recover.hpp"
 #include "runtime/build_info.hpp"
 
@@ -37,11 +38,25 @@ struct RecordOptions {
 
 volatile std::sig_atomic_t recording_stopped = 0;
 
+/// Says what of a closed file cannot be read, which is an error.
+void check(const std::string& path) {
+  auto reader = record::Reader::open(path);
+  if (!reader) throw Failure(ExitCode::bad_input, reader.error().message);
+  const record::Outcome found = reader.value().check();
+  if (found.problems.empty()) return;
+  for (const std::string& problem : found.problems) std::printf("  %s\n", problem.c_str());
+  throw Failure(ExitCode::bad_input, path + ": is closed but damaged: " + std::to_string(found.messages) +
+                                         " of " +
+                                         std::to_string(reader.value().contents().statistics.message_count) +
+                                         " messages can be read; what is damaged was left as it is");
+}
+
 void recover(const std::string& path) {
   const auto recovery = record::recover(path);
   if (!recovery) throw Failure(ExitCode::bad_input, recovery.error().message);
   const record::Recovery& one = recovery.value();
   if (one.was_whole) {
+    check(path);
     std::printf("%s: is whole, %llu messages\n", path.c_str(), static_cast<unsigned long long>(one.messages));
     return;
   }
@@ -49,6 +64,7 @@ void recover(const std::string& path) {
               path.c_str(), static_cast<unsigned long long>(one.messages),
               static_cast<unsigned long long>(one.cut), one.ending.c_str(),
               one.rest.empty() ? "" : ", kept in ", one.rest.c_str());
+  check(path);
 }
 
 std::string default_name(TimeNs now_ns) {

@@ -242,6 +242,17 @@ TEST(RecordCommand, RecordsForAWhileAndRecovers) {
   const Recorded after = read(file);
   EXPECT_TRUE(after.problems.empty());
   EXPECT_GT(after.imu.size(), 50U);
+  // Closed, and a byte of its first chunk is another one.
+  {
+    std::fstream bytes(file, std::ios::binary | std::ios::in | std::ios::out);
+    bytes.seekg(2'000);
+    const char other = static_cast<char>(bytes.peek() ^ 0x20);
+    bytes.seekp(2'000);
+    bytes.put(other);
+  }
+  Process damaged("fathom", {"record", "--recover", file});
+  EXPECT_EQ(damaged.wait(), 3) << damaged.out();
+  EXPECT_NE(damaged.err().find("is closed but damaged"), std::string::npos) << damaged.err();
 }
 
 TEST(RecordCommand, EndsWithFourWhereTheDiskDoesNotTakeEverything) {
