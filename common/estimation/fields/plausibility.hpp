@@ -28,6 +28,13 @@ void AxesFit::fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+void AxesFit::later_fields(Archive& archive, Self& self) {
+  archive("degrees_count", self.degrees_.count, fathom::archive::at_least_zero());
+  archive("degrees_configured", self.degrees_.configured, fathom::archive::at_least_zero());
+  archive("degrees_left", self.degrees_.left, fathom::archive::at_least_zero());
+}
+
+template <class Archive, class Self>
 void TiltFit::fields(Archive& archive, Self& self) {
   archive("has_velocity", self.has_velocity_);
   archive("has_down", self.has_down_);
@@ -47,7 +54,7 @@ void TiltFit::fields(Archive& archive, Self& self) {
 template <class Archive, class Self>
 requires std::is_same_v<std::remove_const_t<Self>, PlausibilityFinding>
 void fields(Archive& archive, Self& self) {
-  archive("kind", self.kind, Implausible::depth_upwards);
+  archive("kind", self.kind, Implausible::gps_place_unit);
   archive("value", self.value, fathom::archive::finite());
 }
 
@@ -105,6 +112,7 @@ void Plausibility::fields(Archive& archive, Self& self) {
 template <class Archive, class Self>
 void Plausibility::later_fields(Archive& archive, Self& self) {
   archive("tilts", self.tilts_);
+  if (archive.since(11)) AxesFit::later_fields(archive, self.axes_);
 }
 
 }  // namespace fathom::estimation

@@ -52,6 +52,9 @@ constexpr std::array kBlames{
     std::pair{std::string_view("dvl_mirrored"), Blame{SourceKind::dvl, "axes"}},
     std::pair{std::string_view("depth_unit"), Blame{SourceKind::depth, "unit"}},
     std::pair{std::string_view("depth_upwards"), Blame{SourceKind::depth, "sign"}},
+    std::pair{std::string_view("heading_unit"), Blame{SourceKind::heading, "unit"}},
+    std::pair{std::string_view("heading_negated"), Blame{SourceKind::heading, "sign"}},
+    std::pair{std::string_view("gps_place_unit"), Blame{SourceKind::gps, "unit"}},
 };
 
 }  // namespace

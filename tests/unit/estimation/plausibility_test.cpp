@@ -71,6 +71,7 @@ EngineConfig config() {
 }
 
 struct Outcome {
+  std::string first_named;
   std::string named;  ///< the last of what was found implausible
   std::string advice;
   double named_at_s = kUnknown;
@@ -91,7 +92,10 @@ Outcome run(const sim::Scenario& scenario, std::uint64_t seed, const test::Sampl
     engine.fill(status);
     out.phase = status.phase;
     if (const AlignmentCondition* found = implausible(status)) {
-      if (out.named.empty()) out.named_at_s = t;
+      if (out.named.empty()) {
+        out.named_at_s = t;
+        out.first_named = std::string(found->name.view());
+      }
       out.named = std::string(found->name.view());
       out.advice = status.advice.data();
       EXPECT_NE(status.phase, AlignmentPhase::aligned) << out.named;
@@ -144,6 +148,14 @@ std::vector<Mistake> mistakes() {
          std::swap(s.velocity_N_m_s[0], s.velocity_N_m_s[1]);
          s.velocity_N_m_s[2] *= -1.0;
        })},
+      {"implausible_heading_unit", "57.29", false,
+       change_of<HeadingSample>([](auto& s) { s.heading_rad *= kDeg; })},
+      {"implausible_heading_negated", "clockwise", false,
+       change_of<HeadingSample>([](auto& s) { s.heading_rad = 2.0 * M_PI - s.heading_rad; })},
+      {"implausible_gps_place_unit", "57.29", false, change_of<GpsSample>([](auto& s) {
+         s.latitude_rad *= kDeg;
+         s.longitude_rad *= kDeg;
+       })},
       {"implausible_imu_rate", "110.0 Hz", false, change_of<ImuSample>([](auto& s) {
          const TimeNs first = test::kDriveEpoch_ns;
          s.header.stamp_ns = first + (s.header.stamp_ns - first) * 10 / 11;
@@ -155,6 +167,7 @@ TEST(Plausibility, NamesTheGrossMistakesWithinAMinuteAndTakesTheAlignmentBack) {
   for (const Mistake& mistake : mistakes()) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
       const Outcome found = run(scenario(mistake.dives), seed, mistake.change);
+      EXPECT_EQ(found.first_named, mistake.name) << "seed " << seed;
       EXPECT_EQ(found.named, mistake.name) << "seed " << seed;
       EXPECT_NE(found.advice.find(mistake.words), std::string::npos) << mistake.name << ": " << found.advice;
       EXPECT_NE(found.phase, AlignmentPhase::aligned) << mistake.name;

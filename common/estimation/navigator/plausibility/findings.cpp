@@ -16,7 +16,7 @@ constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr double kFoot_m = 0.3048;
 /// A likelihood ratio above c is seen once in c times where all is as configured, however often one looks
 /// (Ville); of all explanations together once in ten thousand.
-constexpr double kExplanations = 54.0;
+constexpr double kExplanations = 58.0;
 constexpr double kFalseAlarms = 1e-4;
 const double kClaim = std::log(kExplanations / kFalseAlarms);
 constexpr double kHeld_s = 4.5;
@@ -33,6 +33,8 @@ constexpr double kLeastTurn_rad = 25.0 * kRadPerDeg;
 const Proof kClaimed{.fewest = kFewestPairs, .most_left = 0.25, .claim = kClaim};
 /// Enough not to rely on a vehicle, and far from enough to accuse one.
 constexpr Proof kDoubted{.fewest = 1.0, .most_left = 0.25, .claim = 0.0};
+/// Of what a compass says against a gyro, while the course may yet say that it is the compass.
+constexpr double kUntilCourseSpeaks = 0.5;
 /// What was claimed once stays until the configuration explains as much.
 constexpr Proof kStanding{.fewest = kFewestPairs, .most_left = 1.0, .claim = 0.0};
 
@@ -54,14 +56,26 @@ struct Plausibility::Best {
     evidence = evidence_for_it;
     finding = {kind, value};
   }
-  void hear_turns(const PairFit& fit, const Proof& proof) {
-    hear(Implausible::gyro_negated, -1.0, fit.evidence(-1.0, proof));
+  /// `share`: of the evidence that counts.
+  void hear_turns(const PairFit& fit, const Proof& proof, double share = 1.0) {
+    hear(Implausible::gyro_negated, -1.0, share * fit.evidence(-1.0, proof));
     for (const double sign : {1.0, -1.0}) {
-      hear(Implausible::gyro_in_degrees, sign * kRadPerDeg, fit.evidence(sign * kRadPerDeg, proof));
-      hear(Implausible::gyro_too_slow, sign / kRadPerDeg, fit.evidence(sign / kRadPerDeg, proof));
+      hear(Implausible::gyro_in_degrees, sign * kRadPerDeg, share * fit.evidence(sign * kRadPerDeg, proof));
+      hear(Implausible::gyro_too_slow, sign / kRadPerDeg, share * fit.evidence(sign / kRadPerDeg, proof));
     }
   }
-  void hear_track(const PairFit& fit, const Proof& proof) {
+  void hear_headings(const PairFit& fit, const Proof& proof) {
+    hear(Implausible::heading_negated, -1.0, fit.evidence(-1.0, proof));
+    hear(Implausible::heading_unit, kDegPerRad, fit.evidence(kRadPerDeg, proof));
+  }
+  void hear_track(const PairFit& fit, double latitude_rad, const Proof& proof) {
+    // Where it would be with radians for degrees: the way east is another one there.
+    const double there_rad = latitude_rad * kDegPerRad;
+    if (std::abs(there_rad) < 1.57) {
+      const double east = std::cos(latitude_rad) / std::cos(there_rad);
+      hear(Implausible::gps_place_unit, kDegPerRad,
+           fit.evidence(matrix(kRadPerDeg, 0.0, 0.0, kRadPerDeg * east), proof));
+    }
     for (const double factor : {kKnot_m_s, 1.0 / 3.6, 1e-2, 1e-3})
       hear(Implausible::gps_unit, factor, fit.evidence(factor, proof));
     hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(0, 1, 1, 0), proof));
@@ -91,9 +105,10 @@ struct Plausibility::Best {
 
 std::string_view to_string(Implausible kind) {
   static constexpr std::array<std::string_view, kImplausibles> kNames{
-      "none",         "force_in_g", "force_downwards", "force_along_x", "force_along_y", "imu_rate",
-      "gyro_negated", "gyro_axes",  "gyro_in_degrees", "gyro_too_slow", "gps_axes",      "gps_unit",
-      "dvl_unit",     "dvl_turned", "dvl_mirrored",    "depth_unit",    "depth_upwards"};
+      "none",       "force_in_g",    "force_downwards", "force_along_x",   "force_along_y",
+      "imu_rate",   "gyro_negated",  "gyro_axes",       "gyro_in_degrees", "gyro_too_slow",
+      "gps_axes",   "gps_unit",      "dvl_unit",        "dvl_turned",      "dvl_mirrored",
+      "depth_unit", "depth_upwards", "heading_unit",    "heading_negated", "gps_place_unit"};
   return kNames[std::min(static_cast<std::size_t>(kind), kImplausibles - 1)];
 }
 
@@ -121,15 +136,22 @@ double Plausibility::off(const Setup& setup, double count) const {
 }
 
 void Plausibility::explain(const Proof& proof, const OtherAxes& by_tilts, Best& best) const {
-  best.hear_turns(compass_.fit, proof);
-  best.hear_turns(course_.fit, proof);
+  // A gyro that goes along with one of the two is not what the other one speaks against.
+  if (course_.fit.agrees()) {
+    best.hear_headings(compass_.fit, proof);
+  } else if (course_.fit.is_empty() || course_.fit.refutes()) {
+    const bool waits = course_.from_ns != 0 && course_.fit.is_empty();
+    best.hear_turns(compass_.fit, proof, waits ? kUntilCourseSpeaks : 1.0);
+  }
+  if (!compass_.fit.agrees()) best.hear_turns(course_.fit, proof);
+  best.hear(Implausible::gyro_in_degrees, kRadPerDeg, axes_.in_degrees(proof));
   for (const OtherAxes other : {axes_.other(proof), by_tilts})
     best.hear(Implausible::gyro_axes, static_cast<double>(other.number), other.evidence);
-  best.hear_track(track_.fit, proof);
+  best.hear_track(track_.fit, track_.latitude_rad, proof);
   // Only a GPS velocity that goes along its positions can speak against a DVL.
   if (!best.finding && track_.fit.agrees()) {
     best.hear_speed(speed_, proof);
-    best.hear_ground(ground_, mirror_, proof);
+    if (!compass_.fit.refutes()) best.hear_ground(ground_, mirror_, proof);
   }
   // And only a DVL that goes along with GPS, where there is one, against a depth.
   const bool vouched = (speed_.is_empty() || speed_.agrees()) && (ground_.is_empty() || ground_.agrees());
@@ -231,6 +253,16 @@ void write_sentence(const PlausibilityFinding& finding, double nominal_rate_hz, 
     case Implausible::depth_upwards:
       return say("%s",
                  "Not plausible: depth falls as the DVL goes down: negate the depth, or the DVL's z axis.");
+    case Implausible::heading_unit:
+      return say(
+          "Not plausible: heading turns 57 times less than gyro and course: radians? Multiply it by %.4f.",
+          v);
+    case Implausible::heading_negated:
+      return say("%s",
+                 "Not plausible: heading turns against gyro and course: clockwise is expected, negate it.");
+    case Implausible::gps_place_unit:
+      return say(
+          "Not plausible: GPS positions go 57 times less far than its velocity: multiply them by %.4f.", v);
   }
 }
 

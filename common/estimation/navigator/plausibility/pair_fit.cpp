@@ -57,6 +57,11 @@ bool PairFit::agrees() const {
          left_over(Eigen::Matrix2d::Identity()) <= chi_square_mean(count_, kAgreesSigmas) * expected_;
 }
 
+bool PairFit::refutes() const {
+  return count_ >= 1.0 &&
+         left_over(Eigen::Matrix2d::Identity()) > chi_square_mean(count_, kRefutedSigmas) * expected_;
+}
+
 double PairFit::evidence_of(double left_over, const Proof& proof) const {
   if (count_ < proof.fewest) return 0.0;
   return evidence_for_other(count_, expected_, this->left_over(Eigen::Matrix2d::Identity()), left_over,

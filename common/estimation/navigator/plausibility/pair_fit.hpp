@@ -55,6 +55,8 @@ class PairFit {
   [[nodiscard]] double evidence_of(double left_over, const Proof& proof) const;
   /// Enough was added, and it is as expected: only then can the figures speak against a third one.
   [[nodiscard]] bool agrees() const;
+  /// What is configured is refuted, by however few.
+  [[nodiscard]] bool refutes() const;
   [[nodiscard]] bool is_empty() const { return count_ <= 0.0; }
 
   /// For archives: see fields/plausibility.hpp.

@@ -34,8 +34,11 @@ enum class Implausible : std::uint8_t {
   dvl_mirrored,
   depth_unit,  ///< does not change as the vehicle goes down
   depth_upwards,
+  heading_unit,     ///< turns 57 times less than gyro and course: radians taken for degrees
+  heading_negated,  ///< turns against gyro and course
+  gps_place_unit,   ///< its positions go 57 times less far than its velocity: radians taken for degrees
 };
-inline constexpr std::size_t kImplausibles = static_cast<std::size_t>(Implausible::depth_upwards) + 1;
+inline constexpr std::size_t kImplausibles = static_cast<std::size_t>(Implausible::gps_place_unit) + 1;
 [[nodiscard]] std::string_view to_string(Implausible kind);
 
 /// `value`: the factor that what is measured has to be multiplied by, the angle it has to be turned by (rad),
