@@ -70,6 +70,7 @@ void fields(Archive& archive, Self& self) {
   if (!archive.since(11)) return;
   archive("agrees_since_ns", self.agrees_since_ns, fathom::archive::kInstant);
   archive("first_travelled_N_m", self.first_travelled_N_m, fathom::archive::finite());
+  archive("normalised_square", self.normalised_square, fathom::archive::at_least_zero());
 }
 
 template <class Archive, class Self>

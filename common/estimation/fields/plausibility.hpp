@@ -28,13 +28,6 @@ void AxesFit::fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
-void AxesFit::later_fields(Archive& archive, Self& self) {
-  archive("degrees_count", self.degrees_.count, fathom::archive::at_least_zero());
-  archive("degrees_configured", self.degrees_.configured, fathom::archive::at_least_zero());
-  archive("degrees_left", self.degrees_.left, fathom::archive::at_least_zero());
-}
-
-template <class Archive, class Self>
 void TiltFit::fields(Archive& archive, Self& self) {
   archive("has_velocity", self.has_velocity_);
   archive("has_down", self.has_down_);
@@ -112,7 +105,6 @@ void Plausibility::fields(Archive& archive, Self& self) {
 template <class Archive, class Self>
 void Plausibility::later_fields(Archive& archive, Self& self) {
   archive("tilts", self.tilts_);
-  if (archive.since(11)) AxesFit::later_fields(archive, self.axes_);
 }
 
 }  // namespace fathom::estimation

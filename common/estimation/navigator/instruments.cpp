@@ -16,6 +16,11 @@ bool same(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return any;
 }
 
+/// Of the variance that is expected: what a simulator without noise leaves, that may well repeat itself, is
+/// less, and what an instrument leaves whose sigma is said eight times too large is more.
+constexpr double kLeastNoise = 0.015;
+constexpr double kForgets = 0.05;
+
 }  // namespace
 
 Instruments::Instruments(const Setup& setup)
@@ -26,16 +31,22 @@ Instruments::Instruments(const Setup& setup)
   }
 }
 
+void Instrument::note_innovation(double now) {
+  if (!repeats && std::isfinite(now)) normalised_square += kForgets * (now - normalised_square);
+}
+
 bool Instrument::is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction, double limit,
                            const Eigen::Vector3d& travelled_N_m, double way_m) {
-  if (!same(now, reading)) {
+  repeats = same(now, reading);
+  if (!repeats) {
     reading = now;
     first_prediction = prediction;
     first_travelled_N_m = travelled_N_m;
     return false;
   }
+  const bool noisy = normalised_square > kLeastNoise;
   return (prediction - first_prediction).norm() > limit ||
-         (travelled_N_m - first_travelled_N_m).norm() > way_m;
+         (noisy && (travelled_N_m - first_travelled_N_m).norm() > way_m);
 }
 
 }  // namespace fathom::estimation

@@ -18,7 +18,9 @@ struct Instrument {
   std::array<double, 3> reading{kUnknown, kUnknown, kUnknown};
   Eigen::Vector3d first_prediction = Eigen::Vector3d::Zero();
   Eigen::Vector3d first_travelled_N_m = Eigen::Vector3d::Zero();
-  bool repeats = false;  ///< asked by nobody: a field of the archives
+  bool repeats = false;  ///< the last reading was that of before, to the last bit
+  /// Mean of its squared innovations over their variances, while readings change; 0 before the first.
+  double normalised_square = 0.0;
   // Rejections that agree with each other.
   struct Rejections {
     TimeNs since_ns = 0;
@@ -44,6 +46,8 @@ struct Instrument {
   /// vehicle by more than `way_m`; infinite: that says nothing. Notes a new reading.
   [[nodiscard]] bool is_frozen(const std::array<double, 3>& now, const Eigen::Vector3d& prediction,
                                double limit, const Eigen::Vector3d& travelled_N_m, double way_m);
+  /// A measurement was used; `now`: its squared innovation over the variance, of one component.
+  void note_innovation(double now);
   /// Visits each instant that is remembered.
   template <class Self, class Visit>
   static void for_each_instant(Self& self, Visit&& visit) {

@@ -256,6 +256,8 @@ void Navigator::account(Trial& trial) {
     reacquisition_.note_step(-Vector3d(trial.x[0], trial.x[1], trial.x[2]), &trial.whole, estimate_);
   trial.instrument.stamp_ns = trial.instant_ns;
   trial.instrument.used_ns = estimate_.now_ns;
+  if (trial.kept->rows > 0)
+    trial.instrument.note_innovation(trial.statistics.squared_distance / trial.kept->rows);
   if (trial.instrument.agrees_since_ns == 0) trial.instrument.agrees_since_ns = estimate_.now_ns;
   trial.instrument.candidate = {};
   usage_.note(trial.policy, trial.with_position, estimate_.now_ns);

@@ -148,7 +148,13 @@ TEST(InstrumentMemory, AReadingIsFrozenThatStandsStillWhileThePredictionMoves) {
   EXPECT_FALSE(frozen(reading, 0.9, 0.0));
   EXPECT_TRUE(frozen(reading, 1.1, 0.0));
   EXPECT_FALSE(frozen({1.0, 2.0 + 1e-12, kUnknown}, 1.1, 0.0));
-  // Or while the vehicle travels, where no live instrument repeats itself.
+  // Or while the vehicle travels, where no live instrument repeats itself; a simulator without noise may.
+  EXPECT_FALSE(frozen(reading, 0.0, 0.0, 5.0));
+  EXPECT_FALSE(frozen(reading, 0.0, 99.0, 5.0));
+  for (int i = 0; i < 20; ++i) {
+    (void)frozen({0.01 * i, 0.0, 0.0}, 0.0, 0.0);
+    instrument.note_innovation(1.0);
+  }
   EXPECT_FALSE(frozen(reading, 0.0, 100.0, 5.0));
   EXPECT_FALSE(frozen(reading, 0.0, 104.0, 5.0));
   EXPECT_TRUE(frozen(reading, 0.0, 106.0, 5.0));

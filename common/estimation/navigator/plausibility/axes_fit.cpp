@@ -39,19 +39,14 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
       turn_rad_ += turn_rad;
       return;
     }
-    const auto hear = [&](const Vector3d& other_turn, double& count, double& configured, double& left) {
-      const Vector3d expected = turned_down(other_turn, down_before_);
+    for (std::size_t i = 1; i < kAxesHypotheses && turn.norm() < kMostTurn_rad; ++i) {
+      const Vector3d expected = turned_down(axes_hypothesis(i).M * turn, down_before_);
       const double apart = (expected - as_configured).norm();
-      if (apart < kPairStandsOut * noise) return;  // these two say the same
+      if (apart < kPairStandsOut * noise) continue;  // these two say the same
       const double variance = noise * noise + std::pow(kTurnShare * std::min(moved, apart), 2);
-      count = kPairsKept * count + 1.0;
-      configured = kPairsKept * configured + (down - as_configured).squaredNorm() / variance;
-      left = kPairsKept * left + (down - expected).squaredNorm() / variance;
-    };
-    if (turn.norm() < kMostTurn_rad) {
-      for (std::size_t i = 1; i < kAxesHypotheses; ++i)
-        hear(axes_hypothesis(i).M * turn, count_[i], configured_[i], left_[i]);
-      hear(kRadPerDeg * turn, degrees_.count, degrees_.configured, degrees_.left);
+      count_[i] = kPairsKept * count_[i] + 1.0;
+      configured_[i] = kPairsKept * configured_[i] + (down - as_configured).squaredNorm() / variance;
+      left_[i] = kPairsKept * left_[i] + (down - expected).squaredNorm() / variance;
     }
   }
   has_before_ = true;
@@ -64,17 +59,14 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
 OtherAxes AxesFit::other(const Proof& proof) const {
   OtherAxes out;
   for (std::size_t i = 1; i < kAxesHypotheses; ++i) {
-    const double evidence = Sums{count_[i], configured_[i], left_[i]}.evidence(proof);
+    if (count_[i] < proof.fewest) continue;
+    // Squares are in units of their variances, and two of the three components are free.
+    const double components = 2.0 * count_[i];
+    const double evidence =
+        evidence_for_other(components, components, configured_[i], left_[i], proof.most_left);
     if (evidence > out.evidence) out = {i, evidence};
   }
   return out;
-}
-
-double AxesFit::Sums::evidence(const Proof& proof) const {
-  if (count < proof.fewest) return 0.0;
-  // Squares are in units of their variances, and two of the three components are free.
-  const double components = 2.0 * count;
-  return evidence_for_other(components, components, configured, left, proof.most_left);
 }
 
 }  // namespace fathom::estimation

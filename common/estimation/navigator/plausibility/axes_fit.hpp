@@ -20,15 +20,10 @@ class AxesFit {
   void interrupt() { has_before_ = false; }
   /// The best explanation besides "as configured"; no evidence where that is not refuted.
   [[nodiscard]] OtherAxes other(const Proof& proof) const;
-  /// Evidence that the gyro's figures are degrees.
-  [[nodiscard]] double in_degrees(const Proof& proof) const { return degrees_.evidence(proof); }
 
   /// For archives: see fields/plausibility.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
-  /// Those that came with version 11.
-  template <class Archive, class Self>
-  static void later_fields(Archive& archive, Self& self);
 
  private:
   bool has_before_ = false;
@@ -36,18 +31,10 @@ class AxesFit {
   Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();  ///< since
   double lasted_s_ = 0.0;
   double speed_before_m_s_ = -1.0;  ///< negative: unknown
-  // Of a hypothesis, over the pairs in which it differs from "as configured": squares in sigma.
-  struct Sums {
-    double count = 0.0;
-    double configured = 0.0;
-    double left = 0.0;
-    [[nodiscard]] double evidence(const Proof& proof) const;
-  };
-  /// Those of exchanges and signs figure by figure, as archives hold them.
+  // Of each hypothesis, over the pairs in which it differs from "as configured": squares in sigma.
   std::array<double, kAxesHypotheses> count_{};
   std::array<double, kAxesHypotheses> configured_{};
   std::array<double, kAxesHypotheses> left_{};
-  Sums degrees_;
 };
 
 }  // namespace fathom::estimation

@@ -16,7 +16,7 @@ constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr double kFoot_m = 0.3048;
 /// A likelihood ratio above c is seen once in c times where all is as configured, however often one looks
 /// (Ville); of all explanations together once in ten thousand.
-constexpr double kExplanations = 58.0;
+constexpr double kExplanations = 57.0;
 constexpr double kFalseAlarms = 1e-4;
 const double kClaim = std::log(kExplanations / kFalseAlarms);
 constexpr double kHeld_s = 4.5;
@@ -144,7 +144,6 @@ void Plausibility::explain(const Proof& proof, const OtherAxes& by_tilts, Best& 
     best.hear_turns(compass_.fit, proof, waits ? kUntilCourseSpeaks : 1.0);
   }
   if (!compass_.fit.agrees()) best.hear_turns(course_.fit, proof);
-  best.hear(Implausible::gyro_in_degrees, kRadPerDeg, axes_.in_degrees(proof));
   for (const OtherAxes other : {axes_.other(proof), by_tilts})
     best.hear(Implausible::gyro_axes, static_cast<double>(other.number), other.evidence);
   best.hear_track(track_.fit, track_.latitude_rad, proof);
