@@ -7,6 +7,7 @@
 
 #include "base/median.hpp"
 #include "commission/fit/dvl_fit.hpp"
+#include "commission/fit/latency.hpp"
 #include "geo/so3.hpp"
 
 namespace fathom::commission {
@@ -17,7 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double kFiguresMargin_s = 2.0;
 constexpr double kLeastDvlStep_s = 0.15;
 constexpr double kTimeStep_s = 0.02;
 // Unknowns: turn of the mounting, log of the scale, lever, latency, bias of the rate, bias of the force.
@@ -60,8 +60,8 @@ double weight_of(double residual, double scale) {
 
 void add_window(const Series& series, const Span& window, const Unknowns& u, double robust_scale,
                 WindowFit& fit, std::vector<double>& residuals) {
-  const double from_s = window.from_s - kFiguresMargin_s;
-  const double to_s = window.to_s + kFiguresMargin_s;
+  const double from_s = window.from_s - kWindowMargin_s;
+  const double to_s = window.to_s + kWindowMargin_s;
   const Strapdown strapdown(series.imu, u.reading, from_s, to_s);
   Rows rows;
   for (const std::size_t i : rows_in(series.dvl, window, kLeastDvlStep_s)) {

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "commission/fit/latency.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "geo/so3.hpp"
 
@@ -22,7 +23,6 @@ using Matrix9d = Eigen::Matrix<double, 9, 9>;
 
 constexpr double kDvlApart_s = 0.9;
 constexpr double kDvlGap_s = 2.5;
-constexpr double kDvlMargin_s = 2.0;
 // What the turn of the Earth, which is not modelled here, adds between two rows: quieter residuals decide
 // nothing.
 constexpr double kDvlModel_m_s = 0.005;
@@ -35,7 +35,8 @@ DvlFit fit_dvl_linear(const Series& series, const std::vector<Span>& windows, co
                       double latency_s) {
   WindowFit fit(kLinear);
   for (const Span& window : windows) {
-    const Strapdown strapdown(series.imu, reading, window.from_s - kDvlMargin_s, window.to_s + kDvlMargin_s);
+    const Strapdown strapdown(series.imu, reading, window.from_s - kWindowMargin_s,
+                              window.to_s + kWindowMargin_s);
     std::vector<MatrixXd> blocks;
     std::vector<Vector3d> felt;
     std::vector<double> spans;

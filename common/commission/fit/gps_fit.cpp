@@ -10,6 +10,7 @@
 
 #include "base/median.hpp"
 #include "base/units.hpp"
+#include "commission/fit/latency.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -24,14 +25,13 @@ using Eigen::VectorXd;
 
 constexpr double kGpsApart_s = 0.4;
 constexpr double kGpsGap_s = 2.5;
-constexpr double kLeastFixStep_s =
-    0.15;  // receivers that are quicker filter: what they add is not independent
+// Receivers that are quicker filter: what they add is not independent.
+constexpr double kLeastFixStep_s = 0.15;
 // What the turn of the Earth, which is not modelled here, adds within a window: quieter residuals decide
 // nothing.
 constexpr double kGpsModel_m_s = 0.015;
 constexpr double kManyCourses =
     0.6;  // length of the mean direction over ground below which the courses were many
-constexpr double kGpsMargin_s = 2.0;  // of the integration around a window: latencies up to this
 
 double gravity_of(const Series& series) {
   return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : kStandardGravity_m_s2;
@@ -62,7 +62,8 @@ double gps_squares(const Series& series, const VectorSeries& velocity_N, const s
   const Vector3d gravity(0.0, 0.0, gravity_of(series));
   double squares = 0.0;
   for (const Span& window : windows) {
-    const Strapdown strapdown(series.imu, reading, window.from_s - kGpsMargin_s, window.to_s + kGpsMargin_s);
+    const Strapdown strapdown(series.imu, reading, window.from_s - kWindowMargin_s,
+                              window.to_s + kWindowMargin_s);
     std::vector<Vector3d> x;
     std::vector<Vector3d> y;
     for (const std::size_t i : rows_in(velocity_N, window, kLeastFixStep_s)) {
@@ -99,8 +100,8 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
     WindowFit fit(kCommon);
     std::vector<double> residuals;
     for (std::size_t w = 0; w < windows.size(); ++w) {
-      const double from_s = windows[w].from_s - kGpsMargin_s;
-      const double to_s = windows[w].to_s + kGpsMargin_s;
+      const double from_s = windows[w].from_s - kWindowMargin_s;
+      const double to_s = windows[w].to_s + kWindowMargin_s;
       const Strapdown strapdown(series.imu, now, from_s, to_s);
       // Points of the window: v = v0 + R x + g t, v0 and R of the window.
       const double begin_s = windows[w].from_s;
@@ -186,8 +187,8 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
   double most = 0.0;
   for (std::size_t w = 0; w < windows.size(); ++w) {
     if (turns[w].isZero()) continue;
-    const Strapdown strapdown(series.imu, now, windows[w].from_s - kGpsMargin_s,
-                              windows[w].to_s + kGpsMargin_s);
+    const Strapdown strapdown(series.imu, now, windows[w].from_s - kWindowMargin_s,
+                              windows[w].to_s + kWindowMargin_s);
     if (changes[w] > most && strapdown.covers(windows[w].from_s)) {
       most = changes[w];
       out.attitude = AttitudeAt{windows[w].from_s, turns[w] * strapdown.at(windows[w].from_s).C_WB};

@@ -7,6 +7,8 @@ namespace fathom::commission {
 
 /// Of every sigma of a fit, for what no model here has.
 inline constexpr double kModelMargin = 1.25;
+/// Of an integration around a window: latencies up to this.
+inline constexpr double kWindowMargin_s = 2.0;
 /// No latency is known better.
 inline constexpr double kLeastLatency_s = 5e-4;
 

@@ -28,6 +28,15 @@ constexpr double kStepsAtOnce = 2.0;
 constexpr double kWeighDown = 1.4;
 constexpr int kHalvings = 60;
 
+/// For so long what lies so many squared sigmas off has to last until drift explains it better than a lie;
+/// infinite: a person has to decide.
+double drift_needed_s(const SensorConfig& config, double squared_sigmas) {
+  // (GATE-5)
+  const double most_s = config.dispute_s > 0.0 ? std::max(config.dispute_s, config.reacquire_s)
+                                               : std::numeric_limits<double>::infinity();
+  return std::min(config.reacquire_s * std::max(1.0, squared_sigmas / (kConceivable * kConceivable)), most_s);
+}
+
 /// Refusals of these rows have agreed with each other for long enough.
 bool believe(Instrument::Rejections& past, double needed_s, const Estimate& estimate,
              const Observation& observation, int first, int end) {
@@ -158,9 +167,7 @@ bool Reacquisition::believe_fix(Instrument::Candidate& candidate, const SensorCo
 
 double Reacquisition::agreement_needed_s(const SensorConfig& config, const Estimate& estimate,
                                          const Observation& observation) const {
-  // (GATE-5)
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  if (config.reacquire_s <= 0.0) return kNever;
+  if (config.reacquire_s <= 0.0) return std::numeric_limits<double>::infinity();
   const Eigen::Vector2d innovation(observation.innovation[0], observation.innovation[1]);
   Eigen::Matrix2d s;
   s << estimate.filter(0, 0), estimate.filter(0, 1), estimate.filter(1, 0), estimate.filter(1, 1);
@@ -168,18 +175,14 @@ double Reacquisition::agreement_needed_s(const SensorConfig& config, const Estim
     s(i, i) +=
         observation.sigma[static_cast<std::size_t>(i)] * observation.sigma[static_cast<std::size_t>(i)];
   if (stepped_lately(config, estimate)) s.diagonal().array() += stepped_m_ * stepped_m_;
-  const double off = innovation.dot(s.llt().solve(innovation)) / (kConceivable * kConceivable);
-  const double most_s = config.dispute_s > 0.0 ? std::max(config.dispute_s, config.reacquire_s) : kNever;
-  return std::min(config.reacquire_s * std::max(1.0, off), most_s);
+  return drift_needed_s(config, innovation.dot(s.llt().solve(innovation)));
 }
 
 double Reacquisition::heading_needed_s(const Instrument& instrument, const SensorConfig& config,
                                        const Estimate& estimate, double deviations, bool vouched) {
   // (GATE-7)
   if (config.reacquire_s <= 0.0) return 0.0;
-  const double off = deviations / kConceivable;
-  double needed_s = config.reacquire_s * std::max(1.0, off * off);
-  if (config.dispute_s > 0.0) needed_s = std::min(needed_s, std::max(config.dispute_s, config.reacquire_s));
+  const double needed_s = drift_needed_s(config, deviations * deviations);
   if (vouched) return needed_s;
   const TimeNs agreed_since_ns = std::max(instrument.agrees_since_ns, estimate.began_ns);
   const bool agreed = instrument.agrees_since_ns != 0 && instrument.used_ns > agreed_since_ns;
