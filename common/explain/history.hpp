@@ -133,6 +133,8 @@ struct AlignmentRow {
   TimeNs log_ns = 0;
   AlignmentPhase phase = AlignmentPhase::none;
   std::vector<AlignmentCondition> unmet;
+  double start_error_rad =
+      0.0;  ///< the heading of the start was wrong by this, and was corrected; 0: nothing
   std::string advice;
 };
 

@@ -218,6 +218,11 @@ std::string sentence(const Finding& f) {
       return not_aligned(f);
     case Kind::wrong_heading:
       if (f.word.starts_with("course")) return wrong_course(f);
+      if (f.word.starts_with("start"))
+        return (f.word == "start" ? "The heading that navigation started with" : "Compass " + f.subject) +
+               " was wrong at the start by " + degrees(f.figure("first")) +
+               ", as the way by GPS shows; navigation corrected that after " + lasting(f.figure("for_s")) +
+               ".";
       return "Compass " + f.subject + " disagrees with navigation by " + degrees(f.figure("first")) + ": " +
              counted(f.figure("count"), "heading", "headings") + " of " + lasting(f.figure("for_s")) +
              " were refused." + who_is_wrong(f);

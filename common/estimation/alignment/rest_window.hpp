@@ -31,6 +31,7 @@ class RestWindow {
   [[nodiscard]] double rate_spread_rad_s() const;
   [[nodiscard]] double force_spread_m_s2() const;
   [[nodiscard]] int headings() const { return headings_; }
+  [[nodiscard]] bool two_antenna() const { return two_antenna_; }
   /// Of heading_start_rad().
   [[nodiscard]] double heading_sigma_rad() const { return heading_sigma_rad_; }
   /// Mean of the headings, each taken back to the start of the window by the gyro. Needs headings() > 0.

@@ -241,6 +241,8 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
   } else if (!navigator.waits_for_state()) {
     fill_waiting(navigator, config, c, out);
   }
+  const double start_rad = navigator.navigating() ? navigator.estimate().start_heading.found_rad() : 0.0;
+  if (start_rad != 0.0) add_condition(out, kStartHeadingError.data(), start_rad, kUnknown, true);
   if (const PlausibilityFinding& finding = navigator.implausible()) {
     char name[32];
     std::snprintf(name, sizeof name, "%s%s", kImplausiblePrefix.data(), to_string(finding.kind).data());
@@ -249,6 +251,11 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
     return;
   }
   write(out.advice, "%s", advice(c, navigator, config, sigma));
+  if (out.advice[0] == '\0' && start_rad != 0.0)
+    write(out.advice,
+          "The heading of the start was wrong by %.0f deg and was corrected: check the compass, or what was "
+          "given.",
+          start_rad * kDegPerRad);
 }
 
 }  // namespace fathom::estimation

@@ -113,6 +113,20 @@ void Estimate::fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+void StartHeading::fields(Archive& archive, Self& self) {
+  archive("open", self.open_);
+  archive("corrections", self.corrections_, fathom::archive::kCount);
+  constexpr double kMost = 1e12;
+  archive("found_rad", self.found_rad_, fathom::archive::within(-10.0, 10.0));
+  archive("gradient", self.gradient_, fathom::archive::within(-kMost, kMost));
+  archive("curvature", self.curvature_, fathom::archive::within(0.0, kMost));
+  archive("together", self.together_, fathom::archive::within(-kMost, kMost));
+  archive("together_s", self.together_s_, fathom::archive::within(0.0, 10.0));
+  archive("scatter", self.scatter_, fathom::archive::within(-kMost * kMost, kMost * kMost));
+  archive("column", self.column_, fathom::archive::within(-kMost, kMost));
+}
+
+template <class Archive, class Self>
 void Estimate::later_fields(Archive& archive, Self& self) {
   archive("usual_force_B", self.usual_force_B_m_s2, fathom::archive::finite());
 }
@@ -232,6 +246,7 @@ void Navigator::fields(Archive& archive, Self& self) {
   if (archive.since(8)) Plausibility::later_fields(archive, self.plausibility_);
   if (archive.since(9)) archive("stride", self.estimate_.stride);
   if (archive.since(10)) archive("gap_ns", self.usage_.gap_ns, fathom::archive::kInstant);
+  if (archive.since(12)) archive("start_heading", self.estimate_.start_heading);
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

@@ -66,6 +66,22 @@ DriftRecord::DriftRecord(const ErrorFilter& widened, const std::array<double, kN
   for (Index j = 0; j < n; ++j) stretch.col(j) *= variance[static_cast<std::size_t>(state(j))];
 }
 
+ShiftRecord::ShiftRecord(const ErrorFilter& filter, const std::array<double, kMaxStates>& of,
+                         double most_likely, double about)
+    : column(filter.size()), known(Vector::Zero(filter.size())), mean(most_likely), variance(about) {
+  const Index n = filter.estimated();
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxStates, kMaxStates>;
+  Square p(n, n);
+  for (Index i = 0; i < column.size(); ++i) column(i) = of[static_cast<std::size_t>(i)];
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) p(i, j) = filter(static_cast<int>(i), static_cast<int>(j));
+  // Metres beside radians: scaled, so that the solution keeps its digits.
+  const Vector scale = p.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Square scaled = scale.asDiagonal() * p * scale.asDiagonal();
+  const Vector weighed = scale.cwiseProduct(column.head(n));
+  known.head(n) = scale.cwiseProduct(Vector(Eigen::LDLT<Square>(scaled).solve(weighed)));
+}
+
 Adjoint::Adjoint(int states) : lambda_(Vector::Zero(states)), curvature_(Matrix::Zero(states, states)) {}
 
 void Adjoint::back_through(const Transition& step) {
@@ -130,6 +146,15 @@ void Adjoint::back_through(const DriftRecord& drift) {
   const DriftRecord::Block made = drift.stretch * drift.known;
   for (Index i = 0; i < n; ++i)
     for (Index j = 0; j < n; ++j) curvature_(state(i), state(j)) -= 0.5 * (made(i, j) + made(j, i));
+}
+
+void Adjoint::back_through(const ShiftRecord& shift) {
+  // (SMOOTH-6): with w = P^-1 u and M = I + d w u', lambda <- M lambda - m w, Lambda <- M Lambda M' - d w w'.
+  lambda_ += (shift.variance * shift.column.dot(lambda_) - shift.mean) * shift.known;
+  const Vector seen = shift.variance * (curvature_ * shift.column);
+  const double own = shift.variance * (shift.column.dot(seen) - 1.0);
+  curvature_ += shift.known * seen.transpose() + seen * shift.known.transpose() +
+                own * shift.known * shift.known.transpose();
 }
 
 void Adjoint::back_through(const Carry& carry) {

@@ -44,6 +44,21 @@ struct DriftRecord {
   Block stretch;                         ///< known times the room
 };
 
+/// An error that was there all the time and has been found, for the way back.
+struct ShiftRecord {
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxStates, 1>;
+
+  ShiftRecord() = default;
+  /// `filter`: before it.
+  ShiftRecord(const ErrorFilter& filter, const std::array<double, kMaxStates>& column, double mean,
+              double variance);
+
+  Vector column;
+  Vector known;  ///< P^-1 column, of what is estimated
+  double mean = 0.0;
+  double variance = 0.0;
+};
+
 /// What all later measurements say about the present error, as the gradient `lambda` and the curvature
 /// `Lambda` of their likelihood: the smoothed error is -P lambda, its covariance P - P Lambda P (SMOOTH-1).
 /// Goes backwards in time. Equal to a Rauch-Tung-Striebel smoother, without inverting a covariance.
@@ -60,6 +75,7 @@ class Adjoint {
   void back_through(const Transition& step);      // (SMOOTH-2)
   void back_through(const UpdateRecord& update);  // (SMOOTH-3)
   void back_through(const DriftRecord& drift);    // (SMOOTH-5)
+  void back_through(const ShiftRecord& shift);    // (SMOOTH-6)
   void back_through(const Carry& carry);          // (KF-5): as a step without noise
   void back_through_forgotten(int state);         // (SMOOTH-4)
   /// Before a new start of the filter: the future knows nothing of what was before it.

@@ -103,6 +103,17 @@ void ErrorFilter::widen_drifted(const std::array<double, kNavStates>& variance) 
   if (tape_ != nullptr) tape_->drifted(*this, variance);
 }
 
+void ErrorFilter::shift(const std::array<double, kMaxStates>& column, double mean, double variance) {
+  // (GATE-9)
+  if (tape_ != nullptr) tape_->shifted(*this, column, mean, variance);
+  for (int i = 0; i < n_; ++i) {
+    const double factor = variance * column[static_cast<std::size_t>(i)];
+    for (int j = 0; j <= i; ++j) set(i, j, (*this)(i, j) + factor * column[static_cast<std::size_t>(j)]);
+    const double left = i < estimated_ ? 0.0 : mean * column[static_cast<std::size_t>(i)];
+    widen(i, left * left);
+  }
+}
+
 void ErrorFilter::forget(int state, double sigma) {
   if (tape_ != nullptr) tape_->forgot(state);
   for (int j = 0; j < n_; ++j) set(state, j, 0.0);

@@ -77,6 +77,10 @@ class ErrorFilter {
   void widen(int state, double variance) { p_[at(state, state)] += variance; }
   /// Adds variance to the navigation states: they have drifted further than P knew, before now.
   void widen_drifted(const std::array<double, kNavStates>& variance);
+  /// The error was `mean` times `column` all the time, with `variance` about that, without P knowing: the
+  /// estimate has to be moved by that. P gets what is uncertain about it, and of what is considered and
+  /// cannot be moved the whole of it.
+  void shift(const std::array<double, kMaxStates>& column, double mean, double variance);
   /// P <- T P T', T the identity but for the states that are written anew (KF-5).
   void carry(const Carry& carry);
 
@@ -131,6 +135,9 @@ class FilterTape {
   virtual void forgot(int state) = 0;
   /// ErrorFilter::widen_drifted() has been done with `variance`.
   virtual void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) = 0;
+  /// The arguments of ErrorFilter::shift(), which has not been done yet to `filter`.
+  virtual void shifted(const ErrorFilter& filter, const std::array<double, kMaxStates>& column, double mean,
+                       double variance) = 0;
   /// ErrorFilter::carry() has been done.
   virtual void carried(const Carry& carry) = 0;
   virtual void restarted() = 0;

@@ -152,6 +152,25 @@ void Passage::drifted(const ErrorFilter& widened, const std::array<double, kNavS
     for (int j = 0; j < n_; ++j) a_[at(state(i), j)] += more(i, j);
 }
 
+void Passage::shifted(const ErrorFilter& filter, const std::array<double, kMaxStates>& column, double mean,
+                      double variance) {
+  // (SMOOTH-6)
+  const ShiftRecord shift(filter, column, mean, variance);
+  std::array<double, kMaxStates> seen{};  // A' w
+  for (int i = 0; i < n_; ++i)
+    for (int j = 0; j < n_; ++j) seen[static_cast<std::size_t>(j)] += shift.known(i) * a_[at(i, j)];
+  for (int i = 0; i < n_; ++i) {
+    const double own = seen[static_cast<std::size_t>(i)];
+    gradient_[static_cast<std::size_t>(i)] -= mean * own;
+    const double factor = variance * shift.column(i);
+    for (int j = 0; j < n_; ++j) a_[at(i, j)] += factor * seen[static_cast<std::size_t>(j)];
+    for (int j = 0; j <= i; ++j) {
+      w_[at(i, j)] -= variance * own * seen[static_cast<std::size_t>(j)];
+      w_[at(j, i)] = w_[at(i, j)];
+    }
+  }
+}
+
 void Passage::carried(const Carry& carry) {
   using Rows =
       Eigen::Matrix<double, Carry::kStates, Eigen::Dynamic, Eigen::RowMajor, Carry::kStates, kMaxStates>;

@@ -43,6 +43,8 @@ class Passage final : public FilterTape {
   void updated(const Observation& observation, const InnovationStatistics& statistics) override;
   void forgot(int state) override;
   void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) override;
+  void shifted(const ErrorFilter& filter, const std::array<double, kMaxStates>& column, double mean,
+               double variance) override;
   void carried(const Carry& carry) override;
   void restarted() override;
 

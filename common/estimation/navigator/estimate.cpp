@@ -59,8 +59,9 @@ void Estimate::follow(const Setup& setup) {
   ProcessNoise noise = setup.process_noise(c, stride.squares());
   add_second_order(setup, c, force_N_m_s2, noise);
   add_g_sensitivity(setup, noise);
-  filter.propagate(NavTransition(setup.index, rates, c, stride.rate_B_rad_s(), stride.force_B_m_s2(), dt),
-                   noise);
+  const NavTransition step(setup.index, rates, c, stride.rate_B_rad_s(), stride.force_B_m_s2(), dt);
+  filter.propagate(step, noise);
+  start_heading.propagated(step, noise);
   settle_biases(setup, filter, -dt, dt);
   for (const std::uint8_t one : setup.drift.decaying()) state.x[one] *= setup.drift.kept(one, dt);
   stride = {};
@@ -131,14 +132,54 @@ void Estimate::widen(const GapSigma& sigma) {
   }
 }
 
+void Estimate::widen_heading(double variance_rad2) {
+  constexpr int kHeading = 8;
+  std::array<double, kMaxStates> with{};
+  std::array<double, kMaxStates> place{};
+  for (int i = 0; i < kNavStates; ++i)
+    (i < 3 ? place : with)[static_cast<std::size_t>(i)] = filter(i, kHeading) / filter(kHeading, kHeading);
+  filter.shift(with, 0.0, variance_rad2);
+  filter.shift(place, 0.0, variance_rad2);
+}
+
 bool Estimate::update(const Setup& setup, const Observation& observation,
                       const InnovationStatistics& statistics, VelocityOver along,
                       std::array<double, kMaxStates>& x) {
   const Vector3d before = velocity_N_m_s(setup, along);
   if (!filter.update(observation, statistics, x)) return false;
-  remove_error(x, filter.estimated(), state);
-  filter.carry(carried(filter, x, geo::to_matrix(state.nav.q_NB), before, velocity_N_m_s(setup, along)));
+  start_heading.updated(observation, statistics, filter.estimated(), turn_rad_s());
+  move(setup, x, before, along);
   return true;
+}
+
+void Estimate::move(const Setup& setup, const std::array<double, kMaxStates>& x, const Vector3d& before_N_m_s,
+                    VelocityOver along) {
+  remove_error(x, filter.estimated(), state);
+  const Carry carry =
+      carried(filter, x, geo::to_matrix(state.nav.q_NB), before_N_m_s, velocity_N_m_s(setup, along));
+  filter.carry(carry);
+  start_heading.carried(carry);
+}
+
+void Estimate::correct_start(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x) {
+  // (GATE-9)
+  const Vector3d before = velocity_N_m_s(setup, along);
+  const double error_rad = start_heading.error_rad();
+  // The column is linear: of a large angle it is off by the square.
+  const double second_order = 0.5 * error_rad * error_rad;
+  filter.shift(start_heading.column(), error_rad,
+               start_heading.variance_rad2() + second_order * second_order);
+  std::array<double, kMaxStates> moved{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i) {
+    moved[i] = error_rad * start_heading.column()[i];
+    x[i] += moved[i];
+  }
+  start_heading.corrected();
+  move(setup, moved, before, along);
+}
+
+double Estimate::turn_rad_s() const {
+  return geo::to_matrix(state.nav.q_NB).row(2).dot(rate_B_rad_s);
 }
 
 Vector3d Estimate::velocity_N_m_s(const Setup& setup, VelocityOver reference) const {
@@ -155,11 +196,13 @@ void Estimate::replace(const Setup& setup, const FilterState& other, const Error
   force_B_m_s2 += bias(state, Group::accel_bias) - bias(other, Group::accel_bias);
   state = other;
   filter = covariance;
+  start_heading.end();
   stride = {};
 }
 
 void Estimate::forget_covariance(const std::array<double, kMaxStates>& sigma) {
   filter.reset(sigma);
+  start_heading.end();
   stride = {};
 }
 

@@ -9,6 +9,7 @@
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/navigator/inertial_step.hpp"
 #include "estimation/navigator/setup.hpp"
+#include "estimation/navigator/start_heading.hpp"
 
 namespace fathom::estimation {
 
@@ -28,7 +29,8 @@ struct Estimate {
   /// Felt for so long that the gyro biases have learned what it does to the gyros (NOISE-4).
   Eigen::Vector3d usual_force_B_m_s2{0.0, 0.0, -kStandardGravity_m_s2};
   Eigen::Vector3d travelled_N_m = Eigen::Vector3d::Zero();  ///< integral of the velocity
-  Stride stride;                                            ///< by which the filter is behind the state
+  StartHeading start_heading;
+  Stride stride;  ///< by which the filter is behind the state
 
   /// Seconds since an instant; unknown when it is 0, which stands for never.
   [[nodiscard]] double since(TimeNs stamp_ns) const {
@@ -44,10 +46,16 @@ struct Estimate {
   void settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const;
   /// Something may have happened while nothing was measured.
   void widen(const GapSigma& sigma);
+  /// The heading has drifted by more than the filter knew, and so has what hangs on it; where the vehicle
+  /// went meanwhile is uncertain by as much, and stays where it is (GATE-3).
+  void widen_heading(double variance_rad2);
   /// Takes a gated measurement in and moves the state by the estimated error `x` (KF-3 to KF-5). `along`: of
   /// what is measured along the vehicle. False, with nothing changed, when the statistics are not positive.
   bool update(const Setup& setup, const Observation& observation, const InnovationStatistics& statistics,
               VelocityOver along, std::array<double, kMaxStates>& x);
+  /// The heading of the start was wrong (GATE-9): takes out what that has done since. Adds to `x` what the
+  /// state is moved by.
+  void correct_start(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x);
   /// Another estimate for the same instant, as the smoother has it.
   void replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance);
   /// What is considered is as uncertain as at the start and shares nothing with the states.
@@ -62,6 +70,8 @@ struct Estimate {
   [[nodiscard]] AidingState aiding_state(const Setup& setup, const FilterState& then) const {
     return {setup.index, then, rate_B_rad_s, setup.magnetic_variation_rad(), force_B_m_s2};
   }
+  /// About down.
+  [[nodiscard]] double turn_rad_s() const;
   /// Relative to ground or medium.
   [[nodiscard]] Eigen::Vector3d velocity_N_m_s(const Setup& setup, VelocityOver reference) const;
   /// Horizontal motion of the water or the air, along N; zero where it is not estimated.
@@ -75,6 +85,10 @@ struct Estimate {
   static void later_fields(Archive& archive, Self& self);
 
  private:
+  /// Moves the state by the estimated error `x` (KF-4, KF-5). `before_N_m_s`: velocity_N_m_s(), not yet
+  /// moved.
+  void move(const Setup& setup, const std::array<double, kMaxStates>& x, const Eigen::Vector3d& before_N_m_s,
+            VelocityOver along);
   /// (NOISE-4) What the stride's force, where it is not usual, makes of the gyros' g-sensitivity.
   void add_g_sensitivity(const Setup& setup, ProcessNoise& noise);
   /// (NOISE-3) What the products of heading error, tilt and rate leave out of a linear step.

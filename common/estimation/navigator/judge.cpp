@@ -96,6 +96,8 @@ Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
     account(trial);
   } else if (motion_is_lost(trial)) {
     lose_attitude();
+  } else {
+    doubt_start(trial);
   }
   return trial.judgement;
 }
@@ -218,12 +220,20 @@ void Navigator::reacquire(Trial& trial) {
     gated.limit = trial.config.reacquire_step_m;
     gated.test_ratio = std::hypot(trial.whole.innovation[0], trial.whole.innovation[1]) / gated.limit;
   }
-  for (double room = 1.0; (believed & gated.refused) != 0 && room < kMostRoom; room *= 4.0) {
+  bool renewed = believed != 0 && trial.policy.heading_alone && !another_is_used(trial) &&
+                 Reacquisition::renew_compass(*setup_, estimate_, trial.whole);
+  if (renewed) gate(trial);
+  for (double room = 1.0; (renewed || (believed & gated.refused) != 0) && room < kMostRoom; room *= 4.0) {
+    renewed = false;
     // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
-    std::array<double, kNavStates> variance{};
-    Reacquisition::make_room(trial.policy, trial.instrument, estimate_, trial.whole, believed, room,
-                             variance);
-    estimate_.filter.widen_drifted(variance);
+    if (trial.policy.heading_alone) {
+      estimate_.widen_heading(room * trial.whole.innovation[0] * trial.whole.innovation[0]);
+    } else {
+      std::array<double, kNavStates> variance{};
+      Reacquisition::make_room(trial.policy, trial.instrument, estimate_, trial.whole, believed, room,
+                               variance);
+      estimate_.filter.widen_drifted(variance);
+    }
     gate(trial);
   }
   if (believed != 0) trial.instrument.agrees_since_ns = 0;
@@ -247,7 +257,32 @@ bool Navigator::update(Trial& trial) {
   }
   if (!estimate_.update(*setup_, *trial.kept, trial.statistics, velocity_along(trial.policy), trial.x))
     return trial.end(VerdictKind::rejected);
+  if (start_was_wrong(trial)) {
+    estimate_.correct_start(*setup_, velocity_along(trial.policy), trial.x);
+    trial.stepped = trial.stepped || std::hypot(trial.x[0], trial.x[1]) > kNoticed_m;
+  }
   return true;
+}
+
+bool Navigator::start_was_wrong(const Trial& trial) const {
+  // Without positions nothing but the Earth's rate shows a heading, and that faintly.
+  const double patience_s = setup_->config.gps_timeout_s;
+  const bool placed = trial.policy.fix != Fix::none || gps_outage_s() <= patience_s ||
+                      estimate_.since(usage_.usbl_used_ns) <= patience_s;
+  return placed && estimate_.start_heading.is_wrong();
+}
+
+void Navigator::doubt_start(Trial& trial) {
+  const VerdictKind kind = trial.judgement.kind;
+  const bool refused = kind == VerdictKind::rejected || kind == VerdictKind::disputed;
+  if (!refused || trial.then != nullptr || trial.policy.heading_alone || !estimate_.start_heading.is_open())
+    return;
+  estimate_.filter.statistics(trial.whole, 1.0, trial.statistics);
+  estimate_.start_heading.refused(trial.whole, trial.statistics, estimate_.turn_rad_s());
+  if (!start_was_wrong(trial)) return;
+  estimate_.correct_start(*setup_, velocity_along(trial.policy), trial.x);
+  const Vector3d step_N_m(trial.x[0], trial.x[1], trial.x[2]);
+  if (step_N_m.head<2>().norm() > kNoticed_m) reacquisition_.note_step(-step_N_m, nullptr, estimate_);
 }
 
 void Navigator::account(Trial& trial) {
@@ -282,17 +317,24 @@ double Navigator::agreement_needed_s(const Trial& trial) const {
   if (!trial.policy.heading_alone || trial.gated.refused == 0) return patience_s;
   // (GATE-7): where the position or the rates are in doubt, the gyros vouch for nothing.
   if (estimate_.since(usage_.gap_ns) <= kGapMatters_s) return patience_s;
-  bool vouched = false;
   for (std::size_t i = 0; i < instruments_.count; ++i) {
     const Instrument& other = instruments_.sensors[i];
-    const SensorConfig& config = setup_->config.sensors[i];
     const bool fresh = estimate_.since(other.candidate.last_ns) <= setup_->config.gps_timeout_s;
-    if (fresh && Reacquisition::disputed(other, config, estimate_)) return patience_s;
-    vouched = vouched || (config.kind == trial.config.kind && &other != &trial.instrument &&
-                          estimate_.since(other.used_ns) <= kHeardLately_s);
+    if (fresh && Reacquisition::disputed(other, setup_->config.sensors[i], estimate_)) return patience_s;
   }
   const double deviations = std::abs(trial.whole.innovation[0]) / trial.gated.innovation_sigma[0];
-  return Reacquisition::heading_needed_s(trial.instrument, *trial.rules, estimate_, deviations, vouched);
+  return Reacquisition::heading_needed_s(trial.instrument, *trial.rules, estimate_, deviations,
+                                         another_is_used(trial));
+}
+
+bool Navigator::another_is_used(const Trial& trial) const {
+  for (std::size_t i = 0; i < instruments_.count; ++i) {
+    const Instrument& other = instruments_.sensors[i];
+    if (setup_->config.sensors[i].kind == trial.config.kind && &other != &trial.instrument &&
+        estimate_.since(other.used_ns) <= kHeardLately_s)
+      return true;
+  }
+  return false;
 }
 
 bool Navigator::is_on_probation(const Trial& trial) const {

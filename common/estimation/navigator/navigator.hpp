@@ -117,11 +117,17 @@ class Navigator {
   /// A refusal may not be the last word: the estimate, not the instrument, may be wrong.
   void reacquire(Trial& trial);
   bool update(Trial& trial);
+  /// (GATE-9): by what is known with this measurement.
+  [[nodiscard]] bool start_was_wrong(const Trial& trial) const;
+  /// A refused measurement may speak of the start.
+  void doubt_start(Trial& trial);
   /// Notes what a used measurement means for mode, outages and steps.
   void account(Trial& trial);
   [[nodiscard]] bool is_frozen(Trial& trial) const;
   /// For so long refusals have to agree with each other until they are believed.
   [[nodiscard]] double agreement_needed_s(const Trial& trial) const;
+  /// Beside the one of the trial, an instrument of its kind.
+  [[nodiscard]] bool another_is_used(const Trial& trial) const;
   [[nodiscard]] bool is_on_probation(const Trial& trial) const;
   /// (GATE-6)
   [[nodiscard]] bool motion_is_lost(const Trial& trial) const;

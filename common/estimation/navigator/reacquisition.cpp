@@ -190,6 +190,26 @@ double Reacquisition::heading_needed_s(const Instrument& instrument, const Senso
   return std::min(needed_s, std::max(config.reacquire_s, agreed_s));
 }
 
+bool Reacquisition::renew_compass(const Setup& setup, Estimate& estimate, Observation& heading) {
+  // (GATE-8)
+  bool any = false;
+  for (const Group group : {Group::heading_bias, Group::heading_deviation}) {
+    const int first = setup.index.of(group);
+    if (first < 0 || first >= setup.index.estimated()) continue;
+    for (int i = first; i < first + group_size(group); ++i) {
+      const auto state = static_cast<std::size_t>(i);
+      if (heading.h[0][state] == 0.0) continue;
+      any = true;
+      heading.innovation[0] += heading.h[0][state] * estimate.state.x[state];
+      estimate.state.x[state] = 0.0;
+      estimate.filter.forget(i, setup.initial_sigma[state]);
+      estimate.start_heading.forgot(state);
+    }
+  }
+  heading.innovation[0] = geo::wrap_pi(heading.innovation[0]);
+  return any;
+}
+
 bool Reacquisition::stepped_lately(const SensorConfig& config, const Estimate& estimate) const {
   return stepped_ns_ != 0 && estimate.since(stepped_ns_) <= std::max(config.dispute_s, config.reacquire_s);
 }

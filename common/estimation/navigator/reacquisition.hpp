@@ -29,6 +29,10 @@ class Reacquisition {
   /// `deviations` sigmas off. `vouched`: another heading is being used meanwhile.
   [[nodiscard]] static double heading_needed_s(const Instrument& instrument, const SensorConfig& config,
                                                const Estimate& estimate, double deviations, bool vouched);
+  /// A heading that is believed is that of another compass than before (GATE-8): its bias and deviation are
+  /// as unknown as at the start, and the innovation becomes what it is without them. False, with nothing
+  /// done, where none are estimated.
+  static bool renew_compass(const Setup& setup, Estimate& estimate, Observation& heading);
   /// Weighs the fix down until the position moves no further than allowed; whether it had to.
   [[nodiscard]] static bool bound_step(const SensorConfig& config, const Estimate& estimate,
                                        Observation& observation, InnovationStatistics& statistics);

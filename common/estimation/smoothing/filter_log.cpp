@@ -11,6 +11,8 @@ void FilterLog::back_through(std::size_t end, std::size_t begin, Adjoint& adjoin
       adjoint.back_through(*update);
     } else if (const auto* drift = std::get_if<DriftRecord>(&entry)) {
       adjoint.back_through(*drift);
+    } else if (const auto* shift = std::get_if<ShiftRecord>(&entry)) {
+      adjoint.back_through(*shift);
     } else if (const auto* carry = std::get_if<Carry>(&entry)) {
       adjoint.back_through(*carry);
     } else if (const auto* forgotten = std::get_if<Forgotten>(&entry)) {

@@ -28,6 +28,10 @@ class FilterLog final : public FilterTape {
   void drifted(const ErrorFilter& widened, const std::array<double, kNavStates>& variance) override {
     entries_.emplace_back(DriftRecord(widened, variance));
   }
+  void shifted(const ErrorFilter& filter, const std::array<double, kMaxStates>& column, double mean,
+               double variance) override {
+    entries_.emplace_back(ShiftRecord(filter, column, mean, variance));
+  }
   void carried(const Carry& carry) override { entries_.emplace_back(carry); }
   void restarted() override { entries_.emplace_back(Restart{}); }
 
@@ -38,7 +42,8 @@ class FilterLog final : public FilterTape {
   struct Restart {};
 
   int states_;
-  std::vector<std::variant<Transition, UpdateRecord, DriftRecord, Carry, Forgotten, Restart>> entries_;
+  std::vector<std::variant<Transition, UpdateRecord, DriftRecord, ShiftRecord, Carry, Forgotten, Restart>>
+      entries_;
 };
 
 }  // namespace fathom::estimation

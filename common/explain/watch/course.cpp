@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "explain/watch/watches.hpp"
+#include "samples/alignment/help.hpp"
 
 namespace fathom::explain {
 namespace {
@@ -175,6 +176,31 @@ void say(const History& history, const std::vector<Window>& windows, std::size_t
   out.push_back(std::move(found));
 }
 
+/// Of a heading that navigation itself found to have been wrong from the start.
+void say_start(const History& history, Findings& out) {
+  const AlignmentRow* found = nullptr;
+  for (const AlignmentRow& row : history.alignment())
+    if (row.start_error_rad != 0.0 && (found == nullptr || row.start_error_rad != found->start_error_rad))
+      found = &row;
+  if (found == nullptr) return;
+  TimeNs begin_ns = found->log_ns;
+  for (const StateRow& row : history.states())
+    if (navigating(row)) {
+      begin_ns = std::min(begin_ns, row.at_ns);
+      break;
+    }
+  const Stream* compass = compass_of(history, begin_ns, found->log_ns);
+  out.push_back(
+      {.kind = Kind::wrong_heading,
+       .weight = Weight::bad,
+       .subject = compass != nullptr ? compass->sensor.str() : "navigation",
+       .begin_ns = begin_ns,
+       .end_ns = found->log_ns,
+       .word = compass != nullptr ? "start_compass" : "start",
+       .figures = {{"first", found->start_error_rad}, {"for_s", to_seconds(found->log_ns - begin_ns)}},
+       .evidence = {{"fathom/v1/alignment", 1, std::string(kStartHeadingError)}}});
+}
+
 }  // namespace
 
 void watch_course(const History& history, const Track& track, Findings& out) {
@@ -190,6 +216,7 @@ void watch_course(const History& history, const Track& track, Findings& out) {
       from = std::max(to, from + 1);
     }
   }
+  say_start(history, out);
 }
 
 }  // namespace fathom::explain

@@ -14,6 +14,10 @@ inline constexpr std::string_view kImplausiblePrefix = "implausible_";
 /// The first of them in a status; nullptr when all is plausible.
 [[nodiscard]] const AlignmentCondition* implausible(const AlignmentStatus& status);
 
+/// This condition says by how much the heading of the start was wrong, and that it was corrected (rad):
+/// always met, and absent where nothing was found.
+inline constexpr std::string_view kStartHeadingError = "start_heading_error_rad";
+
 /// Which instrument is meant and in what it is wrong: "unit", "sign", "axes", "rate" or "mounting", as
 /// findings of commissioning are named.
 struct Blame {

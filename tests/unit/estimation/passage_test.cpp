@@ -41,6 +41,11 @@ class Both final : public FilterTape {
     a_.drifted(widened, variance);
     b_.drifted(widened, variance);
   }
+  void shifted(const ErrorFilter& filter, const std::array<double, kMaxStates>& column, double mean,
+               double variance) override {
+    a_.shifted(filter, column, mean, variance);
+    b_.shifted(filter, column, mean, variance);
+  }
   void carried(const Carry& carry) override {
     a_.carried(carry);
     b_.carried(carry);
@@ -55,22 +60,25 @@ class Both final : public FilterTape {
   FilterTape& b_;
 };
 
+/// What happens half way.
+enum class Event : std::uint8_t { none, room, shift };
+
 struct Course {
-  explicit Course(std::uint64_t seed, bool room) : log(kStates), passage(kStates), both(log, passage) {
+  explicit Course(std::uint64_t seed, Event event) : log(kStates), passage(kStates), both(log, passage) {
     Normal normal(seed);
     std::array<double, kMaxStates> sigma{};
     for (std::size_t i = 0; i < kStates; ++i) sigma[i] = i < 3 ? 5.0 : i < 6 ? 1.0 : i < 15 ? 0.01 : 0.5;
     ErrorFilter filter(kStates);
     filter.reset(sigma);
-    move(filter, normal, 3, false);  // so that everything shares something
+    move(filter, normal, 3, Event::none);  // so that everything shares something
     first = filter;
     filter.record_to(&both);
-    move(filter, normal, 12, room);
+    move(filter, normal, 12, event);
     last = filter;
     last.record_to(nullptr);
   }
 
-  void move(ErrorFilter& filter, Normal& normal, int steps, bool room) {
+  void move(ErrorFilter& filter, Normal& normal, int steps, Event event) {
     const StateIndex index{StateGroups{}};
     NavSolution nav;
     nav.position = {0.6, 0.2, 10.0};
@@ -109,12 +117,18 @@ struct Course {
       carry.bias_own = geo::to_matrix(geo::exp(normal.vector(0.01)));
       filter.carry(carry);
       if (k == 4) filter.forget(16, 0.4);
-      if (k == 6 && room) {
+      if (k == 6 && event == Event::room) {
         std::array<double, kNavStates> variance{};
         variance[0] = 30.0;
         variance[1] = 20.0;
         variance[4] = 0.5;
         filter.widen_drifted(variance);
+      }
+      if (k == 6 && event == Event::shift) {
+        std::array<double, kMaxStates> column{};
+        for (std::size_t i = 0; i < kStates; ++i)
+          column[i] = normal(std::sqrt(filter(static_cast<int>(i), static_cast<int>(i))));
+        filter.shift(column, 5.0, 1.5);
       }
     }
   }
@@ -126,7 +140,7 @@ struct Course {
   ErrorFilter last{kStates};
 };
 
-class PassageTest : public ::testing::TestWithParam<bool> {};
+class PassageTest : public ::testing::TestWithParam<Event> {};
 
 TEST_P(PassageTest, SaysOfTheErrorAtItsBeginWhatTheWayBackSays) {
   for (std::uint64_t seed = 1; seed < 6; ++seed) {
@@ -161,7 +175,7 @@ TEST_P(PassageTest, SaysOfTheErrorAtItsBeginWhatTheWayBackSays) {
 }
 
 TEST(Passage, LeavesOfThePresentCovarianceWhatIsNewSince) {
-  const Course course(7, false);
+  const Course course(7, Event::none);
   // The closed-loop transition as unit columns show it, and with it P of now from P of then.
   Passage::Columns unit = Passage::Columns::Identity(kStates, kStates);
   Passage::Square sums = Passage::Square::Zero(kStates, kStates);
@@ -181,7 +195,8 @@ TEST(Passage, LeavesOfThePresentCovarianceWhatIsNewSince) {
   EXPECT_GT(solver.eigenvalues().minCoeff(), -1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(WithoutAndWithRoom, PassageTest, ::testing::Bool());
+INSTANTIATE_TEST_SUITE_P(WithoutAndWithRoomOrShift, PassageTest,
+                         ::testing::Values(Event::none, Event::room, Event::shift));
 
 TEST(Passage, BehindANewStartNothingFollowsFromBefore) {
   Passage passage(kStates);

@@ -180,6 +180,15 @@ void Starter::begin(const StartInputs& in, const FilterState& state, std::array<
   }
 }
 
+StartHeading::Column start_error(const StateIndex& index, bool by_compass) {
+  // (GATE-9)
+  StartHeading::Column column{};
+  column[8] = 1.0;
+  const int bias = index.of(Group::heading_bias);
+  if (by_compass && bias >= 0) column[static_cast<std::size_t>(bias)] = -1.0;
+  return column;
+}
+
 Vector3d lever_of_gps_B_m(const Setup& setup) {
   for (const SensorConfig& one : setup.config.sensors)
     if (one.kind == SourceKind::gps) return geo::vec(one.lever_B_m);
@@ -214,6 +223,7 @@ void begin_given(const Setup& setup, const InitialState& initial, TimeNs now_ns,
   const int surface = setup.index.of(Group::surface_altitude);
   if (surface >= 0) start.x[static_cast<std::size_t>(surface)] = setup.config.states.surface_altitude_m;
   estimate.begin(start, sigma);
+  estimate.start_heading.begin(start_error(setup.index, false));
 }
 
 }  // namespace fathom::estimation

@@ -92,6 +92,7 @@ class Starter {
     double heading_rad = 0.0;
     double sigma_rad = 0.0;
     bool from_gyro = false;
+    bool from_compass = false;
   };
   [[nodiscard]] std::optional<Heading> heading_at_rest(const Setup& setup, const RestResult& rest,
                                                        const Eigen::Vector2d& tilt, double gyro_sigma) const;
@@ -134,6 +135,10 @@ class Starter {
   VelocityWindow velocities_;
   UnderWay under_way_;
 };
+
+/// What a start is wrong by, per radian that its heading is (GATE-9); `by_compass`: that is wrong by the same
+/// from then on.
+[[nodiscard]] StartHeading::Column start_error(const StateIndex& index, bool by_compass);
 
 /// Of the first receiver; zero without one.
 [[nodiscard]] Eigen::Vector3d lever_of_gps_B_m(const Setup& setup);

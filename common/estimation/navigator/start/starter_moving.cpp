@@ -184,6 +184,7 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   start.nav.v_N_m_s = found->v_N_m_s;
   start.nav.position = geo::moved_by(gps_position_, in.estimate.since(gps_seen_ns_) * found->v_N_m_s);
   begin(in, start, setup.initial_sigma, estimate);
+  if (heading_rad) estimate.start_heading.begin(start_error(setup.index, !under_way_.two_antenna));
   correlate_moving(setup, *found, estimate.filter);
   if (by_dvl) correlate_dvl(setup, *found, estimate.filter);
   return true;
@@ -232,6 +233,10 @@ bool Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
   sigma[6] = sigma[7] = config.in_motion_tilt_sigma_rad;
   sigma[8] = std::hypot(under_way_.heading_sigma_rad, 0.5 * config.in_motion_tilt_sigma_rad);
   begin(in, start, sigma, estimate);
+  StartHeading::Column column = start_error(in.setup.index, !under_way_.two_antenna);
+  column[3] = start.nav.v_N_m_s.y();
+  column[4] = -start.nav.v_N_m_s.x();
+  estimate.start_heading.begin(column);
   return true;
 }
 

@@ -55,7 +55,8 @@ std::optional<Starter::Heading> Starter::heading_at_rest(const Setup& setup, con
     case HeadingSource::automatic:
       break;
   }
-  if (window_.headings() > 0) return Heading{window_.heading_start_rad(), window_.heading_sigma_rad()};
+  if (window_.headings() > 0)
+    return Heading{window_.heading_start_rad(), window_.heading_sigma_rad(), false, !window_.two_antenna()};
   return config.heading_source == HeadingSource::automatic ? from_gyro() : std::nullopt;
 }
 
@@ -89,6 +90,7 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
   sigma[8] = heading->sigma_rad;
 
   const Matrix3d c = geo::to_matrix(start.nav.q_NB);
+  double bias_gain = 0.0;
   if (!heading->from_gyro) {
     // (ALN-4): the mean rate less the Earth's is the bias, as far as the vehicle was quiet.
     const Vector3d measured =
@@ -98,12 +100,20 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
       const double prior = imu.gyro_bias_sigma_rad_s * imu.gyro_bias_sigma_rad_s;
       const double noise = rate_noise * rate_noise + std::pow(earth_rate * heading->sigma_rad, 2) +
                            std::pow(geo::kEarthRate_rad_s * tilt_noise, 2);
-      const double gain = prior / (prior + noise);
-      start.x[static_cast<std::size_t>(bias + i)] = gain * measured(i);
-      sigma[static_cast<std::size_t>(bias + i)] = std::sqrt((1.0 - gain) * prior);
+      bias_gain = prior / (prior + noise);
+      start.x[static_cast<std::size_t>(bias + i)] = bias_gain * measured(i);
+      sigma[static_cast<std::size_t>(bias + i)] = std::sqrt((1.0 - bias_gain) * prior);
     }
   }
   begin(in, start, sigma, estimate);
+  if (!heading->from_gyro) {
+    StartHeading::Column column = start_error(index, heading->from_compass);
+    const Vector3d turned_B =
+        c.transpose() * geo::cross(Vector3d::UnitZ(), geo::earth_rate_N(position.latitude_rad));
+    for (int i = 0; i < 3; ++i)
+      column[static_cast<std::size_t>(index.of(Group::gyro_bias) + i)] = bias_gain * turned_B(i);
+    estimate.start_heading.begin(column);
+  }
   correlate_level(setup, position, c, estimate.filter);
   if (heading->from_gyro) correlate_gyrocompass(setup, position.latitude_rad, c, estimate.filter);
   return true;

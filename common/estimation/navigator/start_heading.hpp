@@ -1,0 +1,72 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "estimation/filter/error_filter.hpp"
+
+namespace fathom::estimation {
+
+/// The heading of the start may have been wrong by more than its sigma says: a compass beside the steel of a
+/// ship, a number that was mistyped. By a likelihood ratio over all innovations since then this is told from
+/// noise (GATE-9): how an error of one radian at the start has become one of now is carried along with the
+/// filter, as a column of errors. Costs next to nothing once the start does not matter any more.
+class StartHeading {
+ public:
+  using Column = std::array<double, kMaxStates>;
+
+  /// From a start on, which would be wrong by `column` per radian.
+  void begin(const Column& column) {
+    *this = {};
+    column_ = column;
+    open_ = true;
+  }
+  /// Nothing is looked for any more. What was found stays known.
+  void end() {
+    const double found_rad = found_rad_;
+    *this = {};
+    found_rad_ = found_rad;
+  }
+  /// By so much it was taken to be wrong, altogether: heading of the start less the true one. 0: not at all.
+  [[nodiscard]] double found_rad() const { return found_rad_; }
+
+  // What the filter does, in its order. `turn_rad_s`: about down, by then.
+  void propagated(const NavTransition& transition, const ProcessNoise& noise);
+  void updated(const Observation& observation, const InnovationStatistics& statistics, int estimated,
+               double turn_rad_s);
+  /// A measurement was not taken in. `statistics` with the noise that it says it has.
+  void refused(const Observation& observation, const InnovationStatistics& statistics, double turn_rad_s);
+  void carried(const Carry& carry);
+  void forgot(std::size_t state) { column_[state] = 0.0; }
+
+  [[nodiscard]] bool is_open() const { return open_; }
+  /// The error at the start that the innovations speak for, rad, and its variance.
+  [[nodiscard]] double error_rad() const { return gradient_ / curvature_; }
+  [[nodiscard]] double variance_rad2() const;
+  /// They leave no doubt that there was one.
+  [[nodiscard]] bool is_wrong() const;
+  /// The error has been taken out; the innovations from here on may say that it was more.
+  void corrected();
+  [[nodiscard]] const Column& column() const { return column_; }
+
+  /// For archives: see fields/navigator.hpp.
+  template <class Archive, class Self>
+  static void fields(Archive& archive, Self& self);
+
+ private:
+  struct Evidence;
+  void add(const Evidence& evidence, double turn_rad_s);
+
+  bool open_ = false;
+  std::uint32_t corrections_ = 0;
+  double found_rad_ = 0.0;
+  double gradient_ = 0.0;             ///< of the logarithm of the likelihood by the error, at none
+  double curvature_ = 0.0;            ///< and how fast that falls
+  std::array<double, 2> together_{};  ///< gradient and curvature of the last measurements
+  double together_s_ = 0.0;
+  /// Sums of g^2, g J and J^2 of the gradients g and curvatures J that were taken together.
+  std::array<double, 3> scatter_{};
+  Column column_{};
+};
+
+}  // namespace fathom::estimation

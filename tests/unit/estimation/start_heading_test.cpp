@@ -1,0 +1,260 @@
+// The heading of the start as something that may have been wrong (GATE-8, GATE-9).
+#include "estimation/navigator/start_heading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include "estimation/smoothing/filter_log.hpp"
+#include "geo/so3.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
+#include "support/vehicles/survey_run.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Vector3d;
+using test::Normal;
+using test::SurveyRun;
+
+constexpr double kDegree = M_PI / 180.0;
+constexpr int kStates = 17;
+constexpr int kBias = 15;  ///< of a compass
+
+/// A filter whose estimated errors are taken out of what is really wrong, as a navigator does.
+struct Loop {
+  explicit Loop(const ErrorFilter& at_start) : filter(at_start) {}
+
+  ErrorFilter filter;
+  Eigen::Matrix<double, kStates, 1> error =
+      Eigen::Matrix<double, kStates, 1>::Zero();  ///< what is left of it
+
+  void take_in(Observation observation, const Eigen::Matrix<double, Observation::kMaxRows, 1>& noise,
+               StartHeading* start) {
+    for (std::size_t r = 0; r < static_cast<std::size_t>(observation.rows); ++r) {
+      observation.innovation[r] = noise(static_cast<Eigen::Index>(r));
+      for (std::size_t i = 0; i < kStates; ++i)
+        observation.innovation[r] += observation.h[r][i] * error(static_cast<Eigen::Index>(i));
+    }
+    InnovationStatistics statistics;
+    filter.statistics(observation, 1.0, statistics);
+    std::array<double, kMaxStates> x{};
+    ASSERT_TRUE(filter.update(observation, statistics, x));
+    if (start != nullptr) start->updated(observation, statistics, kStates, 0.0);
+    for (std::size_t i = 0; i < kStates; ++i) error(static_cast<Eigen::Index>(i)) -= x[i];
+  }
+};
+
+StartHeading::Column by_compass() {
+  StartHeading::Column column{};
+  column[8] = 1.0;
+  column[kBias] = -1.0;
+  return column;
+}
+
+ErrorFilter known_to(double heading_rad) {
+  std::array<double, kMaxStates> sigma{};
+  for (std::size_t i = 0; i < kStates; ++i) sigma[i] = i < 3 ? 2.0 : i < 6 ? 0.1 : i < 15 ? 1e-4 : 0.017;
+  sigma[8] = heading_rad;
+  ErrorFilter filter(kStates);
+  filter.reset(sigma);
+  return filter;
+}
+
+/// Eight seconds of a compass, a speed log along the vehicle and fixes, while it speeds up: both loops see
+/// the same, `start` what the first one does.
+void run(double wrong_rad, std::uint64_t seed, Loop& believing, Loop& open, StartHeading& start) {
+  Normal normal(seed);
+  NavSolution nav;
+  nav.position = {0.6, 0.2, 10.0};
+  nav.q_NB = geo::from_rpy({0.0, 0.0, 0.8});
+  const StateIndex index{StateGroups{}};
+  ProcessNoise noise;
+  noise.velocity = 1e-4 * Eigen::Matrix3d::Identity();
+  noise.attitude = 1e-10 * Eigen::Matrix3d::Identity();
+  for (Loop* loop : {&believing, &open}) {
+    loop->error(8) = wrong_rad;
+    loop->error(kBias) = -wrong_rad;
+  }
+  start.begin(by_compass());
+  for (int k = 0; k < 80; ++k) {
+    nav.v_N_m_s = 0.05 * k * Vector3d(1.0, 0.3, 0.0);
+    const NavTransition step(index, nav, Vector3d(0.0, 0.0, 0.02), Vector3d(0.2, 0.0, -9.8), 0.1);
+    for (Loop* loop : {&believing, &open}) {
+      loop->filter.propagate(step, noise);
+      const NavTransition::Rows rows = step.rows(kStates - 2);
+      loop->error.head<kNavStates>() = (rows * loop->error.head<kStates - 2>()).eval();
+    }
+    start.propagated(step, noise);
+    Observation seen;
+    seen.rows = 3;
+    seen.h[0][8] = -1.0;
+    seen.h[0][kBias] = -1.0;
+    seen.h[1][3] = seen.h[2][4] = 1.0;
+    seen.h[1][8] = -nav.v_N_m_s.y();
+    seen.h[2][8] = nav.v_N_m_s.x();
+    seen.sigma = {0.01, 0.02, 0.02};
+    if (k % 5 == 0) {
+      seen.rows = 5;
+      seen.h[3][0] = seen.h[4][1] = 1.0;
+      seen.sigma[3] = seen.sigma[4] = 0.5;
+    }
+    seen.list_columns(kStates);
+    Eigen::Matrix<double, Observation::kMaxRows, 1> drawn =
+        Eigen::Matrix<double, Observation::kMaxRows, 1>::Zero();
+    for (int r = 0; r < seen.rows; ++r) drawn(r) = normal(seen.sigma[static_cast<std::size_t>(r)]);
+    believing.take_in(seen, drawn, &start);
+    open.take_in(seen, drawn, nullptr);
+  }
+}
+
+// What it finds is what a filter finds that knew nothing of the heading: its error and its covariance.
+TEST(StartHeading, FindsWhatAFilterFindsThatWasToldNothingOfTheHeading) {
+  for (const double wrong_deg : {-20.0, 8.0}) {
+    Loop believing(known_to(1.0 * kDegree));
+    ErrorFilter unknown = believing.filter;
+    constexpr double kNothing_rad = 30.0;
+    unknown.shift(by_compass(), 0.0, kNothing_rad * kNothing_rad);
+    Loop open(unknown);
+    StartHeading start;
+    run(wrong_deg * kDegree, 3, believing, open, start);
+    ASSERT_TRUE(start.is_wrong());
+    const double found_rad = start.error_rad();
+    EXPECT_NEAR(found_rad, wrong_deg * kDegree, 4.0 * std::sqrt(start.variance_rad2()));
+    // Forgetting over eight of its sixty seconds, and the last measurement, are what is left between the two.
+    constexpr double kForgotten = 0.05;
+    believing.filter.shift(start.column(), found_rad, start.variance_rad2());
+    for (int i = 0; i < kStates; ++i) {
+      const double sigma = std::sqrt(open.filter(i, i));
+      const double left = believing.error(i) - found_rad * start.column()[static_cast<std::size_t>(i)];
+      EXPECT_NEAR(left, open.error(i), kForgotten * sigma) << i;
+      EXPECT_NEAR(std::sqrt(believing.filter(i, i)), sigma, kForgotten * sigma) << i;
+    }
+    start.corrected();
+    EXPECT_FALSE(start.is_wrong());
+  }
+}
+
+TEST(StartHeading, IsNotDoubtedForWhatItsSigmaAllows) {
+  int doubted = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Normal normal(1000 + seed);
+    Loop believing(known_to(1.0 * kDegree));
+    Loop open(believing.filter);
+    StartHeading start;
+    // Heading and compass are wrong by the same: what is drawn lies along that.
+    run(normal(0.7 * kDegree), seed, believing, open, start);
+    doubted += start.is_wrong() ? 1 : 0;
+  }
+  EXPECT_EQ(doubted, 0);
+}
+
+// A single reading that is far off says much of itself and next to nothing of the start.
+TEST(StartHeading, NoSingleReadingDecides) {
+  Loop believing(known_to(1.0 * kDegree));
+  Loop open(believing.filter);
+  StartHeading start;
+  run(0.0, 5, believing, open, start);
+  Observation heading;
+  heading.rows = 1;
+  heading.h[0][8] = -1.0;
+  heading.h[0][kBias] = -1.0;
+  heading.sigma[0] = 0.01;
+  heading.list_columns(kStates);
+  Eigen::Matrix<double, Observation::kMaxRows, 1> far =
+      Eigen::Matrix<double, Observation::kMaxRows, 1>::Zero();
+  far(0) = 1.0;
+  believing.take_in(heading, far, &start);
+  EXPECT_FALSE(start.is_wrong());
+}
+
+// Of what has been found all the time before was wrong as well (SMOOTH-6).
+TEST(StartHeading, WhatIsFoundHoldsBeforeIt) {
+  ErrorFilter filter = known_to(1.0 * kDegree);
+  FilterLog log(kStates);
+  filter.record_to(&log);
+  const ErrorFilter before = filter;
+  filter.shift(by_compass(), 0.3, 0.01);
+  Observation heading;  // of two antennas, behind it
+  heading.rows = 1;
+  heading.h[0][8] = -1.0;
+  heading.innovation[0] = -0.05;
+  heading.sigma[0] = 0.002;
+  heading.list_columns(kStates);
+  InnovationStatistics statistics;
+  filter.statistics(heading, 1.0, statistics);
+  std::array<double, kMaxStates> found{};
+  ASSERT_TRUE(filter.update(heading, statistics, found));
+  Adjoint adjoint(kStates);
+  log.back_through(log.size(), 0, adjoint);
+  std::array<double, kMaxStates> x{};
+  adjoint.smoothed_error(before, x);
+  EXPECT_NEAR(x[8], 0.3 + found[8], 1e-12);
+  EXPECT_NEAR(x[kBias], -0.3 + found[kBias], 1e-12);
+  ErrorFilter smoothed = before;
+  const std::array<int, 2> states{8, kBias};
+  adjoint.smooth_covariance(states, smoothed);
+  for (const int i : states) EXPECT_NEAR(smoothed(i, i), filter(i, i), 1e-9 * filter(i, i));
+}
+
+struct Sailed {
+  double worst_h_sigmas = 0.0;
+  double worst_yaw_rad = 0.0;
+  double last_yaw_rad = 0.0;
+  std::string advice;  ///< at the end
+};
+
+/// The survey, with a compass that is off by so much until then; seen from `from_s` on.
+Sailed survey(const SurveyRun& run, double off_rad, double until_s, double from_s) {
+  FusionEngine engine(SurveyRun::config());
+  Sailed out;
+  std::size_t row = 0;
+  for (test::Sample sample : run.samples) {
+    const double t_s = to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs);
+    if (auto* heading = std::get_if<HeadingSample>(&sample); heading != nullptr && t_s < until_s)
+      heading->heading_rad = geo::wrap_two_pi(heading->heading_rad + off_rad);
+    test::feed(engine, sample);
+    Verdict verdict;
+    while (engine.next_verdict(verdict)) {
+    }
+    if (!std::holds_alternative<ImuSample>(sample)) continue;
+    const Truth& truth = run.truth[row++];
+    const NavState& nav = engine.nav_state();
+    if (t_s < from_s || nav.mode == NavMode::none || nav.mode == NavMode::aligning) continue;
+    const Eigen::Vector2d off_m =
+        geo::difference_N({truth.latitude_rad, truth.longitude_rad, truth.altitude_m},
+                          {nav.latitude_rad, nav.longitude_rad, nav.altitude_m})
+            .head<2>();
+    Eigen::Matrix2d p;
+    p << nav.position_covariance_N_m2[0], nav.position_covariance_N_m2[1], nav.position_covariance_N_m2[3],
+        nav.position_covariance_N_m2[4];
+    out.worst_h_sigmas = std::max(out.worst_h_sigmas, std::sqrt(off_m.dot(p.llt().solve(off_m))));
+    out.last_yaw_rad = std::abs(geo::wrap_pi(nav.rpy_rad[2] - truth.rpy_rad[2]));
+    out.worst_yaw_rad = std::max(out.worst_yaw_rad, out.last_yaw_rad);
+  }
+  AlignmentStatus status;
+  engine.fill(status);
+  out.advice = status.advice.data();
+  return out;
+}
+
+TEST(StartHeading, ACompassBesideSteelAtTheStartIsFoundOutByTheWay) {
+  const SurveyRun run({.duration_s = 130.0});
+  for (const double off_deg : {-20.0, 15.0, 20.0})
+    for (const double until_s : {15.0, 45.0}) {
+      const Sailed got = survey(run, off_deg * kDegree, until_s, 60.0);
+      EXPECT_LT(got.worst_h_sigmas, 3.7) << off_deg << " deg until " << until_s;
+      EXPECT_LT(got.worst_yaw_rad, 3.0 * kDegree) << off_deg << " deg until " << until_s;
+      EXPECT_LT(got.last_yaw_rad, 1.5 * kDegree) << off_deg << " deg until " << until_s;
+      const auto said = got.advice.find("wrong by ");
+      ASSERT_NE(said, std::string::npos) << got.advice;
+      EXPECT_NEAR(std::stod(got.advice.substr(said + 9)), off_deg, 0.4 * std::abs(off_deg)) << got.advice;
+    }
+  EXPECT_EQ(survey(run, 0.0, 0.0, 60.0).advice, "");
+}
+
+}  // namespace
+}  // namespace fathom::estimation
