@@ -226,11 +226,9 @@ void History::add(const AlignmentStatus& status, const Arrival& arrival) {
   row.phase = status.phase;
   row.advice = text_of(status.advice);
   for (std::size_t i = 0; i < std::min<std::size_t>(status.condition_count, AlignmentStatus::kMaxConditions);
-       ++i) {
-    const AlignmentCondition& one = status.conditions[i];
-    if (!one.met) row.unmet.push_back(one);
-    if (one.name == kStartHeadingError) row.start_error_rad = one.value;
-  }
+       ++i)
+    if (!status.conditions[i].met) row.unmet.push_back(status.conditions[i]);
+  row.start_error_rad = start_heading_error_rad(status);
   if (!alignment_.empty() && alignment_.back().phase == row.phase &&
       alignment_.back().start_error_rad == row.start_error_rad &&
       same_conditions(alignment_.back().unmet, row.unmet)) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/units.hpp"
 #include "report/material.hpp"
 #include "report/plot.hpp"
 
@@ -76,6 +77,12 @@ class Judge {
       return one.phase == AlignmentPhase::aligned;
     });
     const double length_s = m_.end_s - m_.begin_s;
+    if (m_.start_heading_error_rad != 0.0)
+      say(Weight::caution,
+          "The heading of the start was wrong by " + brief(m_.start_heading_error_rad * kDegPerRad) +
+              " deg, and was corrected once the way by GPS showed it. Look at iron near the compass, or at " +
+              "the heading that was given.",
+          "alignment");
     if (aligned == m_.phases.end()) {
       say(Weight::bad,
           "Alignment was never finished in " + seconds(length_s) + ": heading and tilt stayed coarser than " +

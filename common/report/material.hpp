@@ -123,8 +123,9 @@ struct Material {
   std::vector<Source> sources;
   std::vector<Outage> outages;
   std::vector<PhaseChange> phases;
-  std::vector<ServiceRow> services;  ///< of a recording, by name
-  std::vector<Told> told;            ///< of a recording, the likeliest cause first
+  double start_heading_error_rad = 0.0;  ///< found and corrected; 0: nothing
+  std::vector<ServiceRow> services;      ///< of a recording, by name
+  std::vector<Told> told;                ///< of a recording, the likeliest cause first
   /// Rows of each sensor in the data.
   std::map<std::string, std::uint64_t> samples;
 };

@@ -57,6 +57,15 @@ constexpr std::array kBlames{
     std::pair{std::string_view("gps_place_unit"), Blame{SourceKind::gps, "unit"}},
 };
 
+/// nullptr where there is none.
+template <class Is>
+const AlignmentCondition* find_condition(const AlignmentStatus& status, const Is& is) {
+  const auto end = status.conditions.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
+                                                   status.condition_count, AlignmentStatus::kMaxConditions));
+  const auto found = std::find_if(status.conditions.begin(), end, is);
+  return found == end ? nullptr : &*found;
+}
+
 }  // namespace
 
 bool is_implausible(const AlignmentCondition& condition) {
@@ -64,10 +73,13 @@ bool is_implausible(const AlignmentCondition& condition) {
 }
 
 const AlignmentCondition* implausible(const AlignmentStatus& status) {
-  const auto end = status.conditions.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
-                                                   status.condition_count, AlignmentStatus::kMaxConditions));
-  const auto found = std::find_if(status.conditions.begin(), end, is_implausible);
-  return found == end ? nullptr : &*found;
+  return find_condition(status, is_implausible);
+}
+
+double start_heading_error_rad(const AlignmentStatus& status) {
+  const AlignmentCondition* found =
+      find_condition(status, [](const AlignmentCondition& one) { return one.name == kStartHeadingError; });
+  return found == nullptr ? 0.0 : found->value;
 }
 
 Blame blame_of(const AlignmentCondition& condition) {

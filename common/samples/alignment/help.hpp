@@ -17,6 +17,8 @@ inline constexpr std::string_view kImplausiblePrefix = "implausible_";
 /// This condition says by how much the heading of the start was wrong, and that it was corrected (rad):
 /// always met, and absent where nothing was found.
 inline constexpr std::string_view kStartHeadingError = "start_heading_error_rad";
+/// 0 where nothing was found.
+[[nodiscard]] double start_heading_error_rad(const AlignmentStatus& status);
 
 /// Which instrument is meant and in what it is wrong: "unit", "sign", "axes", "rate" or "mounting", as
 /// findings of commissioning are named.

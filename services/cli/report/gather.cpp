@@ -189,8 +189,10 @@ Material gather(const SolveRun& solve_run, TimeNs epoch_ns) {
     gatherer.add(state, engine);
   };
   own.on_verdict = [&](const Verdict& verdict) { gatherer.add(verdict); };
-  (void)run(own);
-  return gatherer.finish();
+  const SolveResult result = run(own);
+  Material out = gatherer.finish();
+  out.start_heading_error_rad = start_heading_error_rad(result.alignment);
+  return out;
 }
 
 }  // namespace fathom::cli

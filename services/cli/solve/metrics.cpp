@@ -208,6 +208,8 @@ std::string to_json(const SolveReport& report) {
                                          {"first_s", one.first_s},
                                          {"last_s", one.last_s}});
   }
+  if (!report.smoothed)
+    out["start_heading_error_deg"] = start_heading_error_rad(report.result.alignment) * kDegPerRad;
   out["wall_time_s"] = report.result.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.result));
   out["verdicts"] = verdicts(report.result.verdicts);
@@ -278,6 +280,8 @@ std::string to_text(const SolveReport& report) {
                   text_of(name).c_str(), one.mean_square(), 100.0 * one.share_within_95());
   if (known(report.heading.aligned_after_s))
     out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
+  if (const double start_rad = start_heading_error_rad(report.result.alignment); start_rad != 0.0)
+    out += line("the heading of the start was wrong by %.1f deg and was corrected", start_rad * kDegPerRad);
   if (const HeadingErrors& course = report.heading.course; course.count() > 0)
     out += line(
         "heading against the course made good%s, straight ahead: rms %.2f deg, worst %.2f sigma, "
