@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "runtime/build_info.hpp"
+
 namespace fathom::demo {
 
 Parsed parse(int argc, char** argv) {
@@ -11,6 +13,7 @@ Parsed parse(int argc, char** argv) {
       "Shows a vehicle navigating: simulated instruments, bridges, fusion, monitor and guidance over DDS.\n"
       "Exit code 0 only if every service stayed healthy and the scenario's limits held."};
   app.name("deploy/demo");
+  app.set_version_flag("--version", "fathom-demo " + std::string(runtime::version()));
   auto* scenario =
       app.add_option("--scenario", options.scenario, "name of a file in deploy/config/scenarios, or a file")
           ->capture_default_str();

@@ -63,7 +63,7 @@ bool holds_nothing(const dataset::Dataset& data) {
   return nothing;
 }
 
-void write_csv(const ExportOptions& options, TimeNs epoch_ns) {
+void write_csv(const ExportOptions& options, std::optional<TimeNs> epoch_ns) {
   if (std::filesystem::is_directory(options.source)) {
     const dataset::Dataset data = dataset::read(options.source);
     if (holds_nothing(data))
@@ -71,13 +71,15 @@ void write_csv(const ExportOptions& options, TimeNs epoch_ns) {
                     options.source + ": no samples, expected a data set with imu.csv or others");
     const RemovedFiles removed(options.out);
     dataset::write(options.out, data);
+    // Where nobody says the instant of t_s = 0 the copy does not, either.
+    if (epoch_ns) write_epoch(options.out, *epoch_ns);
     return;
   }
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error)
     throw Failure(ExitCode::runtime_failure, options.out + ": cannot be created: " + error.message());
-  copy_with_utc(options.source, solution_in(options.out), epoch_ns);
+  copy_with_utc(options.source, solution_in(options.out), epoch_ns.value_or(dataset::kDefaultEpochNs));
 }
 
 void refuse_without_recording(const ExportOptions& options) {
@@ -105,8 +107,8 @@ std::vector<exchange::Track> tracks_of_source(const ExportOptions& options) {
     return {};
   }
   refuse_without_recording(options);
-  const TimeNs epoch_ns = epoch_of(options.source, options.epoch);
-  if (!csv) return read_tracks(options.source, epoch_ns, rate_hz);
+  const std::optional<TimeNs> epoch_ns = epoch_of(options.source, options.epoch);
+  if (!csv) return read_tracks(options.source, epoch_ns.value_or(dataset::kDefaultEpochNs), rate_hz);
   write_csv(options, epoch_ns);
   return {};
 }

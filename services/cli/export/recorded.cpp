@@ -73,8 +73,12 @@ void write_recorded(const std::string& folder, const Recorded& recorded) {
     for (const NavState& state : recorded.states) states.add(state);
     states.close();
   }
-  const nlohmann::json about{{"utc_of_start", to_iso8601(recorded.epoch_ns, 9)}};
-  write_text((path / "import.json").string(), about.dump(2) + "\n");
+  write_epoch(folder, recorded.epoch_ns);
+}
+
+void write_epoch(const std::string& folder, TimeNs epoch_ns) {
+  const nlohmann::json about{{"utc_of_start", to_iso8601(epoch_ns, 9)}};
+  write_text((std::filesystem::path(folder) / "import.json").string(), about.dump(2) + "\n");
 }
 
 }  // namespace fathom::cli

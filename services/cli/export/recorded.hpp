@@ -25,4 +25,7 @@ struct Recorded {
 /// dataset::DatasetError.
 void write_recorded(const std::string& folder, const Recorded& recorded);
 
+/// import.json with the instant of t_s = 0. Throws Failure.
+void write_epoch(const std::string& folder, TimeNs epoch_ns);
+
 }  // namespace fathom::cli

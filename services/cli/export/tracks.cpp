@@ -135,9 +135,9 @@ std::vector<Track> tracks_of(const dataset::Dataset& data, double rate_hz) {
 
 }  // namespace
 
-TimeNs epoch_of(const std::string& source, const std::string& asked) {
+std::optional<TimeNs> epoch_of(const std::string& source, const std::string& asked) {
   if (!asked.empty()) {
-    if (const auto epoch_ns = from_iso8601(asked)) return *epoch_ns;
+    if (const auto epoch_ns = from_iso8601(asked)) return epoch_ns;
     throw Failure(ExitCode::bad_configuration,
                   "--epoch " + asked + ": is no instant, expected one like 2026-01-31T12:00:00Z");
   }
@@ -145,9 +145,9 @@ TimeNs epoch_of(const std::string& source, const std::string& asked) {
   if (file) {
     const auto json = nlohmann::json::parse(file, nullptr, false);
     if (json.is_object() && json.contains("utc_of_start") && json["utc_of_start"].is_string())
-      if (const auto epoch_ns = from_iso8601(json["utc_of_start"].get<std::string>())) return *epoch_ns;
+      return from_iso8601(json["utc_of_start"].get<std::string>());
   }
-  return dataset::kDefaultEpochNs;
+  return std::nullopt;
 }
 
 std::vector<Track> read_tracks(const std::string& source, TimeNs epoch_ns, double rate_hz) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,9 +10,9 @@
 
 namespace fathom::cli {
 
-/// UTC of t_s = 0: `asked` (ISO 8601), else what import.json of the folder says, else 2020-01-01. Throws
-/// Failure where `asked` is no instant.
-[[nodiscard]] TimeNs epoch_of(const std::string& source, const std::string& asked);
+/// UTC of t_s = 0: `asked` (ISO 8601), else what import.json of the folder says; none where nobody says it.
+/// Throws Failure where `asked` is no instant.
+[[nodiscard]] std::optional<TimeNs> epoch_of(const std::string& source, const std::string& asked);
 
 /// The tracks of nav.csv ("nav") or of a data set ("gps", "usbl", "reference"), those that have points. At
 /// most `rate_hz` points a second, all at 0. Throws DatasetError.

@@ -155,6 +155,12 @@ def main():
         assert "gps" in names and "reference" in names, names
         run(fathom, "export", data, "--format", "csv", "--out", os.path.join(folder, "again"))
         assert open(os.path.join(data, "imu.csv")).read() == open(os.path.join(folder, "again", "imu.csv")).read()
+        # Its instant goes with it; where nobody says one none is made up.
+        assert not os.path.exists(os.path.join(folder, "again", "import.json"))
+        run(fathom, "export", data, "--format", "csv", "--out", os.path.join(folder, "dated"), "--epoch", EPOCH)
+        run(fathom, "export", os.path.join(folder, "dated"), "--format", "csv", "--out", os.path.join(folder, "copy"))
+        said = json.load(open(os.path.join(folder, "copy", "import.json")))["utc_of_start"]
+        assert said.startswith(EPOCH[:-1]), said
         # What cannot be is said.
         for bad, code in (((nav, "--format", "gpx", "--out", "/nowhere/x"), 4),
                           ((nav, "--format", "gpx", "--out", out, "--epoch", "yesterday"), 2),
