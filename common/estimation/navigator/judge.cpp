@@ -275,8 +275,9 @@ bool Navigator::start_was_wrong(const Trial& trial) const {
 void Navigator::doubt_start(Trial& trial) {
   const VerdictKind kind = trial.judgement.kind;
   const bool refused = kind == VerdictKind::rejected || kind == VerdictKind::disputed;
-  if (!refused || trial.then != nullptr || trial.policy.heading_alone || !estimate_.start_heading.is_open())
-    return;
+  // Through the water or the air a change of the current would be taken for the heading.
+  const bool over_ground = trial.policy.velocity == VelocityOver::ground || trial.policy.fix != Fix::none;
+  if (!refused || !over_ground || trial.then != nullptr || !estimate_.start_heading.is_open()) return;
   estimate_.filter.statistics(trial.whole, 1.0, trial.statistics);
   estimate_.start_heading.refused(trial.whole, trial.statistics, estimate_.turn_rad_s());
   if (!start_was_wrong(trial)) return;
