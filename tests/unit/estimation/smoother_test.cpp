@@ -152,6 +152,25 @@ TEST(Smoother, HoldsAnOutageFromBothEnds) {
   EXPECT_LT(s.horizontal_rms_m, f.horizontal_rms_m / 3.0);
 }
 
+// What is found of the start (GATE-9) was so before it was found (SMOOTH-6): the vehicle leaves at 20 s.
+TEST(Smoother, AHeadingThatWasWrongAtTheStartIsRightFromTheStart) {
+  constexpr double kDegree = M_PI / 180.0;
+  const SurveyRun run({.duration_s = 120.0});
+  std::vector<test::Sample> spoilt = run.samples;
+  for (test::Sample& sample : spoilt)
+    if (auto* heading = std::get_if<HeadingSample>(&sample);
+        heading != nullptr && to_seconds(heading->header.stamp_ns - SurveyRun::kEpochNs) < 45.0)
+      heading->heading_rad = geo::wrap_two_pi(heading->heading_rad + 20.0 * kDegree);
+  const Result result = smooth(spoilt, SurveyRun::config());
+  const Errors filtered = errors(run, result.filtered, 12.0, 28.0);
+  const Errors smoothed = errors(run, result.smoothed, 12.0, 28.0);
+  EXPECT_GT(filtered.yaw_rms_rad, 10.0 * kDegree);
+  EXPECT_LT(smoothed.yaw_rms_rad, 2.0 * kDegree);
+  // In place of the forward pass's 30 to 50 while GPS was refused.
+  EXPECT_GT(errors(run, result.filtered, 24.0, 32.0).nees_horizontal, 20.0);
+  EXPECT_LT(errors(run, result.smoothed, 24.0, 32.0).nees_horizontal, 7.4);
+}
+
 TEST(Smoother, AgreesWithTheFilterAtTheEnd) {
   const SurveyRun run(outage_in_the_middle(5));
   const Result result = smooth(run.samples, SurveyRun::config());
