@@ -133,8 +133,7 @@ struct AlignmentRow {
   TimeNs log_ns = 0;
   AlignmentPhase phase = AlignmentPhase::none;
   std::vector<AlignmentCondition> unmet;
-  double start_error_rad =
-      0.0;  ///< the heading of the start was wrong by this, and was corrected; 0: nothing
+  double start_error_rad = 0.0;  ///< of the heading of the start, found and corrected; 0: none
   std::string advice;
 };
 

@@ -147,7 +147,8 @@ bool Estimate::update(const Setup& setup, const Observation& observation,
                       std::array<double, kMaxStates>& x) {
   const Vector3d before = velocity_N_m_s(setup, along);
   if (!filter.update(observation, statistics, x)) return false;
-  start_heading.updated(observation, statistics, filter.estimated(), turn_rad_s());
+  if (start_heading.is_open())
+    start_heading.updated(observation, statistics, filter.estimated(), turn_rad_s());
   move(setup, x, before, along);
   return true;
 }

@@ -220,20 +220,11 @@ void Navigator::reacquire(Trial& trial) {
     gated.limit = trial.config.reacquire_step_m;
     gated.test_ratio = std::hypot(trial.whole.innovation[0], trial.whole.innovation[1]) / gated.limit;
   }
-  bool renewed = believed != 0 && trial.policy.heading_alone && !another_is_used(trial) &&
-                 Reacquisition::renew_compass(*setup_, estimate_, trial.whole);
-  if (renewed) gate(trial);
-  for (double room = 1.0; (renewed || (believed & gated.refused) != 0) && room < kMostRoom; room *= 4.0) {
-    renewed = false;
+  if (believed != 0 && trial.policy.heading_alone && !another_is_used(trial))
+    Reacquisition::renew_compass(*setup_, estimate_, trial.whole);
+  for (double room = 1.0; (believed & gated.refused) != 0 && room < kMostRoom; room *= 4.0) {
     // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
-    if (trial.policy.heading_alone) {
-      estimate_.widen_heading(room * trial.whole.innovation[0] * trial.whole.innovation[0]);
-    } else {
-      std::array<double, kNavStates> variance{};
-      Reacquisition::make_room(trial.policy, trial.instrument, estimate_, trial.whole, believed, room,
-                               variance);
-      estimate_.filter.widen_drifted(variance);
-    }
+    Reacquisition::make_room(trial.policy, trial.instrument, estimate_, trial.whole, believed, room);
     gate(trial);
   }
   if (believed != 0) trial.instrument.agrees_since_ns = 0;

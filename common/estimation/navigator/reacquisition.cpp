@@ -190,16 +190,14 @@ double Reacquisition::heading_needed_s(const Instrument& instrument, const Senso
   return std::min(needed_s, std::max(config.reacquire_s, agreed_s));
 }
 
-bool Reacquisition::renew_compass(const Setup& setup, Estimate& estimate, Observation& heading) {
+void Reacquisition::renew_compass(const Setup& setup, Estimate& estimate, Observation& heading) {
   // (GATE-8)
-  bool any = false;
   for (const Group group : {Group::heading_bias, Group::heading_deviation}) {
     const int first = setup.index.of(group);
     if (first < 0 || first >= setup.index.estimated()) continue;
     for (int i = first; i < first + group_size(group); ++i) {
       const auto state = static_cast<std::size_t>(i);
       if (heading.h[0][state] == 0.0) continue;
-      any = true;
       heading.innovation[0] += heading.h[0][state] * estimate.state.x[state];
       estimate.state.x[state] = 0.0;
       estimate.filter.forget(i, setup.initial_sigma[state]);
@@ -207,7 +205,6 @@ bool Reacquisition::renew_compass(const Setup& setup, Estimate& estimate, Observ
     }
   }
   heading.innovation[0] = geo::wrap_pi(heading.innovation[0]);
-  return any;
 }
 
 bool Reacquisition::stepped_lately(const SensorConfig& config, const Estimate& estimate) const {
@@ -270,9 +267,14 @@ bool Reacquisition::bound_step(const SensorConfig& config, const Estimate& estim
   return bounded;
 }
 
-void Reacquisition::make_room(const AidingPolicy& policy, const Instrument& instrument,
-                              const Estimate& estimate, const Observation& observation, unsigned rows,
-                              double factor, std::array<double, kNavStates>& variance) {
+void Reacquisition::make_room(const AidingPolicy& policy, const Instrument& instrument, Estimate& estimate,
+                              const Observation& observation, unsigned rows, double factor) {
+  // (GATE-3)
+  if (policy.heading_alone) {
+    estimate.widen_heading(factor * observation.innovation[0] * observation.innovation[0]);
+    return;
+  }
+  std::array<double, kNavStates> variance{};
   const double unheard_s = std::max(
       instrument.used_ns == 0 ? kLeastUnheard_s : estimate.since(instrument.used_ns), kLeastUnheard_s);
   for (int row = 0; row < observation.rows; ++row) {
@@ -286,13 +288,11 @@ void Reacquisition::make_room(const AidingPolicy& policy, const Instrument& inst
       first = 3;
     }
     // Of states that would explain the innovation: h z / |h|^2, whatever unit the row has.
-    // A heading says nothing about tilt, however its row looks when the vehicle is pitched.
     const double* weights = observation.h[r].data() + first;
-    const int least = policy.heading_alone ? 2 : 0;
     double weight = 0.0;
-    for (int i = least; i < 3; ++i) weight += weights[i] * weights[i];
+    for (int i = 0; i < 3; ++i) weight += weights[i] * weights[i];
     if (weight == 0.0) continue;
-    for (int i = least; i < 3; ++i)
+    for (int i = 0; i < 3; ++i)
       variance[static_cast<std::size_t>(first + i)] += squared * weights[i] * weights[i] / (weight * weight);
     // A velocity goes wrong by a level that is wrong: left as sure as it was, that would lead astray again.
     if (first == 3 && policy.shows_level && factor == 1.0) {
@@ -301,6 +301,7 @@ void Reacquisition::make_room(const AidingPolicy& policy, const Instrument& inst
       variance[7] += tilt * tilt;
     }
   }
+  estimate.filter.widen_drifted(variance);
 }
 
 }  // namespace fathom::estimation

@@ -30,16 +30,14 @@ class Reacquisition {
   [[nodiscard]] static double heading_needed_s(const Instrument& instrument, const SensorConfig& config,
                                                const Estimate& estimate, double deviations, bool vouched);
   /// A heading that is believed is that of another compass than before (GATE-8): its bias and deviation are
-  /// as unknown as at the start, and the innovation becomes what it is without them. False, with nothing
-  /// done, where none are estimated.
-  static bool renew_compass(const Setup& setup, Estimate& estimate, Observation& heading);
+  /// as unknown as at the start, and the innovation becomes what it is without them.
+  static void renew_compass(const Setup& setup, Estimate& estimate, Observation& heading);
   /// Weighs the fix down until the position moves no further than allowed; whether it had to.
   [[nodiscard]] static bool bound_step(const SensorConfig& config, const Estimate& estimate,
                                        Observation& observation, InnovationStatistics& statistics);
-  /// Variance that these rows ask for, added to `variance`.
-  static void make_room(const AidingPolicy& policy, const Instrument& instrument, const Estimate& estimate,
-                        const Observation& observation, unsigned rows, double factor,
-                        std::array<double, kNavStates>& variance);
+  /// Gives the estimate the variance that these rows ask for, `factor` times.
+  static void make_room(const AidingPolicy& policy, const Instrument& instrument, Estimate& estimate,
+                        const Observation& observation, unsigned rows, double factor);
   /// The position steps, from before to after; by a fix, or null.
   void note_step(const Eigen::Vector3d& step_N_m, const Observation* fix, const Estimate& estimate);
 

@@ -138,6 +138,13 @@ const Stream* compass_of(const History& history, TimeNs from_ns, TimeNs to_ns) {
   return nullptr;
 }
 
+/// The begin of what was there from the first heading on; `found_ns` where nothing navigated before.
+TimeNs from_the_first_heading_ns(const History& history, TimeNs found_ns) {
+  const auto first = std::find_if(history.states().begin(), history.states().end(),
+                                  [](const StateRow& row) { return navigating(row); });
+  return first == history.states().end() ? found_ns : std::min(found_ns, first->at_ns);
+}
+
 void say(const History& history, const std::vector<Window>& windows, std::size_t from, std::size_t to,
          const std::string& dvl, Findings& out) {
   double apart_rad = 0.0;
@@ -167,12 +174,7 @@ void say(const History& history, const std::vector<Window>& windows, std::size_t
                 .evidence = {{"fathom/v1/gps", static_cast<std::uint64_t>(fixes), "velocity_N_m_s"},
                              {"fathom/v1/dvl", static_cast<std::uint64_t>(fixes), dvl}}};
   // Where it was wrong as soon as it could be told it was wrong from the first heading on.
-  if (from == 0)
-    for (const StateRow& row : history.states())
-      if (navigating(row)) {
-        found.begin_ns = std::min(found.begin_ns, row.at_ns);
-        break;
-      }
+  if (from == 0) found.begin_ns = from_the_first_heading_ns(history, begin_ns);
   out.push_back(std::move(found));
 }
 
@@ -183,12 +185,7 @@ void say_start(const History& history, Findings& out) {
     if (row.start_error_rad != 0.0 && (found == nullptr || row.start_error_rad != found->start_error_rad))
       found = &row;
   if (found == nullptr) return;
-  TimeNs begin_ns = found->log_ns;
-  for (const StateRow& row : history.states())
-    if (navigating(row)) {
-      begin_ns = std::min(begin_ns, row.at_ns);
-      break;
-    }
+  const TimeNs begin_ns = from_the_first_heading_ns(history, found->log_ns);
   const Stream* compass = compass_of(history, begin_ns, found->log_ns);
   out.push_back(
       {.kind = Kind::wrong_heading,

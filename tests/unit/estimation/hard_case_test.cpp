@@ -13,11 +13,14 @@
 
 #include "geo/wgs84.hpp"
 #include "support/orders.hpp"
-#include "support/vehicles/survey_run.hpp"
+#include "support/vehicles/spoilt_survey.hpp"
 
 namespace fathom::estimation {
 namespace {
 
+using test::SpoiltSurvey;
+using test::survey;
+using test::survey_with_compass_off;
 using test::SurveyRun;
 
 constexpr double kLatitude_rad = 0.6;
@@ -150,56 +153,12 @@ TEST(HardCase, BeyondAPoleThereIsNoNavigationAndNoFigureThatIsNone) {
   EXPECT_EQ(again.restore(image), "") << "what is saved can be taken up";
 }
 
-/// Of the survey, with what somebody makes of its samples; a place of the survey is by seconds.
-struct Tampered {
-  double worst_yaw_rad = 0.0;  ///< from `from_s` on
-  double last_yaw_rad = 0.0;
-  double worst_yaw_sigmas = 0.0;
-  int frozen = 0;
-  int refused = 0;
-};
-
-template <class Tamper>
-Tampered survey(const SurveyRun& run, double from_s, const Tamper& tamper) {
-  FusionEngine engine(SurveyRun::config());
-  Tampered out;
-  std::size_t row = 0;
-  for (test::Sample sample : run.samples) {
-    const double t_s = to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs);
-    tamper(sample, t_s);
-    test::feed(engine, sample);
-    Verdict verdict;
-    while (engine.next_verdict(verdict)) {
-      out.frozen += verdict.is_final && verdict.kind == VerdictKind::frozen ? 1 : 0;
-      out.refused += verdict.is_final && verdict.kind == VerdictKind::rejected ? 1 : 0;
-    }
-    if (!std::holds_alternative<ImuSample>(sample)) continue;
-    const Truth& truth = run.truth[row++];
-    const NavState& nav = engine.nav_state();
-    if (t_s < from_s || nav.mode == NavMode::none || nav.mode == NavMode::aligning) continue;
-    out.last_yaw_rad = std::abs(geo::wrap_pi(nav.rpy_rad[2] - truth.rpy_rad[2]));
-    out.worst_yaw_rad = std::max(out.worst_yaw_rad, out.last_yaw_rad);
-    out.worst_yaw_sigmas = std::max(out.worst_yaw_sigmas, out.last_yaw_rad / nav.rpy_sigma_rad[2]);
-  }
-  return out;
-}
-
-/// The compass is off by so much within that time.
-Tampered with_compass_off(const SurveyRun& run, double off_rad, double from_s, double until_s,
-                          double seen_s) {
-  return survey(run, seen_s, [=](test::Sample& sample, double t_s) {
-    auto* heading = std::get_if<HeadingSample>(&sample);
-    if (heading == nullptr || t_s < from_s || t_s >= until_s) return;
-    heading->heading_rad = geo::wrap_two_pi(heading->heading_rad + off_rad);
-  });
-}
-
 TEST(HardCase, ACompassThatIsDisturbedForAMinuteIsNotBelieved) {
   constexpr double kDegree = M_PI / 180.0;
   for (const double dive_s : {50.0, 1e9}) {
     const SurveyRun run({.duration_s = 200.0, .dive_s = dive_s});
     for (const double off_deg : {15.0, 40.0, -90.0}) {
-      const Tampered got = with_compass_off(run, off_deg * kDegree, 110.0, 170.0, 30.0);
+      const SpoiltSurvey got = survey_with_compass_off(run, off_deg * kDegree, 110.0, 170.0, 30.0);
       EXPECT_LT(got.worst_yaw_rad, 3.0 * kDegree) << off_deg << " deg, dive at " << dive_s;
       EXPECT_LT(got.worst_yaw_sigmas, 4.0) << off_deg << " deg, dive at " << dive_s;
       EXPECT_GT(got.refused, 500) << off_deg << " deg, dive at " << dive_s;
@@ -211,7 +170,7 @@ TEST(HardCase, ACompassThatWasWrongAtTheStartIsBelievedOnceItHasBeenRightForAsLo
   constexpr double kDegree = M_PI / 180.0;
   const SurveyRun run({.duration_s = 130.0});
   for (const double off_deg : {30.0, -60.0}) {
-    const Tampered got = with_compass_off(run, off_deg * kDegree, 0.0, 55.0, 115.0);
+    const SpoiltSurvey got = survey_with_compass_off(run, off_deg * kDegree, 0.0, 55.0, 115.0);
     EXPECT_LT(got.worst_yaw_rad, 0.2 * std::abs(off_deg) * kDegree) << off_deg;
   }
 }
@@ -226,7 +185,7 @@ TEST(HardCase, ADvlThatRepeatsItselfWhileTheVehicleTravelsIsFrozen) {
     dvl->velocity_D_m_s = held;
   };
   // Thirty seconds at 5 Hz and 1.8 m/s, less the 5 m until it is known.
-  const Tampered got = survey(run, 30.0, freeze);
+  const SpoiltSurvey got = survey(run, 30.0, freeze);
   EXPECT_GT(got.frozen, 130);
   EXPECT_LT(got.frozen, 140);
   EXPECT_EQ(survey(run, 30.0, [](test::Sample&, double) {}).frozen, 0);

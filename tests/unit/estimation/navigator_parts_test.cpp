@@ -271,12 +271,12 @@ TEST(Reacquisition, AHeadingHasToBeWrongForAsLongAsItWasRight) {
 TEST(Reacquisition, RoomGoesWhereTheRowsLook) {
   const EngineConfig config;
   const estimation::Setup setup(config);
-  const Estimate estimate = navigating(setup, 1.0);
+  Estimate estimate = navigating(setup, 1.0);
   const Instrument instrument;
-  std::array<double, kNavStates> variance{};
-  Reacquisition::make_room({}, instrument, estimate, fix_off_by(3.0, 0.0), 3U, 1.0, variance);
-  EXPECT_DOUBLE_EQ(variance[0], 9.0);
-  for (std::size_t i = 1; i < variance.size(); ++i) EXPECT_EQ(variance[i], 0.0) << i;
+  const ErrorFilter before = estimate.filter;
+  Reacquisition::make_room({}, instrument, estimate, fix_off_by(3.0, 0.0), 3U, 1.0);
+  EXPECT_DOUBLE_EQ(estimate.filter(0, 0), before(0, 0) + 9.0);
+  for (int i = 1; i < kNavStates; ++i) EXPECT_EQ(estimate.filter(i, i), before(i, i)) << i;
   Observation heading;
   heading.rows = 1;
   heading.innovation[0] = 0.2;
@@ -285,10 +285,16 @@ TEST(Reacquisition, RoomGoesWhereTheRowsLook) {
   heading.h[0][8] = -1.0;
   AidingPolicy policy;
   policy.heading_alone = true;
-  variance.fill(0.0);
-  Reacquisition::make_room(policy, instrument, estimate, heading, 1U, 1.0, variance);
-  EXPECT_DOUBLE_EQ(variance[8], 0.2 * 0.2);
-  EXPECT_EQ(variance[6], 0.0);
+  // The velocity shares half of the heading's error per radian, and so does the place.
+  estimate.filter.set(3, 8, 0.5 * before(8, 8));
+  estimate.filter.set(1, 8, 0.5 * before(8, 8));
+  Reacquisition::make_room(policy, instrument, estimate, heading, 1U, 1.0);
+  EXPECT_DOUBLE_EQ(estimate.filter(8, 8), before(8, 8) + 0.2 * 0.2);
+  EXPECT_EQ(estimate.filter(6, 6), before(6, 6));
+  EXPECT_DOUBLE_EQ(estimate.filter(3, 3), before(3, 3) + 0.25 * 0.2 * 0.2);
+  EXPECT_DOUBLE_EQ(estimate.filter(3, 8), 0.5 * before(8, 8) + 0.5 * 0.2 * 0.2);
+  EXPECT_DOUBLE_EQ(estimate.filter(1, 1), before(1, 1) + 0.25 * 0.2 * 0.2);
+  EXPECT_EQ(estimate.filter(1, 8), 0.5 * before(8, 8));
 }
 
 TEST(Constraints, RestIsTakenForAVelocityOnceASecond) {

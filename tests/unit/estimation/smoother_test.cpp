@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/vehicles/survey_run.hpp"
+#include "support/vehicles/spoilt_survey.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -158,9 +158,7 @@ TEST(Smoother, AHeadingThatWasWrongAtTheStartIsRightFromTheStart) {
   const SurveyRun run({.duration_s = 120.0});
   std::vector<test::Sample> spoilt = run.samples;
   for (test::Sample& sample : spoilt)
-    if (auto* heading = std::get_if<HeadingSample>(&sample);
-        heading != nullptr && to_seconds(heading->header.stamp_ns - SurveyRun::kEpochNs) < 45.0)
-      heading->heading_rad = geo::wrap_two_pi(heading->heading_rad + 20.0 * kDegree);
+    test::turn_compass(sample, test::seconds_of(sample), 20.0 * kDegree, 0.0, 45.0);
   const Result result = smooth(spoilt, SurveyRun::config());
   const Errors filtered = errors(run, result.filtered, 12.0, 28.0);
   const Errors smoothed = errors(run, result.smoothed, 12.0, 28.0);

@@ -1,17 +1,15 @@
 // The heading of the start as something that may have been wrong (GATE-8, GATE-9).
 #include "estimation/navigator/start_heading.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
 #include "estimation/smoothing/filter_log.hpp"
 #include "geo/so3.hpp"
 #include "support/vehicles/analytic_vehicle.hpp"
-#include "support/vehicles/survey_run.hpp"
+#include "support/vehicles/spoilt_survey.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -200,52 +198,12 @@ TEST(StartHeading, WhatIsFoundHoldsBeforeIt) {
   for (const int i : states) EXPECT_NEAR(smoothed(i, i), filter(i, i), 1e-9 * filter(i, i));
 }
 
-struct Sailed {
-  double worst_h_sigmas = 0.0;
-  double worst_yaw_rad = 0.0;
-  double last_yaw_rad = 0.0;
-  std::string advice;  ///< at the end
-};
-
-/// The survey, with a compass that is off by so much until then; seen from `from_s` on.
-Sailed survey(const SurveyRun& run, double off_rad, double until_s, double from_s) {
-  FusionEngine engine(SurveyRun::config());
-  Sailed out;
-  std::size_t row = 0;
-  for (test::Sample sample : run.samples) {
-    const double t_s = to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs);
-    if (auto* heading = std::get_if<HeadingSample>(&sample); heading != nullptr && t_s < until_s)
-      heading->heading_rad = geo::wrap_two_pi(heading->heading_rad + off_rad);
-    test::feed(engine, sample);
-    Verdict verdict;
-    while (engine.next_verdict(verdict)) {
-    }
-    if (!std::holds_alternative<ImuSample>(sample)) continue;
-    const Truth& truth = run.truth[row++];
-    const NavState& nav = engine.nav_state();
-    if (t_s < from_s || nav.mode == NavMode::none || nav.mode == NavMode::aligning) continue;
-    const Eigen::Vector2d off_m =
-        geo::difference_N({truth.latitude_rad, truth.longitude_rad, truth.altitude_m},
-                          {nav.latitude_rad, nav.longitude_rad, nav.altitude_m})
-            .head<2>();
-    Eigen::Matrix2d p;
-    p << nav.position_covariance_N_m2[0], nav.position_covariance_N_m2[1], nav.position_covariance_N_m2[3],
-        nav.position_covariance_N_m2[4];
-    out.worst_h_sigmas = std::max(out.worst_h_sigmas, std::sqrt(off_m.dot(p.llt().solve(off_m))));
-    out.last_yaw_rad = std::abs(geo::wrap_pi(nav.rpy_rad[2] - truth.rpy_rad[2]));
-    out.worst_yaw_rad = std::max(out.worst_yaw_rad, out.last_yaw_rad);
-  }
-  AlignmentStatus status;
-  engine.fill(status);
-  out.advice = status.advice.data();
-  return out;
-}
-
 TEST(StartHeading, ACompassBesideSteelAtTheStartIsFoundOutByTheWay) {
   const SurveyRun run({.duration_s = 130.0});
   for (const double off_deg : {-20.0, 15.0, 20.0})
     for (const double until_s : {15.0, 45.0}) {
-      const Sailed got = survey(run, off_deg * kDegree, until_s, 60.0);
+      const test::SpoiltSurvey got =
+          test::survey_with_compass_off(run, off_deg * kDegree, 0.0, until_s, 60.0);
       EXPECT_LT(got.worst_h_sigmas, 3.7) << off_deg << " deg until " << until_s;
       EXPECT_LT(got.worst_yaw_rad, 3.0 * kDegree) << off_deg << " deg until " << until_s;
       EXPECT_LT(got.last_yaw_rad, 1.5 * kDegree) << off_deg << " deg until " << until_s;
@@ -253,7 +211,7 @@ TEST(StartHeading, ACompassBesideSteelAtTheStartIsFoundOutByTheWay) {
       ASSERT_NE(said, std::string::npos) << got.advice;
       EXPECT_NEAR(std::stod(got.advice.substr(said + 9)), off_deg, 0.4 * std::abs(off_deg)) << got.advice;
     }
-  EXPECT_EQ(survey(run, 0.0, 0.0, 60.0).advice, "");
+  EXPECT_EQ(test::survey(run, 60.0, [](test::Sample&, double) {}).advice, "");
 }
 
 }  // namespace
