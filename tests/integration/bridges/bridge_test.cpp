@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <csignal>
 #include <memory>
-#include <numbers>
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "base/units.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
 #include "samples/depth.hpp"
@@ -28,7 +28,6 @@ namespace fathom::test {
 namespace {
 
 namespace encode = sim::encode;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 std::string serial(const std::string& path) {
   return R"(sensors.0.source={"type":"serial","path":")" + path + R"(","backoff_most_s":0.2,"silence_s":1})";
@@ -130,8 +129,8 @@ TEST(GpsBridge, ADeadReceiverDoesNotDisturbTheLivingOne) {
   GpsSample sent;
   sent.fix = GpsFix::fix_3d;
   sent.satellites = 9;
-  sent.latitude_rad = 36.4 * kDegree;
-  sent.longitude_rad = 127.4 * kDegree;
+  sent.latitude_rad = 36.4 * kRadPerDeg;
+  sent.longitude_rad = 127.4 * kRadPerDeg;
   sent.altitude_m = 43.5;
   sent.altitude_msl_m = 18.5;
   sent.velocity_N_m_s = {1.0, 0.5, kUnknown};
@@ -170,7 +169,7 @@ TEST(DepthBridge, AFloodOfGarbageIsCountedAndSurvived) {
   ASSERT_TRUE(eventually([&] { return depth.matched() && status.matched(); })) << bridge.output();
   codec::CodecOptions options;
   options.pressure_unit_Pa = 6'894.757293168;
-  options.latitude_rad = 36.4 * kDegree;
+  options.latitude_rad = 36.4 * kRadPerDeg;
   DepthSample sent;
   sent.depth_m = 42.0;
   const auto talk = [&] { device.send(bytes_of(encode::paroscientific(sent, options))); };
@@ -250,7 +249,7 @@ TEST(HeadingBridge, TheInstrumentConnectsToTheBridge) {
   int device = -1;  // the bridge is on the network a little before it listens
   ASSERT_TRUE(eventually([&] { return (device = connect_to(port)) >= 0; })) << bridge.output();
   HeadingSample sent;
-  sent.heading_rad = 271.3 * kDegree;
+  sent.heading_rad = 271.3 * kRadPerDeg;
   const std::string sentence = encode::nmea_heading(sent);
   EXPECT_TRUE(eventually([&] {
     ::send(device, sentence.data(), sentence.size(), MSG_NOSIGNAL);
@@ -272,8 +271,8 @@ TEST(UsblBridge, AFixThatIsTwoSecondsLateKeepsItsTime) {
   UsblSample sent;
   sent.frame = UsblFrame::geodetic;
   sent.transponder = "B01";
-  sent.latitude_rad = 36.401 * kDegree;
-  sent.longitude_rad = 127.402 * kDegree;
+  sent.latitude_rad = 36.401 * kRadPerDeg;
+  sent.longitude_rad = 127.402 * kRadPerDeg;
   sent.depth_m = 30.0;
   sent.sigma_m = 2.0;
   const TimeNs valid = utc_now() / (10 * kNsPerMillisecond) * (10 * kNsPerMillisecond) - 2 * kNsPerSecond;
@@ -305,8 +304,8 @@ TEST(ActuatorBridge, PropulsorAndFinsOfOneStreamOthersIgnored) {
   PropulsionSample impossible;
   impossible.rpm = 9000.0;
   FinsSample fin;
-  fin.rudder_rad = 5.0 * kDegree;
-  fin.stern_rad = -3.0 * kDegree;
+  fin.rudder_rad = 5.0 * kRadPerDeg;
+  fin.stern_rad = -3.0 * kRadPerDeg;
   HeadingSample heading;
   heading.heading_rad = 1.0;
   ASSERT_TRUE(eventually([&] {

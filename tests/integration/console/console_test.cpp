@@ -1,7 +1,7 @@
 #include <cmath>
-#include <numbers>
 #include <set>
 
+#include "base/units.hpp"
 #include "console_fixture.hpp"
 
 namespace fathom::test {
@@ -59,9 +59,8 @@ TEST_F(ConsoleTest, ABrowserSeesWhatDdsSays) {
         kPatienceS);
   };
   ASSERT_TRUE(next_until([&] { return tick["trust"]["level"] == "good"; })) << tick.dump();
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  EXPECT_NEAR(tick["status"]["navigation"]["lat_deg"].get<double>(), 0.6 / kDegree, 1e-9);
-  EXPECT_NEAR(tick["status"]["navigation"]["lon_deg"].get<double>(), 2.2 / kDegree, 1e-9);
+  EXPECT_NEAR(tick["status"]["navigation"]["lat_deg"].get<double>(), 0.6 / kRadPerDeg, 1e-9);
+  EXPECT_NEAR(tick["status"]["navigation"]["lon_deg"].get<double>(), 2.2 / kRadPerDeg, 1e-9);
   EXPECT_GT(tick["tick"].get<std::int64_t>(), (*snapshot)["tick"].get<std::int64_t>());
 
   network->alarm("gps_outage", true);

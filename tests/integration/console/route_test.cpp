@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
+#include "base/units.hpp"
 #include "bus/writer.hpp"
 #include "console_fixture.hpp"
 
@@ -12,7 +12,6 @@ namespace fathom::test {
 namespace {
 
 using nlohmann::json;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 class RouteTest : public ConsoleTest {
  protected:
@@ -57,9 +56,9 @@ TEST_F(RouteTest, WhatGuidanceFollowsIsOnThePageAndGrowsOldWhenItIsGone) {
   ASSERT_EQ(route["points"].size(), 4U);
   EXPECT_EQ(route["points"][1][0], "turn");
   // 100 m north of where the vehicle was when guidance took over; the page has a millimetre.
-  EXPECT_NEAR(route["leg_start"][0].get<double>(), 0.6 / kDegree, 1e-7);
-  EXPECT_NEAR((route["points"][0][1].get<double>() - 0.6 / kDegree) * kDegree * 6.36e6, 100.0, 1.0);
-  EXPECT_NEAR(route["points"][0][2].get<double>(), 2.2 / kDegree, 1e-7);
+  EXPECT_NEAR(route["leg_start"][0].get<double>(), 0.6 / kRadPerDeg, 1e-7);
+  EXPECT_NEAR((route["points"][0][1].get<double>() - 0.6 / kRadPerDeg) * kRadPerDeg * 6.36e6, 100.0, 1.0);
+  EXPECT_NEAR(route["points"][0][2].get<double>(), 2.2 / kRadPerDeg, 1e-7);
   EXPECT_EQ(route["points"][1][3], 5.0);
   EXPECT_EQ(route["points"][1][4], 1.5);
   EXPECT_EQ(json::parse(get("/api/session").body)["waypoints"][0]["name"], "mark") << "and the fixed ones";

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <optional>
 #include <thread>
 
+#include "base/units.hpp"
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "console_fixture.hpp"
@@ -24,7 +24,6 @@ namespace {
 
 constexpr std::uint32_t kDomain = 32;
 constexpr double kRate = 10.0;
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// A survey whose Doppler log was lost for minutes, on the network.
 class FastSurvey {

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/iso8601.hpp"
+#include "base/units.hpp"
 #include "bus/reader.hpp"
 #include "integration/nmea_out/spoken.hpp"
 #include "samples/gps.hpp"
@@ -74,9 +75,9 @@ TEST_F(Gpsd, TellsOurPosition) {
     const auto time_ns = from_iso8601(report.at("time").get<std::string>());
     ASSERT_TRUE(time_ns.has_value()) << line;
     const double north_m =
-        (report.at("lat").get<double>() * kDegree - Vehicle::latitude_rad(*time_ns)) * 6.36e6;
+        (report.at("lat").get<double>() * kRadPerDeg - Vehicle::latitude_rad(*time_ns)) * 6.36e6;
     const double east_m =
-        (report.at("lon").get<double>() * kDegree - Vehicle::kLongitude_rad) * 6.38e6 * std::cos(0.5);
+        (report.at("lon").get<double>() * kRadPerDeg - Vehicle::kLongitude_rad) * 6.38e6 * std::cos(0.5);
     worst_m = std::max(worst_m, std::hypot(north_m, east_m));
     EXPECT_NEAR(report.value("speed", 0.0), 1.9, 0.01) << line;
     ++seen;
@@ -178,11 +179,11 @@ TEST(Gpsfake, FeedsTheBridge) {
   ASSERT_TRUE(enough) << bridge.err() << gpsfake.err();
   const std::lock_guard lock(mutex);
   for (const GpsSample& fix : fixes) {
-    const double minutes = (fix.latitude_rad / kDegree - 33.5) * 60.0;
+    const double minutes = (fix.latitude_rad / kRadPerDeg - 33.5) * 60.0;
     EXPECT_NEAR(minutes * 1000.0, std::round(minutes * 1000.0), 1e-3) << "one of the places of the log";
     EXPECT_GE(minutes, -1e-6);
     EXPECT_LT(minutes, 0.06);
-    EXPECT_NEAR(fix.longitude_rad / kDegree, 151.25, 1e-9);
+    EXPECT_NEAR(fix.longitude_rad / kRadPerDeg, 151.25, 1e-9);
     EXPECT_NEAR(fix.altitude_m, 45.0, 0.01)
         << "above the ellipsoid: 25 m above the sea, which is 20 m above it";
     EXPECT_NEAR(fix.velocity_N_m_s[0], 3.6 * 1852.0 / 3600.0, 0.01);

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
@@ -30,7 +29,6 @@
 namespace fathom::test {
 
 inline constexpr std::uint32_t kDomain = 223;
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 inline constexpr double kSpeed_rad_s = 3e-7;  // 1.9 m/s to the north
 
 /// Goes north at a known speed, and says so a hundred times a second.

@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <numbers>
 #include <string>
 #include <thread>
 #include <vector>
@@ -14,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.hpp"
+#include "base/units.hpp"
 #include "bus/writer.hpp"
 #include "integration/ros2/peer.hpp"
 #include "samples/nav_state.hpp"
@@ -25,8 +25,7 @@ namespace fathom::test {
 
 constexpr std::uint32_t kVehicle = 73;
 constexpr std::uint32_t kGraph = 74;
-constexpr double kDegree = std::numbers::pi / 180.0;
-inline const geo::Geodetic kOrigin{36.4 * kDegree, -121.5 * kDegree, -3.0};
+inline const geo::Geodetic kOrigin{36.4 * kRadPerDeg, -121.5 * kRadPerDeg, -3.0};
 
 inline std::vector<std::string> arguments(std::vector<std::string> sets = {}) {
   std::vector<std::string> out{"--config", FATHOM_SOURCE_DIR "/deploy/config/ros2_gateway.json"};

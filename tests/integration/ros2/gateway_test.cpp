@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "base/clock.hpp"
+#include "base/units.hpp"
 #include "bus/reader.hpp"
 #include "samples/depth.hpp"
 #include "samples/dvl.hpp"
@@ -197,7 +198,7 @@ TEST_F(Ros2Gateway, TakesInstruments) {
     EXPECT_GT(imu[i].header.stamp_ns, imu[i - 1].header.stamp_ns);
     EXPECT_GE(imu[i].header.received_ns, imu[i].header.stamp_ns);
   }
-  EXPECT_NEAR(gps.back().latitude_rad, -33.5 * kDegree, 1e-12);
+  EXPECT_NEAR(gps.back().latitude_rad, -33.5 * kRadPerDeg, 1e-12);
   EXPECT_EQ(gps.back().fix, GpsFix::fix_3d);
   EXPECT_EQ(gps.back().position_sigma_N_m, (std::array<double, 3>{3.0, 2.0, 5.0}));
   EXPECT_NEAR(depth.back().depth_m, 99.2, 0.3);

@@ -21,7 +21,7 @@
 namespace fathom::test {
 namespace {
 
-ClientOptions options(std::uint32_t domain) {
+ClientOptions planner_options(std::uint32_t domain) {
   ClientOptions out;
   out.domain = domain;
   out.vehicle = "auv";
@@ -83,7 +83,7 @@ Command position(double latitude_rad) {
 TEST(ClientOrders, AreGivenInItsNameAndAtTheTimeOfTheVehicle) {
   const SystemClock clock;
   VehicleNetwork network(184, clock);
-  Client client(options(184));
+  Client client(planner_options(184));
   Listening listening(184);
   ASSERT_TRUE(wait_until([&] {
     network.nav();
@@ -109,7 +109,7 @@ TEST(ClientOrders, AreGivenInItsNameAndAtTheTimeOfTheVehicle) {
 }
 
 TEST(ClientOrders, APositionIsToldOfThenAndOfThoseWhoSaySo) {
-  Client client(options(184));
+  Client client(planner_options(184));
   Listening listening(184);
   FixSample fix;
   fix.latitude_rad = 0.63;
@@ -134,7 +134,7 @@ TEST(ClientOrders, APositionIsToldOfThenAndOfThoseWhoSaySo) {
 }
 
 TEST(ClientOrders, ThatNobodyTakesOrCanBeMeantSaySo) {
-  Client client(options(184));
+  Client client(planner_options(184));
   EXPECT_THROW(client.order(position(0.63), 0.1), NobodyListens);
   try {
     client.order(position(36.4), 0.1);

@@ -36,10 +36,10 @@ namespace fathom::test {
 
 inline constexpr TimeNs kStart_ns = 1'700'000'000 * kNsPerSecond;
 inline constexpr DurationNs kPeriod_ns = 10 * kNsPerMillisecond;
-inline constexpr double kLatitude = 0.635;
-inline constexpr double kLongitude = 2.22;
+inline constexpr double kStillLatitude_rad = 0.635;
+inline constexpr double kStillLongitude_rad = 2.22;
 // Gravity at this latitude on the ellipsoid, by Somigliana's formula.
-inline constexpr double kGravity = 9.798;
+inline constexpr double kStillGravity_m_s2 = 9.798;
 
 /// The instruments of a vehicle that lies still and level, heading north, on their topics.
 class StillVehicle {
@@ -58,17 +58,17 @@ class StillVehicle {
     ImuSample sample;
     sample.header = header(sensor);
     sample.header.sequence = static_cast<std::uint64_t>(ticks_);
-    sample.angular_rate_B_rad_s = {7.292115e-5 * std::cos(kLatitude), 0.0,
-                                   -7.292115e-5 * std::sin(kLatitude)};
-    sample.specific_force_B_m_s2 = {0.0, 0.0, -kGravity};
+    sample.angular_rate_B_rad_s = {7.292115e-5 * std::cos(kStillLatitude_rad), 0.0,
+                                   -7.292115e-5 * std::sin(kStillLatitude_rad)};
+    sample.specific_force_B_m_s2 = {0.0, 0.0, -kStillGravity_m_s2};
     return sample;
   }
   GpsSample gps() {
     GpsSample sample;
     sample.header = header("gps");
     sample.fix = GpsFix::fix_3d;
-    sample.latitude_rad = kLatitude;
-    sample.longitude_rad = kLongitude;
+    sample.latitude_rad = kStillLatitude_rad;
+    sample.longitude_rad = kStillLongitude_rad;
     sample.altitude_m = 18.5;
     sample.velocity_N_m_s = {0.0, 0.0, 0.0};
     return sample;

@@ -25,8 +25,8 @@ TEST_F(FusionTest, GivesOneNavigationStatePerInertialSampleAndItsProductsEachSec
   }
   const NavState last = states.back();
   EXPECT_EQ(last.mode, NavMode::gps_aided);
-  EXPECT_NEAR(last.latitude_rad, kLatitude, 3.0 / 6.4e6);
-  EXPECT_NEAR(last.longitude_rad, kLongitude, 3.0 / 5.1e6);
+  EXPECT_NEAR(last.latitude_rad, kStillLatitude_rad, 3.0 / 6.4e6);
+  EXPECT_NEAR(last.longitude_rad, kStillLongitude_rad, 3.0 / 5.1e6);
   EXPECT_LT(std::hypot(last.velocity_N_m_s[0], last.velocity_N_m_s[1]), 0.1);
   EXPECT_GT(ear->count(SourceKind::gps, VerdictKind::used), 20);
   EXPECT_GT(ear->count(SourceKind::dvl, VerdictKind::used), 20);
@@ -110,8 +110,8 @@ TEST_F(FusionTest, GarbageGetsAVerdictAndMovesNothing) {
   const int sent = vehicle->ticks();
   ASSERT_TRUE(wait_until([&] { return ear->last_state().header.stamp_ns == kStart_ns + sent * kPeriod_ns; }));
   const NavState last = ear->last_state();
-  EXPECT_NEAR(last.latitude_rad, kLatitude, 3.0 / 6.4e6);
-  EXPECT_NEAR(last.longitude_rad, kLongitude, 3.0 / 5.1e6);
+  EXPECT_NEAR(last.latitude_rad, kStillLatitude_rad, 3.0 / 6.4e6);
+  EXPECT_NEAR(last.longitude_rad, kStillLongitude_rad, 3.0 / 5.1e6);
   EXPECT_LT(std::abs(last.rpy_rad[0]) + std::abs(last.rpy_rad[1]), 0.02);
 }
 
@@ -127,8 +127,8 @@ TEST_F(FusionTest, ObeysCommandsAndPinsItsInertialUnit) {
     return ear->count(SourceKind::gps, VerdictKind::source_disabled) > 0;
   }));
   Command position = vehicle->command(CommandKind::set_position);
-  position.latitude_rad = kLatitude + 100.0 / 6.36e6;
-  position.longitude_rad = kLongitude;
+  position.latitude_rad = kStillLatitude_rad + 100.0 / 6.36e6;
+  position.longitude_rad = kStillLongitude_rad;
   position.depth_m = 0.0;
   position.sigma_m = 1.0;
   vehicle->write(position);
@@ -149,7 +149,7 @@ TEST_F(FusionTest, ObeysCommandsAndPinsItsInertialUnit) {
     vehicle->run(20);
     return ear->last_state().reset_counter > resets;
   }));
-  EXPECT_NEAR(ear->last_state().latitude_rad, kLatitude + 100.0 / 6.36e6, 3.0 / 6.4e6);
+  EXPECT_NEAR(ear->last_state().latitude_rad, kStillLatitude_rad + 100.0 / 6.36e6, 3.0 / 6.4e6);
 
   Command old = vehicle->command(CommandKind::enable_source, "gps");
   old.header.stamp_ns -= 20 * kNsPerSecond;
@@ -229,8 +229,8 @@ TEST_F(FusionTest, SaysAgainWhatALateFixChangesAndOnceWhatIsFinal) {
   start(174, {"engine.horizon_s=2"});
   vehicle->run(100, false);
   Command somewhere = vehicle->command(CommandKind::set_position);
-  somewhere.latitude_rad = kLatitude;
-  somewhere.longitude_rad = kLongitude;
+  somewhere.latitude_rad = kStillLatitude_rad;
+  somewhere.longitude_rad = kStillLongitude_rad;
   somewhere.sigma_m = 200.0;
   vehicle->write(somewhere);
   ASSERT_TRUE(wait_until([&] {
@@ -258,7 +258,7 @@ TEST_F(FusionTest, SaysAgainWhatALateFixChangesAndOnceWhatIsFinal) {
   EXPECT_EQ(revised.revision, 1U);
   EXPECT_FALSE(revised.is_final);
   ASSERT_TRUE(wait_until([&] { return ear->last_state().header.stamp_ns == vehicle->now_ns(); }));
-  EXPECT_NEAR((ear->last_state().latitude_rad - kLatitude) * 6.36e6, 0.0, 3.0);
+  EXPECT_NEAR((ear->last_state().latitude_rad - kStillLatitude_rad) * 6.36e6, 0.0, 3.0);
 
   vehicle->run(220, false);
   ASSERT_TRUE(wait_until([&] { return ear->of(SourceKind::gps, wrong.header.sequence).size() == 3; }));

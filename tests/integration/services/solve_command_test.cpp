@@ -294,13 +294,13 @@ dataset::Dataset at_rest(double heading_rad) {
     ImuSample& imu = data.of<ImuSample>().emplace_back();
     imu.header.stamp_ns = imu.header.received_ns = dataset::kDefaultEpochNs + i * 10'000'000LL;
     imu.header.sequence = static_cast<std::uint64_t>(i);
-    imu.angular_rate_B_rad_s = {kEarthRate * std::cos(kLatitude) * std::cos(heading_rad),
-                                -kEarthRate * std::cos(kLatitude) * std::sin(heading_rad),
-                                -kEarthRate * std::sin(kLatitude)};
+    imu.angular_rate_B_rad_s = {kEarthRate * std::cos(kSolvedLatitude_rad) * std::cos(heading_rad),
+                                -kEarthRate * std::cos(kSolvedLatitude_rad) * std::sin(heading_rad),
+                                -kEarthRate * std::sin(kSolvedLatitude_rad)};
     imu.specific_force_B_m_s2 = {0.0, 0.0, -9.797};
     Truth& truth = data.reference.emplace_back();
     truth.header = imu.header;
-    truth.latitude_rad = kLatitude;
+    truth.latitude_rad = kSolvedLatitude_rad;
     truth.longitude_rad = 0.3;
     truth.altitude_m = 0.0;
     truth.velocity_N_m_s = {0.0, 0.0, 0.0};
@@ -309,7 +309,7 @@ dataset::Dataset at_rest(double heading_rad) {
     GpsSample& gps = data.of<GpsSample>().emplace_back();
     gps.header = imu.header;
     gps.fix = GpsFix::fix_3d;
-    gps.latitude_rad = kLatitude;
+    gps.latitude_rad = kSolvedLatitude_rad;
     gps.longitude_rad = 0.3;
     gps.altitude_m = 0.0;
     gps.position_sigma_N_m = {1.0, 1.0, 2.0};

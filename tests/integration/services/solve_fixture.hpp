@@ -17,7 +17,7 @@ namespace fathom::test {
 namespace fs = std::filesystem;
 
 inline constexpr double kEarthRate = 7.292115e-5;
-inline constexpr double kLatitude = 0.6;
+inline constexpr double kSolvedLatitude_rad = 0.6;
 
 /// A vehicle on a straight course to the north at constant depth and speed, written as a data set. Its
 /// inertial unit feels gravity, the Earth's rotation, the turn of the local level and the Coriolis force.
@@ -28,11 +28,11 @@ class StraightCourse {
 
   explicit StraightCourse(bool with_gps) {
     constexpr double kMeridian_m = 6'355'776.3;  // radius of curvature at this latitude
-    const double gravity = 9.780325 * (1.0 + 0.00193185 * std::pow(std::sin(kLatitude), 2)) /
-                           std::sqrt(1.0 - 0.00669438 * std::pow(std::sin(kLatitude), 2));
+    const double gravity = 9.780325 * (1.0 + 0.00193185 * std::pow(std::sin(kSolvedLatitude_rad), 2)) /
+                           std::sqrt(1.0 - 0.00669438 * std::pow(std::sin(kSolvedLatitude_rad), 2));
     for (int i = 0; i <= kSeconds * 100; ++i) {
       const TimeNs stamp = dataset::kDefaultEpochNs + i * 10'000'000LL;
-      const double latitude = kLatitude + kSpeed_m_s * 0.01 * i / kMeridian_m;
+      const double latitude = kSolvedLatitude_rad + kSpeed_m_s * 0.01 * i / kMeridian_m;
       ImuSample& imu = data.of<ImuSample>().emplace_back();
       imu.header.stamp_ns = imu.header.received_ns = stamp;
       imu.angular_rate_B_rad_s = {kEarthRate * std::cos(latitude), -kSpeed_m_s / kMeridian_m,

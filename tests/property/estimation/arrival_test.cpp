@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "same_bits.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -249,11 +250,6 @@ struct Passage {
   std::size_t early_before_finish = 0;  ///< of them
   std::map<VerdictKind, std::size_t> kinds;
 };
-
-template <std::size_t N>
-bool same_bits(const std::array<double, N>& a, const std::array<double, N>& b) {
-  return std::memcmp(a.data(), b.data(), sizeof a) == 0;
-}
 
 void expect_same_state(const FusionEngine& a, const FusionEngine& b) {
   const NavState& one = a.nav_state();

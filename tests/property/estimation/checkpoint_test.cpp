@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "same_bits.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -36,14 +36,14 @@ std::vector<Arrived> arrivals(const SurveyRun& run, std::uint64_t seed, double l
 using Judged = std::pair<TimeNs, SourceKind>;
 
 /// What an engine says from an instant on.
-struct Passage {
+struct Followed {
   std::vector<Judged> verdicts;
   NavState nav;
   NavDetail detail;
 };
 
-Passage follow(FusionEngine& engine, const std::vector<Arrived>& samples, std::size_t from) {
-  Passage out;
+Followed follow(FusionEngine& engine, const std::vector<Arrived>& samples, std::size_t from) {
+  Followed out;
   const auto drain = [&] {
     for (Verdict verdict; engine.next_verdict(verdict);) {
       out.verdicts.emplace_back(verdict.header.stamp_ns, verdict.source);
@@ -62,12 +62,7 @@ Passage follow(FusionEngine& engine, const std::vector<Arrived>& samples, std::s
   return out;
 }
 
-template <class T, std::size_t N>
-bool same_bits(const std::array<T, N>& a, const std::array<T, N>& b) {
-  return std::memcmp(a.data(), b.data(), sizeof a) == 0;
-}
-
-void expect_same(const Passage& a, const Passage& b) {
+void expect_same(const Followed& a, const Followed& b) {
   EXPECT_EQ(a.nav.header.sequence, b.nav.header.sequence);
   EXPECT_EQ(a.nav.mode, b.nav.mode);
   EXPECT_EQ(a.nav.alignment, b.nav.alignment);
@@ -120,8 +115,8 @@ TEST_P(Checkpoint, GoesOnToTheLastBit) {
     if (!std::isnan(foretold.horizontal_95_m)) {
       EXPECT_NEAR(foretold.horizontal_95_m / expected_forecast.horizontal_95_m, 1.0, 0.5);
     }
-    const Passage expected = follow(first, samples, cut);
-    const Passage got = follow(second, samples, cut);
+    const Followed expected = follow(first, samples, cut);
+    const Followed got = follow(second, samples, cut);
     SCOPED_TRACE(share);
     expect_same(got, expected);
     EXPECT_FALSE(expected.verdicts.empty());

@@ -1,8 +1,8 @@
-#include <cstring>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include "same_bits.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -44,11 +44,6 @@ NavState final_state(const std::vector<test::Sample>& samples, TimeNs until, Nav
   engine.finish();  // the last one may still be made up for
   engine.fill(detail);
   return engine.nav_state();
-}
-
-template <std::size_t N>
-bool same_bits(const std::array<double, N>& a, const std::array<double, N>& b) {
-  return std::memcmp(a.data(), b.data(), sizeof a) == 0;
 }
 
 TEST(Order, OfArrivalDoesNotChangeASingleBit) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "base/units.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 
@@ -17,7 +18,7 @@ sim::Scenario drop() {
   out.start.longitude_rad = 2.0;
   out.start.depth_m = -380.0;
   out.start.speed_m_s = 61.7;
-  out.start.rpy_rad = {6.0 * kDegree, -8.0 * kDegree, 0.8};
+  out.start.rpy_rad = {6.0 * kRadPerDeg, -8.0 * kRadPerDeg, 0.8};
   out.mission = {{0.0, 17.0, 0.8, 80.0}};
   auto& imu = out.sensors.of<ImuSample>();
   imu.enabled = true;
@@ -67,13 +68,13 @@ InitialState release() {
   state.latitude_rad = 0.6;
   state.longitude_rad = 2.0;
   state.altitude_m = 380.0;
-  const Eigen::Vector3d v =
-      geo::to_matrix(geo::from_rpy({6.0 * kDegree, -8.0 * kDegree, 0.8})) * Eigen::Vector3d(61.7, 0.0, 0.0);
+  const Eigen::Vector3d v = geo::to_matrix(geo::from_rpy({6.0 * kRadPerDeg, -8.0 * kRadPerDeg, 0.8})) *
+                            Eigen::Vector3d(61.7, 0.0, 0.0);
   state.velocity_N_m_s = geo::arr(v);
   state.rpy_rad = {0.0, 0.0, 0.8};  // roll and pitch are not known
   state.position_sigma_N_m = {5.0, 5.0, 5.0};
   state.velocity_sigma_N_m_s = {1.0, 1.0, 1.0};
-  state.attitude_sigma_rad = {10.0 * kDegree, 10.0 * kDegree, kDegree};
+  state.attitude_sigma_rad = {10.0 * kRadPerDeg, 10.0 * kRadPerDeg, kRadPerDeg};
   return state;
 }
 

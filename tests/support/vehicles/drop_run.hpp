@@ -13,7 +13,6 @@ using estimation::FusionEngine;
 using estimation::InitialState;
 using estimation::SensorConfig;
 
-inline constexpr double kDegree = 0.017453292519943295;
 inline constexpr TimeNs kEpoch = 1'700'000'000 * kNsPerSecond;
 
 sim::Scenario drop();

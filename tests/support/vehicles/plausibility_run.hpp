@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "samples/alignment/help.hpp"
 #include "sim/random.hpp"
@@ -47,7 +48,7 @@ struct PlausibilityRun {
 
  private:
   static constexpr double kRate_hz = 100.0;
-  static constexpr double kDegree = std::numbers::pi / 180.0;
+  static constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
   static sim::Scenario drawn(std::uint64_t seed) {
     sim::Random random(seed, "mission");
@@ -64,7 +65,7 @@ struct PlausibilityRun {
       one.heading_rad = std::remainder(heading, 2.0 * std::numbers::pi);
       one.depth_m = legs % 3 == 2 ? random.uniform(4.0, 9.0) : 0.0;
       out.mission.push_back(one);
-      heading += (random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * random.uniform(30.0, 100.0) * kDegree;
+      heading += (random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * random.uniform(30.0, 100.0) * kRadPerDeg;
       t += random.uniform(9.0, 14.0);
       ++legs;
     }
@@ -74,14 +75,14 @@ struct PlausibilityRun {
 
   static void instruments(sim::Scenario& out) {
     auto& imu = enable<ImuSample>(out, kRate_hz);
-    imu.gyro.bias_sigma = 5.0 * kDegree / 3600.0;
-    imu.gyro.random_walk = 0.05 * kDegree / 60.0;
+    imu.gyro.bias_sigma = 5.0 * kRadPerDeg / 3600.0;
+    imu.gyro.random_walk = 0.05 * kRadPerDeg / 60.0;
     imu.accelerometer.bias_sigma = 0.02;
     imu.accelerometer.random_walk = 0.1 / 60.0;
     enable<GpsSample>(out, 4.0).antenna_clearance_m = -1.0;  // it sits where the inertial unit is
     enable<DvlSample>(out, 5.0);
     enable<DepthSample>(out, 5.0);
-    enable<HeadingSample>(out, 5.0).sigma_rad = 0.5 * kDegree;
+    enable<HeadingSample>(out, 5.0).sigma_rad = 0.5 * kRadPerDeg;
   }
 };
 

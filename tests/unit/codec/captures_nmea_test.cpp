@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "capture.hpp"
 #include "support/data.hpp"
 
@@ -15,7 +15,6 @@ namespace fathom::codec::capture {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 double number(const Json& sentence, const char* key) {
   const auto found = sentence.find(key);

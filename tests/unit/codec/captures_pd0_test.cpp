@@ -1,19 +1,17 @@
 // Teledyne recordings against the bottom tracks that other decoders read from them.
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <regex>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "capture.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
 #include "support/data.hpp"
 
 namespace fathom::codec::capture {
 namespace {
-
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 /// One ensemble as expected, in the recorded axes; unknown where another decoder says "bad".
 struct Expected {

@@ -1,11 +1,11 @@
 // UBX recordings against the NAV-PVT messages that pyubx2 read from them.
 #include <cmath>
 #include <fstream>
-#include <numbers>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "capture.hpp"
 #include "support/data.hpp"
 
@@ -13,7 +13,6 @@ namespace fathom::codec::capture {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 
 std::string disagreement(const Json& e, const Decoded& decoded, const GpsSample& s) {
   const auto integer = [&](const char* key) { return e.at(key).get<std::int64_t>(); };

@@ -1,11 +1,11 @@
 // Pressure to depth, Paroscientific, and the ASCII line.
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "codec/depth/pressure.hpp"
 #include "nmea_text.hpp"
 
@@ -15,11 +15,10 @@ namespace {
 using test::decode_text;
 using test::DecodeRun;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kDecibar = 1e4;
 
 TEST(Pressure, CheckValueOfTheUnescoReport) {
-  EXPECT_NEAR(depth_from_pressure(10'000.0 * kDecibar, 30.0 * kDegree), 9712.653, 5e-4);
+  EXPECT_NEAR(depth_from_pressure(10'000.0 * kDecibar, 30.0 * kRadPerDeg), 9712.653, 5e-4);
 }
 
 TEST(Pressure, TableOfTheUnescoReport) {
@@ -32,17 +31,17 @@ TEST(Pressure, TableOfTheUnescoReport) {
         Row{5000.0, 4915.04, 4908.56, 4895.60, 4889.13}, Row{10000.0, 9725.47, 9712.65, 9687.04, 9674.23}}) {
     const double pascal = row.dbar * kDecibar;
     EXPECT_NEAR(depth_from_pressure(pascal, 0.0), row.at_0, 0.02) << row.dbar;
-    EXPECT_NEAR(depth_from_pressure(pascal, 30.0 * kDegree), row.at_30, 0.02) << row.dbar;
-    EXPECT_NEAR(depth_from_pressure(pascal, -60.0 * kDegree), row.at_60, 0.02) << row.dbar;
-    EXPECT_NEAR(depth_from_pressure(pascal, 90.0 * kDegree), row.at_90, 0.02) << row.dbar;
+    EXPECT_NEAR(depth_from_pressure(pascal, 30.0 * kRadPerDeg), row.at_30, 0.02) << row.dbar;
+    EXPECT_NEAR(depth_from_pressure(pascal, -60.0 * kRadPerDeg), row.at_60, 0.02) << row.dbar;
+    EXPECT_NEAR(depth_from_pressure(pascal, 90.0 * kRadPerDeg), row.at_90, 0.02) << row.dbar;
   }
 }
 
 TEST(Pressure, TheInverseIsOne) {
   for (const double latitude_deg : {0.0, 36.4, -77.0, 90.0}) {
     for (const double depth_m : {-5.0, 0.0, 0.01, 50.0, 1000.0, 11'900.0}) {
-      const double pascal = pressure_from_depth(depth_m, latitude_deg * kDegree);
-      EXPECT_NEAR(depth_from_pressure(pascal, latitude_deg * kDegree), depth_m, 1e-6);
+      const double pascal = pressure_from_depth(depth_m, latitude_deg * kRadPerDeg);
+      EXPECT_NEAR(depth_from_pressure(pascal, latitude_deg * kRadPerDeg), depth_m, 1e-6);
     }
   }
 }
@@ -69,7 +68,7 @@ TEST(Paroscientific, UnitAtmosphereAndLatitudeAreConfiguration) {
   CodecOptions bar;
   bar.pressure_unit_Pa = 1e5;
   bar.atmosphere_Pa = 100'000.0;
-  bar.latitude_rad = 60.0 * kDegree;
+  bar.latitude_rad = 60.0 * kRadPerDeg;
   const auto depth = decode_text("pressure", "*000151.0\r\n", bar).all<DepthSample>();
   ASSERT_EQ(depth.size(), 1U);
   EXPECT_NEAR(depth[0].depth_m, 494.69, 0.02);
@@ -144,7 +143,7 @@ TEST(AsciiDepth, ScaleAndOffsetToPascal) {
   CodecOptions gauge_dbar;
   gauge_dbar.ascii_scale = 1e4;
   gauge_dbar.ascii_offset = 101'325.0;
-  gauge_dbar.latitude_rad = 30.0 * kDegree;
+  gauge_dbar.latitude_rad = 30.0 * kRadPerDeg;
   const auto depth = decode_text("ascii_depth", "1000.0\r\n", gauge_dbar).all<DepthSample>();
   ASSERT_EQ(depth.size(), 1U);
   EXPECT_NEAR(depth[0].depth_m, 990.81, 0.02);

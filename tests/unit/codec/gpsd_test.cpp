@@ -3,17 +3,15 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "support/codec/decode_run.hpp"
 
 namespace fathom::test {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 DecodeRun run_of(const std::string& text) {
   return decode_whole("gpsd", ByteVector(text.begin(), text.end()), {});
@@ -47,10 +45,10 @@ TEST(Gpsd, AStreamOfARealOneIsReadWhole) {
       continue;
     }
     ++fixes;
-    EXPECT_NEAR(fix.latitude_rad / kDegree, -33.5 + 2e-5 * second, 1e-9);
-    EXPECT_NEAR(fix.longitude_rad / kDegree, 151.25 + 1e-5 * second, 1e-9);
+    EXPECT_NEAR(fix.latitude_rad / kRadPerDeg, -33.5 + 2e-5 * second, 1e-9);
+    EXPECT_NEAR(fix.longitude_rad / kRadPerDeg, 151.25 + 1e-5 * second, 1e-9);
     EXPECT_NEAR(std::hypot(fix.velocity_N_m_s[0], fix.velocity_N_m_s[1]), 4.5 * 1852.0 / 3600.0, 1e-3);
-    EXPECT_NEAR(std::atan2(fix.velocity_N_m_s[1], fix.velocity_N_m_s[0]) / kDegree, 23.45, 1e-3);
+    EXPECT_NEAR(std::atan2(fix.velocity_N_m_s[1], fix.velocity_N_m_s[0]) / kRadPerDeg, 23.45, 1e-3);
     EXPECT_FALSE(known(fix.velocity_sigma_N_m_s[0])) << "48 m/s are no figure of the velocity";
     if (i < 3) continue;  // until gpsd knows which sentence ends a second
     EXPECT_NEAR(fix.altitude_m, 33.5 + 0.1 * second, 1e-3);
@@ -72,7 +70,7 @@ TEST(Gpsd, OneReceiverCounts) {
              report(R"("mode":3,"time":"2026-05-01T10:00:00.500Z","lat":10.0,"lon":10.0)", "/dev/b") +
              report(R"("mode":3,"time":"2026-05-01T10:00:01.000Z","lat":-33.5,"lon":151.25)"));
   ASSERT_EQ(run.samples.size(), 2U);
-  EXPECT_NEAR(fix_of(run.samples[1]).latitude_rad / kDegree, -33.5, 1e-12);
+  EXPECT_NEAR(fix_of(run.samples[1]).latitude_rad / kRadPerDeg, -33.5, 1e-12);
 }
 
 TEST(Gpsd, WithoutSigmasOfItsOwnThoseOfGpsdCount) {

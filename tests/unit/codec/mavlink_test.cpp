@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "mavlink/frame.hpp"
 #include "mavlink/messages.hpp"
 #include "support/codec/decode_run.hpp"
@@ -15,7 +16,6 @@
 namespace fathom::test {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kG = 9.80665;
 
 ByteVector recorded() {
@@ -44,7 +44,7 @@ TEST(MavlinkTelemetry, EveryMessageBecomesASample) {
   EXPECT_EQ(fixes[4].fix, GpsFix::none);
   EXPECT_FALSE(known(fixes[4].latitude_rad));
   EXPECT_EQ(fixes[5].fix, GpsFix::rtk_fixed);
-  EXPECT_NEAR(fixes[5].latitude_rad / kDegree, -33.4999995, 1e-10);
+  EXPECT_NEAR(fixes[5].latitude_rad / kRadPerDeg, -33.4999995, 1e-10);
   EXPECT_NEAR(fixes[5].altitude_m, 33.5, 1e-9);
   EXPECT_NEAR(fixes[5].altitude_msl_m, 12.5, 1e-9);
   EXPECT_NEAR(fixes[5].velocity_N_m_s[1], 1.5, 1e-9) << "east";

@@ -1,12 +1,12 @@
 // One sample per epoch: what joins, when it leaves, what its time is.
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "nmea_text.hpp"
 
 namespace fathom::codec {
@@ -15,8 +15,6 @@ namespace {
 using test::decode_text;
 using test::DecodeRun;
 using test::sentence;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 TimeNs utc(int year, int month, int day, int hour, int minute, int second) {
   return *from_civil(
@@ -64,8 +62,8 @@ TEST(NmeaGps, OneEpochFromFourSentences) {
   EXPECT_EQ(gps.fix, GpsFix::fix_3d);
   EXPECT_EQ(gps.satellites, 8);
   EXPECT_DOUBLE_EQ(gps.hdop, 0.9);
-  EXPECT_NEAR(gps.latitude_rad, (48.0 + 7.038 / 60.0) * kDegree, 1e-12);
-  EXPECT_NEAR(gps.longitude_rad, (11.0 + 31.0 / 60.0) * kDegree, 1e-12);
+  EXPECT_NEAR(gps.latitude_rad, (48.0 + 7.038 / 60.0) * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(gps.longitude_rad, (11.0 + 31.0 / 60.0) * kRadPerDeg, 1e-12);
   EXPECT_DOUBLE_EQ(gps.altitude_msl_m, 545.4);
   EXPECT_NEAR(gps.altitude_m, 545.4 + 46.9, 1e-9);
   EXPECT_NEAR(gps.velocity_N_m_s[0], 0.0, 1e-12);
@@ -202,7 +200,7 @@ TEST(NmeaGps, SentencesOfOneSecondAtTwoPlacesAreNotOneFix) {
   ASSERT_EQ(two.rejected.size(), 1U);
   EXPECT_EQ(two.rejected[0].reason, RejectReason::structure);
   ASSERT_EQ(two.samples.size(), 1U);
-  EXPECT_NEAR(fixes(two)[0].longitude_rad, -102.0 * kDegree, 1e-9);
+  EXPECT_NEAR(fixes(two)[0].longitude_rad, -102.0 * kRadPerDeg, 1e-9);
   EXPECT_TRUE(std::isnan(fixes(two)[0].velocity_N_m_s[0])) << "nothing of the other one";
   // What rounding leaves is one fix.
   const DecodeRun one = decode_text("nmea0183", gga_at + rmc_at("10200.04"));

@@ -1,11 +1,11 @@
 // Heading, propulsion, fins, and acoustic positions by NMEA 0183.
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "nmea_text.hpp"
 
 namespace fathom::codec {
@@ -14,8 +14,6 @@ namespace {
 using test::decode_text;
 using test::DecodeRun;
 using test::sentence;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 HeadingSample heading(const std::string& body) {
   const DecodeRun run = decode_text("heading", sentence(body));
@@ -31,15 +29,15 @@ RejectReason refused(const std::string& body) {
 }
 
 TEST(NmeaHeading, TrueAndMagnetic) {
-  EXPECT_NEAR(heading("HEHDT,274.07,T").heading_rad, 274.07 * kDegree, 1e-12);
+  EXPECT_NEAR(heading("HEHDT,274.07,T").heading_rad, 274.07 * kRadPerDeg, 1e-12);
   EXPECT_EQ(heading("HEHDT,274.07,T").north, North::true_north);
   EXPECT_EQ(heading("HCHDM,120.5,M").north, North::magnetic);
   EXPECT_EQ(heading("HEHDT,360.0,T").heading_rad, 0.0);
 }
 
 TEST(NmeaHeading, ThsOnlyInAutonomousMode) {
-  EXPECT_NEAR(heading("GPTHS,23.34,A").heading_rad, 23.34 * kDegree, 1e-12);
-  EXPECT_NEAR(heading("GPTHS,23.34").heading_rad, 23.34 * kDegree, 1e-12);
+  EXPECT_NEAR(heading("GPTHS,23.34,A").heading_rad, 23.34 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(heading("GPTHS,23.34").heading_rad, 23.34 * kRadPerDeg, 1e-12);
   for (const char* mode : {"E", "M", "S", "V"}) {
     EXPECT_TRUE(std::isnan(heading("GPTHS,23.34," + std::string(mode)).heading_rad)) << mode;
   }
@@ -48,15 +46,15 @@ TEST(NmeaHeading, ThsOnlyInAutonomousMode) {
 TEST(NmeaHeading, HdgGivesMagneticHeadingWithTheDeviationAdded) {
   const HeadingSample both = heading("HCHDG,101.1,7.1,W,12.2,E");
   EXPECT_EQ(both.north, North::magnetic);
-  EXPECT_NEAR(both.heading_rad, 94.0 * kDegree, 1e-12);
-  EXPECT_NEAR(both.deviation_rad, -7.1 * kDegree, 1e-12);
-  EXPECT_NEAR(both.variation_rad, 12.2 * kDegree, 1e-12);
+  EXPECT_NEAR(both.heading_rad, 94.0 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(both.deviation_rad, -7.1 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(both.variation_rad, 12.2 * kRadPerDeg, 1e-12);
   const HeadingSample bare = heading("HCHDG,101.1,,,7.1,W");
-  EXPECT_NEAR(bare.heading_rad, 101.1 * kDegree, 1e-12);
+  EXPECT_NEAR(bare.heading_rad, 101.1 * kRadPerDeg, 1e-12);
   EXPECT_TRUE(std::isnan(bare.deviation_rad));
-  EXPECT_NEAR(bare.variation_rad, -7.1 * kDegree, 1e-12);
-  EXPECT_NEAR(heading("HCHDG,1.0,3.0,W,,").heading_rad, 358.0 * kDegree, 1e-12);
-  EXPECT_NEAR(heading("HCHDG,359.0,3.0,E,,").heading_rad, 2.0 * kDegree, 1e-12);
+  EXPECT_NEAR(bare.variation_rad, -7.1 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(heading("HCHDG,1.0,3.0,W,,").heading_rad, 358.0 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(heading("HCHDG,359.0,3.0,E,,").heading_rad, 2.0 * kRadPerDeg, 1e-12);
 }
 
 TEST(NmeaHeading, AnEmptyHeadingIsUnknownAndAMalformedOneIsRefused) {
@@ -105,16 +103,16 @@ TEST(NmeaFins, RudderAndSternPlaneBecomeOneSample) {
   const auto fins = run.all<FinsSample>();
   ASSERT_EQ(fins.size(), 1U);
   // RSA counts bow to starboard positive; about the down axis that is a negative rotation of the rudder.
-  EXPECT_NEAR(fins[0].rudder_rad, -10.0 * kDegree, 1e-12);
-  EXPECT_NEAR(fins[0].stern_rad, -5.0 * kDegree, 1e-12);
+  EXPECT_NEAR(fins[0].rudder_rad, -10.0 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(fins[0].stern_rad, -5.0 * kRadPerDeg, 1e-12);
   EXPECT_EQ(run.samples[0].offset, 0U);
 }
 
 TEST(NmeaFins, OneXdrMayCarryBoth) {
   const auto fins = decode_text("actuator", sentence("IIXDR,A,3.0,D,rudder,A,4.0,D,Stern")).all<FinsSample>();
   ASSERT_EQ(fins.size(), 1U);
-  EXPECT_NEAR(fins[0].rudder_rad, 3.0 * kDegree, 1e-12);
-  EXPECT_NEAR(fins[0].stern_rad, 4.0 * kDegree, 1e-12);
+  EXPECT_NEAR(fins[0].rudder_rad, 3.0 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(fins[0].stern_rad, 4.0 * kRadPerDeg, 1e-12);
 }
 
 TEST(NmeaFins, ALoneRudderSoonLeavesAtOnce) {

@@ -1,12 +1,12 @@
 #include "codec/text/nmea_sentence.hpp"
 
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "nmea_text.hpp"
 
 namespace fathom::codec {
@@ -14,8 +14,6 @@ namespace {
 
 using test::decode_text;
 using test::sentence;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 RejectReason only_reason(std::string_view text) {
   const test::DecodeRun run = decode_text("nmea0183", text);
@@ -114,9 +112,9 @@ TEST(FieldReader, LatitudeAndLongitude) {
     const double value = fields.latitude(0);
     return std::pair(value, fields.refused());
   };
-  EXPECT_NEAR(latitude("4807.038", "N").first, (48.0 + 7.038 / 60.0) * kDegree, 1e-15);
-  EXPECT_NEAR(latitude("4807.038", "S").first, -(48.0 + 7.038 / 60.0) * kDegree, 1e-15);
-  EXPECT_NEAR(latitude("0000.0001", "N").first, 0.0001 / 60.0 * kDegree, 1e-18);
+  EXPECT_NEAR(latitude("4807.038", "N").first, (48.0 + 7.038 / 60.0) * kRadPerDeg, 1e-15);
+  EXPECT_NEAR(latitude("4807.038", "S").first, -(48.0 + 7.038 / 60.0) * kRadPerDeg, 1e-15);
+  EXPECT_NEAR(latitude("0000.0001", "N").first, 0.0001 / 60.0 * kRadPerDeg, 1e-18);
   EXPECT_TRUE(std::isnan(latitude("", "").first));
   EXPECT_FALSE(latitude("", "").second.has_value());
   EXPECT_TRUE(std::isnan(latitude("4807.038", "").first));

@@ -272,7 +272,7 @@ TEST(Pd0, UnknownTypesAreSkippedAndEnsemblesWithoutBottomTrackIgnored) {
   EXPECT_EQ(run.totals.frames_ignored, 1U);
 }
 
-struct Fault {
+struct Pd0Fault {
   const char* name;
   ByteVector bytes;
   RejectReason reason;
@@ -306,7 +306,7 @@ ByteVector cut_track() {
   return join(parts);
 }
 
-class Pd0Faults : public ::testing::TestWithParam<Fault> {};
+class Pd0Faults : public ::testing::TestWithParam<Pd0Fault> {};
 
 TEST_P(Pd0Faults, AreRefusedOnceAndTheNextEnsembleIsFound) {
   const Harvest run = decode("pd0", GetParam().bytes + join(Ensemble{}.parts()));
@@ -319,20 +319,20 @@ TEST_P(Pd0Faults, AreRefusedOnceAndTheNextEnsembleIsFound) {
 INSTANTIATE_TEST_SUITE_P(
     All, Pd0Faults,
     ::testing::Values(
-        Fault{"checksum", damaged(), RejectReason::checksum},
-        Fault{"length_too_short", ByteVector{0x7F, 0x7F, 3, 0, 0, 1}, RejectReason::length},
-        Fault{"length_too_long", ByteVector{0x7F, 0x7F, 0xFF, 0xFF, 0, 1}, RejectReason::length},
-        Fault{"offset_into_the_header", resummed([](ByteVector& b) { store<std::uint16_t>(b, 6, 2); }),
+        Pd0Fault{"checksum", damaged(), RejectReason::checksum},
+        Pd0Fault{"length_too_short", ByteVector{0x7F, 0x7F, 3, 0, 0, 1}, RejectReason::length},
+        Pd0Fault{"length_too_long", ByteVector{0x7F, 0x7F, 0xFF, 0xFF, 0, 1}, RejectReason::length},
+        Pd0Fault{"offset_into_the_header", resummed([](ByteVector& b) { store<std::uint16_t>(b, 6, 2); }),
               RejectReason::structure},
-        Fault{"offset_backwards", resummed([](ByteVector& b) { store<std::uint16_t>(b, 10, 20); }),
+        Pd0Fault{"offset_backwards", resummed([](ByteVector& b) { store<std::uint16_t>(b, 10, 20); }),
               RejectReason::structure},
-        Fault{"offset_past_the_end", resummed([](ByteVector& b) { store<std::uint16_t>(b, 10, 5000); }),
+        Pd0Fault{"offset_past_the_end", resummed([](ByteVector& b) { store<std::uint16_t>(b, 10, 5000); }),
               RejectReason::structure},
-        Fault{"no_types", resummed([](ByteVector& b) { b[5] = 0; }), RejectReason::structure},
-        Fault{"more_types_than_bytes", resummed([](ByteVector& b) { b[5] = 255; }), RejectReason::structure},
-        Fault{"no_fixed_leader", without(0), RejectReason::structure},
-        Fault{"no_variable_leader", without(1), RejectReason::structure},
-        Fault{"bottom_track_too_short", cut_track(), RejectReason::structure}),
+        Pd0Fault{"no_types", resummed([](ByteVector& b) { b[5] = 0; }), RejectReason::structure},
+        Pd0Fault{"more_types_than_bytes", resummed([](ByteVector& b) { b[5] = 255; }), RejectReason::structure},
+        Pd0Fault{"no_fixed_leader", without(0), RejectReason::structure},
+        Pd0Fault{"no_variable_leader", without(1), RejectReason::structure},
+        Pd0Fault{"bottom_track_too_short", cut_track(), RejectReason::structure}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(Pd0, WavePacketsBetweenEnsemblesAreIgnored) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "base/little_endian.hpp"
+#include "base/units.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 #include "support/codec/decode_run.hpp"
 
@@ -19,8 +20,6 @@ namespace {
 using test::ByteVector;
 using test::decode_whole;
 using test::DecodeRun;
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 template <class T>
 void put(ByteVector& bytes, std::size_t offset, T value) {
@@ -91,8 +90,8 @@ TEST(UbxNavPvt, UnitsAndAccuracies) {
     const GpsSample gps = decode_pvt(pvt(length));
     EXPECT_EQ(gps.fix, GpsFix::fix_3d);
     EXPECT_EQ(gps.satellites, 11);
-    EXPECT_NEAR(gps.latitude_rad, -36.4 * kDegree, 1e-12);
-    EXPECT_NEAR(gps.longitude_rad, 127.4 * kDegree, 1e-12);
+    EXPECT_NEAR(gps.latitude_rad, -36.4 * kRadPerDeg, 1e-12);
+    EXPECT_NEAR(gps.longitude_rad, 127.4 * kRadPerDeg, 1e-12);
     EXPECT_DOUBLE_EQ(gps.altitude_m, 18.5);
     EXPECT_DOUBLE_EQ(gps.altitude_msl_m, -7.25);
     EXPECT_NEAR(gps.position_sigma_N_m[0], 1.5 / std::numbers::sqrt2, 1e-12);
@@ -102,7 +101,7 @@ TEST(UbxNavPvt, UnitsAndAccuracies) {
     EXPECT_DOUBLE_EQ(gps.velocity_N_m_s[1], -0.25);
     EXPECT_DOUBLE_EQ(gps.velocity_N_m_s[2], 0.012);
     EXPECT_DOUBLE_EQ(gps.velocity_sigma_N_m_s[2], 0.09);
-    EXPECT_NEAR(gps.course_rad, 348.69 * kDegree, 1e-9);
+    EXPECT_NEAR(gps.course_rad, 348.69 * kRadPerDeg, 1e-9);
   }
 }
 

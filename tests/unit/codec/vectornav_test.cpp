@@ -18,7 +18,8 @@ using capture::Harvest;
 using capture::of_kind;
 
 /// A frame of any fields: masks by group, then the payload, then the CRC.
-ByteVector frame(std::uint8_t groups, const std::vector<std::uint16_t>& masks, const ByteVector& payload) {
+ByteVector vectornav_frame(std::uint8_t groups, const std::vector<std::uint16_t>& masks,
+                           const ByteVector& payload) {
   ByteVector bytes{0xFA, groups};
   for (const std::uint16_t mask : masks) append_le<std::uint16_t>(bytes, mask);
   bytes.insert(bytes.end(), payload.begin(), payload.end());
@@ -45,7 +46,7 @@ ByteVector text(std::string_view t) {
 
 const ByteVector kRateAndForce = floats({1, 2, 3, 0.1F, 0.2F, 0.3F});  // group 3: bits 2 and 3
 ByteVector good_frame() {
-  return frame(0x04, {0x000C}, kRateAndForce);
+  return vectornav_frame(0x04, {0x000C}, kRateAndForce);
 }
 
 TEST(VectorNav, CrcOfAFrameWithItsOwnCrcIsZero) {
@@ -67,7 +68,7 @@ TEST(VectorNav, ReadsUncompensatedRateAndForce) {
 TEST(VectorNav, PrefersUncompensatedToCompensated) {
   // Group 3 bits 2, 3 uncompensated, 9, 10 compensated.
   const auto payload = kRateAndForce + floats({9, 9, 9, 9, 9, 9});
-  const Harvest run = decode("vectornav", frame(0x04, {0x060C}, payload));
+  const Harvest run = decode("vectornav", vectornav_frame(0x04, {0x060C}, payload));
   const auto imu = of_kind<ImuSample>(run);
   ASSERT_EQ(imu.size(), 1U);
   EXPECT_EQ(imu[0].second.specific_force_B_m_s2[0], 1.0);
@@ -89,7 +90,7 @@ TEST(VectorNav, FindsFieldsBehindOthersOfEveryGroup) {
   gnss.resize(gnss.size() + 1 + 2 * 28, 0);
   const ByteVector attitude(2 + 12 + 16, 0);
   const ByteVector ins(2 + 24, 0);
-  const auto bytes = frame(0x39, {0x7FFF, 0xFFFF, 0x0007, 0x0003}, common + gnss + attitude + ins);
+  const auto bytes = vectornav_frame(0x39, {0x7FFF, 0xFFFF, 0x0007, 0x0003}, common + gnss + attitude + ins);
   const Harvest run = decode("vectornav", bytes);
   const auto imu = of_kind<ImuSample>(run);
   ASSERT_EQ(imu.size(), 1U);
@@ -101,7 +102,8 @@ TEST(VectorNav, FindsFieldsBehindOthersOfEveryGroup) {
 
 TEST(VectorNav, IncrementsAloneGiveRates) {
   // Common bit 11: interval, angle in degrees, velocity.
-  const Harvest run = decode("vectornav", frame(0x01, {0x0800}, floats({0.01F, 1, 0, -1, 0, 0, -0.098F})));
+  const Harvest run =
+      decode("vectornav", vectornav_frame(0x01, {0x0800}, floats({0.01F, 1, 0, -1, 0, 0, -0.098F})));
   const auto imu = of_kind<ImuSample>(run);
   ASSERT_EQ(imu.size(), 1U);
   const ImuSample& s = imu[0].second;
@@ -112,7 +114,7 @@ TEST(VectorNav, IncrementsAloneGiveRates) {
 }
 
 TEST(VectorNav, FrameWithoutInertialDataIsIgnored) {
-  const Harvest run = decode("vectornav", frame(0x10, {0x0002}, floats({10, 20, 30})));
+  const Harvest run = decode("vectornav", vectornav_frame(0x10, {0x0002}, floats({10, 20, 30})));
   EXPECT_EQ(run.totals.samples, 0U);
   EXPECT_EQ(run.totals.frames_ignored, 1U);
   EXPECT_EQ(run.totals.rejected, 0U);
@@ -122,7 +124,7 @@ TEST(VectorNav, UtcOnlyWhenTheStatusVouchesForIt) {
   for (const std::uint8_t status : {0, 3, 4, 7}) {
     ByteVector payload{26, 1, 31, 12, 30, 15, 250, 0};  // 2026-01-31 12:30:15.250
     payload.push_back(status);
-    const Harvest run = decode("vectornav", frame(0x06, {0x0240, 0x000C}, payload + kRateAndForce));
+    const Harvest run = decode("vectornav", vectornav_frame(0x06, {0x0240, 0x000C}, payload + kRateAndForce));
     ASSERT_EQ(run.samples.size(), 1U);
     const bool valid = (status & 4) != 0;
     ASSERT_EQ(run.samples[0].time.utc_ns.has_value(), valid);
@@ -132,13 +134,13 @@ TEST(VectorNav, UtcOnlyWhenTheStatusVouchesForIt) {
   }
 }
 
-struct Fault {
+struct VectornavFault {
   const char* name;
   ByteVector bytes;
   RejectReason reason;
 };
 
-class VectorNavFaults : public ::testing::TestWithParam<Fault> {};
+class VectorNavFaults : public ::testing::TestWithParam<VectornavFault> {};
 
 TEST_P(VectorNavFaults, AreRefusedOnceAndTheNextFrameIsFound) {
   const Harvest run = decode("vectornav", GetParam().bytes + good_frame());
@@ -157,18 +159,21 @@ ByteVector damaged() {
 INSTANTIATE_TEST_SUITE_P(
     All, VectorNavFaults,
     ::testing::Values(
-        Fault{"checksum", damaged(), RejectReason::checksum},
-        Fault{"field_nobody_knows", frame(0x04, {0x8000}, {}), RejectReason::structure},
-        Fault{"group_nobody_knows", frame(0x80, {0x0001}, {}), RejectReason::structure},
-        Fault{"not_a_number", frame(0x04, {0x0008}, floats({0, std::numeric_limits<float>::quiet_NaN(), 0})),
+        VectornavFault{"checksum", damaged(), RejectReason::checksum},
+        VectornavFault{"field_nobody_knows", vectornav_frame(0x04, {0x8000}, {}), RejectReason::structure},
+        VectornavFault{"group_nobody_knows", vectornav_frame(0x80, {0x0001}, {}), RejectReason::structure},
+        VectornavFault{"not_a_number",
+              vectornav_frame(0x04, {0x0008}, floats({0, std::numeric_limits<float>::quiet_NaN(), 0})),
               RejectReason::field},
-        Fault{"infinite", frame(0x04, {0x0004}, floats({0, 0, std::numeric_limits<float>::infinity()})),
+        VectornavFault{"infinite",
+              vectornav_frame(0x04, {0x0004}, floats({0, 0, std::numeric_limits<float>::infinity()})),
               RejectReason::field},
-        Fault{"impossible_rate", frame(0x04, {0x0008}, floats({0, 0, 1000})), RejectReason::out_of_range},
-        Fault{"text_checksum", text("$VNYMR,1,2,3,4,5,6,7,8,9,1,2,3*00\r\n"), RejectReason::checksum},
-        Fault{"text_without_checksum", text("$VNYMR,1,2,3,4,5,6,7,8,9,1,2,3*XX\r\n"),
+        VectornavFault{"impossible_rate", vectornav_frame(0x04, {0x0008}, floats({0, 0, 1000})),
+              RejectReason::out_of_range},
+        VectornavFault{"text_checksum", text("$VNYMR,1,2,3,4,5,6,7,8,9,1,2,3*00\r\n"), RejectReason::checksum},
+        VectornavFault{"text_without_checksum", text("$VNYMR,1,2,3,4,5,6,7,8,9,1,2,3*XX\r\n"),
               RejectReason::no_checksum},
-        Fault{"text_cut", text("$VNYMR,1,2,3\r\n"), RejectReason::structure}),
+        VectornavFault{"text_cut", text("$VNYMR,1,2,3\r\n"), RejectReason::structure}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(VectorNav, TextWithEitherChecksum) {

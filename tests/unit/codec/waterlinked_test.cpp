@@ -82,13 +82,13 @@ TEST(WaterLinked, OtherTypesAndKeysAreIgnored) {
   EXPECT_EQ(run.totals.samples, 1U);
 }
 
-struct Fault {
+struct WaterlinkedFault {
   const char* name;
   std::string stream;
   RejectReason reason;
 };
 
-class WaterLinkedFaults : public ::testing::TestWithParam<Fault> {};
+class WaterLinkedFaults : public ::testing::TestWithParam<WaterlinkedFault> {};
 
 TEST_P(WaterLinkedFaults, AreRefusedOnceAndTheNextReportIsFound) {
   const Harvest run = read(GetParam().stream + "\r\n" + kGood + "\r\n");
@@ -100,21 +100,21 @@ TEST_P(WaterLinkedFaults, AreRefusedOnceAndTheNextReportIsFound) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, WaterLinkedFaults,
-    ::testing::Values(Fault{"cut", kGood.substr(0, 300), RejectReason::length},
-                      Fault{"cut_in_a_word", kGood.substr(0, 4), RejectReason::length},
-                      Fault{"not_json", R"({"type":velocity})", RejectReason::structure},
-                      Fault{"not_a_number", with(R"("vx":1.5)", R"("vx":NaN)"), RejectReason::structure},
-                      Fault{"beyond_double", with(R"("vx":1.5)", R"("vx":1e999)"), RejectReason::structure},
-                      Fault{"word_for_number", with(R"("vx":1.5)", R"("vx":"fast")"), RejectReason::field},
-                      Fault{"number_for_flag", with(R"("velocity_valid":true)", R"("velocity_valid":1)"),
+    ::testing::Values(WaterlinkedFault{"cut", kGood.substr(0, 300), RejectReason::length},
+                      WaterlinkedFault{"cut_in_a_word", kGood.substr(0, 4), RejectReason::length},
+                      WaterlinkedFault{"not_json", R"({"type":velocity})", RejectReason::structure},
+                      WaterlinkedFault{"not_a_number", with(R"("vx":1.5)", R"("vx":NaN)"), RejectReason::structure},
+                      WaterlinkedFault{"beyond_double", with(R"("vx":1.5)", R"("vx":1e999)"), RejectReason::structure},
+                      WaterlinkedFault{"word_for_number", with(R"("vx":1.5)", R"("vx":"fast")"), RejectReason::field},
+                      WaterlinkedFault{"number_for_flag", with(R"("velocity_valid":true)", R"("velocity_valid":1)"),
                             RejectReason::field},
-                      Fault{"beam_nobody_has", with(R"("id":0)", R"("id":7)"), RejectReason::field},
-                      Fault{"impossible_speed", with(R"("vx":1.5)", R"("vx":1500)"),
+                      WaterlinkedFault{"beam_nobody_has", with(R"("id":0)", R"("id":7)"), RejectReason::field},
+                      WaterlinkedFault{"impossible_speed", with(R"("vx":1.5)", R"("vx":1500)"),
                             RejectReason::out_of_range},
-                      Fault{"no_type", R"({"vx":1})", RejectReason::structure},
-                      Fault{"too_deep", "{\"a\":[[[[[[[[[[1]]]]]]]]]]}", RejectReason::structure},
-                      Fault{"binary", std::string("{\"a\":\x01\x02}"), RejectReason::structure},
-                      Fault{"too_long", "{\"a\":\"" + std::string(9000, 'x') + "\"}", RejectReason::length}),
+                      WaterlinkedFault{"no_type", R"({"vx":1})", RejectReason::structure},
+                      WaterlinkedFault{"too_deep", "{\"a\":[[[[[[[[[[1]]]]]]]]]]}", RejectReason::structure},
+                      WaterlinkedFault{"binary", std::string("{\"a\":\x01\x02}"), RejectReason::structure},
+                      WaterlinkedFault{"too_long", "{\"a\":\"" + std::string(9000, 'x') + "\"}", RejectReason::length}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(WaterLinked, EndlessGarbageIsSkippedInBoundedMemory) {

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "sim/random.hpp"
 #include "unit/commission/vehicle.hpp"
@@ -28,7 +29,7 @@ Matrix3d drawn_mounting(sim::Random& random) {
   const Matrix3d P = proper[static_cast<std::size_t>(random.uniform(0.0, 23.999))];
   return P *
          turned(Vector3d(random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0), random.uniform(-5.0, 5.0)) *
-                kDegree);
+                kRadPerDeg);
 }
 
 Vector3d drawn(sim::Random& random, double half) {
@@ -63,7 +64,7 @@ TEST(CommissionBlind, FindsMountingLeversLatenciesAndNoiseThatWereDrawn) {
     scenario.sensors.of<GpsSample>().lever_B_m = geo::arr(gps_lever);
     scenario.sensors.of<DvlSample>().lever_B_m = geo::arr(dvl_lever);
     auto& imu = scenario.sensors.of<ImuSample>();
-    imu.gyro.random_walk = random.uniform(0.05, 0.2) * kDegree / 60.0;
+    imu.gyro.random_walk = random.uniform(0.05, 0.2) * kRadPerDeg / 60.0;
     imu.accelerometer.random_walk = random.uniform(0.02, 0.06) / 60.0;
     dataset::Dataset data = drive(scenario, seed);
     through(data, C_BI.transpose(), C_BI.transpose());
@@ -90,7 +91,7 @@ TEST(CommissionBlind, FindsMountingLeversLatenciesAndNoiseThatWereDrawn) {
     // A turn about the way it goes hardly changes what a DVL reads: that angle the log tells least.
     ASSERT_TRUE(found.patch.C_BD.has_value()) << "seed " << seed;
     const Vector3d ahead_D = C_BD.transpose().col(0);
-    const Vector3d off_D = geo::log(geo::from_matrix(C_boxD.transpose() * *found.patch.C_BD)) / kDegree;
+    const Vector3d off_D = geo::log(geo::from_matrix(C_boxD.transpose() * *found.patch.C_BD)) / kRadPerDeg;
     for (int axis = 0; axis < 3; ++axis) {
       if (std::abs(ahead_D[axis]) > 0.5) continue;
       EXPECT_LT(std::abs(off_D[axis]), 0.5) << "seed " << seed << " axis " << axis;
@@ -109,7 +110,7 @@ TEST(CommissionBlind, FindsMountingLeversLatenciesAndNoiseThatWereDrawn) {
     const Finding* force = find(found.findings, "imu", "accelerometer_noise");
     ASSERT_NE(gyro, nullptr);
     ASSERT_NE(force, nullptr);
-    EXPECT_NEAR(gyro->value / (imu.gyro.random_walk * 60.0 / kDegree), 1.0, 0.2) << "seed " << seed;
+    EXPECT_NEAR(gyro->value / (imu.gyro.random_walk * 60.0 / kRadPerDeg), 1.0, 0.2) << "seed " << seed;
     EXPECT_NEAR(force->value / (imu.accelerometer.random_walk * 60.0), 1.0, 0.2) << "seed " << seed;
     for (const Finding& finding : found.findings) {
       EXPECT_FALSE(finding.kind == FindingKind::instability && finding.known)

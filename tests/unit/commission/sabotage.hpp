@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/units.hpp"
 #include "geo/wgs84.hpp"
 #include "unit/commission/vehicle.hpp"
 
@@ -27,7 +28,7 @@ inline std::vector<Sabotage> sabotages() {
   swapped(0, 1) = swapped(1, 0) = swapped(2, 2) = 1.0;
   Matrix3d mirror = one;
   mirror(1, 1) = -1.0;
-  const Matrix3d turned = Eigen::AngleAxisd(45.0 * kDegree, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Matrix3d turned = Eigen::AngleAxisd(45.0 * kRadPerDeg, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   return {
       {"accelerometer negated", [=](auto& d) { through(d, one, -one); }, "imu", "accelerometer_axes",
        "all three axes are negated"},
@@ -35,7 +36,7 @@ inline std::vector<Sabotage> sabotages() {
        "all three axes are negated"},
       {"gyro x and y swapped", [=](auto& d) { through(d, swapped, one); }, "imu", "gyro_axes",
        "x and y are exchanged"},
-      {"gyro in deg/s", [=](auto& d) { through(d, one / kDegree, one); }, "imu", "gyro_unit", "deg/s"},
+      {"gyro in deg/s", [=](auto& d) { through(d, one / kRadPerDeg, one); }, "imu", "gyro_unit", "deg/s"},
       {"accelerometer in g", [=](auto& d) { through(d, one, one / 9.80665); }, "imu", "accelerometer_unit",
        "gravity in g"},
       {"dvl rotated 45 deg", [=](auto& d) { dvl_through(d, turned.transpose()); }, "dvl", "mounting_yaw",
@@ -50,7 +51,7 @@ inline std::vector<Sabotage> sabotages() {
       {"compass magnetic for true",
        [](auto& d) {
          for (auto& sample : d.template of<HeadingSample>())
-           sample.heading_rad = geo::wrap_two_pi(sample.heading_rad + 8.5 * kDegree);
+           sample.heading_rad = geo::wrap_two_pi(sample.heading_rad + 8.5 * kRadPerDeg);
        },
        "heading", "offset", "magnetic"},
       {"gps velocity east north up",

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cmath>
-#include <numbers>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "base/units.hpp"
 #include "commission/commission.hpp"
 #include "dataset/dataset.hpp"
 #include "geo/so3.hpp"
@@ -14,16 +14,14 @@
 
 namespace fathom::test {
 
-inline constexpr double kDegree = std::numbers::pi / 180.0;
-
 /// An AUV that does what commissioning asks for: rest on deck, an octagon at the surface, dives with turns to
 /// both sides at changing speed, and back.
 inline sim::Scenario commissioning_vehicle() {
   sim::Scenario out;
   out.name = "commissioning";
   out.vehicle.kind = sim::VehicleConfig::Kind::auv;
-  out.start.latitude_rad = 36.4 * kDegree;
-  out.start.longitude_rad = 127.4 * kDegree;
+  out.start.latitude_rad = 36.4 * kRadPerDeg;
+  out.start.longitude_rad = 127.4 * kRadPerDeg;
   out.start.depth_m = 0.12;
   out.environment.surface_altitude_m = 18.5;
   out.environment.water_depth_m = 45.0;
@@ -36,7 +34,7 @@ inline sim::Scenario commissioning_vehicle() {
     sim::MissionStep one;
     one.at_s = t;
     one.speed_m_s = speed_m_s;
-    one.heading_rad = heading * kDegree;
+    one.heading_rad = heading * kRadPerDeg;
     one.depth_m = depth_m;
     out.mission.push_back(one);
     t += lasts_s;
@@ -52,8 +50,8 @@ inline sim::Scenario commissioning_vehicle() {
   auto& imu = out.sensors.of<ImuSample>();
   imu.enabled = true;
   imu.rate_hz = 100.0;
-  imu.gyro.bias_sigma = 1.0 * kDegree / 3600.0;
-  imu.gyro.random_walk = 0.1 * kDegree / 60.0;
+  imu.gyro.bias_sigma = 1.0 * kRadPerDeg / 3600.0;
+  imu.gyro.random_walk = 0.1 * kRadPerDeg / 60.0;
   imu.gyro.scale_sigma = imu.accelerometer.scale_sigma = 2e-4;
   imu.gyro.misalignment_sigma_rad = imu.accelerometer.misalignment_sigma_rad = 3e-4;
   imu.accelerometer.bias_sigma = 0.0098;
@@ -72,7 +70,7 @@ inline sim::Scenario commissioning_vehicle() {
   auto& heading_sensor = out.sensors.of<HeadingSample>();
   heading_sensor.enabled = true;
   heading_sensor.rate_hz = 10.0;
-  heading_sensor.sigma_rad = 0.3 * kDegree;
+  heading_sensor.sigma_rad = 0.3 * kRadPerDeg;
   return out;
 }
 

@@ -17,7 +17,7 @@ using estimation::hydro::HydroCoefficients;
 
 const std::string kHydro = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/hydro/";
 
-std::string error_of(const std::string& coefficients) {
+std::string error_of_coefficients(const std::string& coefficients) {
   const auto path =
       std::filesystem::temp_directory_path() /
       ("fathom-hydro-config-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + ".json");
@@ -45,12 +45,15 @@ TEST(HydroConfig, ShippedVehiclesAreThoseOfTheStudies) {
 
 TEST(HydroConfig, SaysWhatIsWrongWithAVehicle) {
   using testing::HasSubstr;
-  EXPECT_THAT(error_of(R"("X_uuu": {"value": 1, "unit": "kg/m"})"), HasSubstr("X_uuu"));
-  EXPECT_THAT(error_of(R"("X_uuu": {"value": 1, "unit": "kg/m"})"), HasSubstr("expected one of weight"));
-  EXPECT_THAT(error_of(R"("X_uu": {"value": -1.6, "unit": "N"})"), HasSubstr("expected \"kg/m\""));
-  EXPECT_THAT(error_of(R"("X_uu": {"value": 1.6, "unit": "kg/m"})"), HasSubstr("drag takes energy"));
-  EXPECT_THAT(error_of(R"("X_uu": {"value": -1.6})"), HasSubstr("unit"));
-  EXPECT_THAT(error_of(""), testing::Not(testing::Eq("no error")));
+  EXPECT_THAT(error_of_coefficients(R"("X_uuu": {"value": 1, "unit": "kg/m"})"), HasSubstr("X_uuu"));
+  EXPECT_THAT(error_of_coefficients(R"("X_uuu": {"value": 1, "unit": "kg/m"})"),
+              HasSubstr("expected one of weight"));
+  EXPECT_THAT(error_of_coefficients(R"("X_uu": {"value": -1.6, "unit": "N"})"),
+              HasSubstr("expected \"kg/m\""));
+  EXPECT_THAT(error_of_coefficients(R"("X_uu": {"value": 1.6, "unit": "kg/m"})"),
+              HasSubstr("drag takes energy"));
+  EXPECT_THAT(error_of_coefficients(R"("X_uu": {"value": -1.6})"), HasSubstr("unit"));
+  EXPECT_THAT(error_of_coefficients(""), testing::Not(testing::Eq("no error")));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "config/registry.hpp"
 #include "estimation/engine/fusion_engine.hpp"
@@ -18,7 +19,6 @@
 namespace fathom::config {
 namespace {
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr int kSeeds = 48;
 // Of a chi square of kSeeds degrees of freedom, 0.05 % of either side: the errors at one instant of all
 // seeds.
@@ -27,7 +27,7 @@ constexpr double kMostSum = 87.0;
 
 /// Straights and turns at the surface. The instruments are as bad as their sheets allow, drawn by the seed.
 sim::Scenario scenario(sim::Random& random) {
-  sim::Scenario out = test::auv_at(36.4 * kDeg, 127.4 * kDeg);
+  sim::Scenario out = test::auv_at(36.4 * kRadPerDeg, 127.4 * kRadPerDeg);
   out.environment.surface_altitude_m = 18.5;
   out.environment.water_depth_m = 45.0;
   double heading = random.uniform(0.0, 360.0);
@@ -35,13 +35,13 @@ sim::Scenario scenario(sim::Random& random) {
     sim::MissionStep one;
     one.at_s = t;
     one.speed_m_s = 2.0;
-    one.heading_rad = std::remainder(heading, 360.0) * kDeg;
+    one.heading_rad = std::remainder(heading, 360.0) * kRadPerDeg;
     out.mission.push_back(one);
     heading += random.uniform(-70.0, 70.0);
   }
   auto& imu = test::enable<ImuSample>(out, 100.0);
-  imu.gyro.bias_sigma = 1.0 * kDeg / 3600.0;
-  imu.gyro.random_walk = 0.012 * kDeg / 60.0;
+  imu.gyro.bias_sigma = 1.0 * kRadPerDeg / 3600.0;
+  imu.gyro.random_walk = 0.012 * kRadPerDeg / 60.0;
   imu.accelerometer.bias_sigma = 0.01;
   imu.accelerometer.random_walk = 0.07 / 60.0;
   auto& gps = test::enable<GpsSample>(out, 2.0);
@@ -51,7 +51,7 @@ sim::Scenario scenario(sim::Random& random) {
   auto& dvl = test::enable<DvlSample>(out, 5.0);
   dvl.beam_sigma_m_s = 0.01;
   dvl.scale_sigma = 0.003;
-  dvl.misalignment_sigma_rad = 0.5 * kDeg;
+  dvl.misalignment_sigma_rad = 0.5 * kRadPerDeg;
   test::enable<DepthSample>(out, 10.0);
   return out;
 }
@@ -74,7 +74,7 @@ Found run(const estimation::EngineConfig& config, std::uint64_t seed) {
         if (nav.alignment != AlignmentPhase::aligned) return;
         const double error = std::remainder(nav.rpy_rad[2] - truth.rpy_rad[2], 2.0 * std::numbers::pi);
         out.last = std::pow(error / nav.rpy_sigma_rad[2], 2);
-        out.last_sigma_deg = nav.rpy_sigma_rad[2] / kDeg;
+        out.last_sigma_deg = nav.rpy_sigma_rad[2] / kRadPerDeg;
         if (out.first) return;
         out.first = out.last;
         out.aligned_at_s = 0.01 * i;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "console/http/fan_out.hpp"
 #include "console/view/vehicle_view.hpp"
 #include "console/view/vehicle_view_json.hpp"
@@ -11,7 +12,6 @@ namespace fathom::console {
 namespace {
 
 constexpr TimeNs kUtc = 1'700'000'000 * kNsPerSecond;
-constexpr double kDegree = M_PI / 180.0;
 
 /// A vehicle seen by a console, with its own clock.
 struct Scene {
@@ -33,8 +33,8 @@ struct Scene {
   void nav() {
     NavState state;
     state.mode = NavMode::gps_aided;
-    state.latitude_rad = 36.4 * kDegree;
-    state.longitude_rad = 127.4 * kDegree;
+    state.latitude_rad = 36.4 * kRadPerDeg;
+    state.longitude_rad = 127.4 * kRadPerDeg;
     state.position_covariance_N_m2 = {4, 1, 0, 1, 9, 0, 0, 0, 9};
     add(state, "fusion");
   }
@@ -42,8 +42,8 @@ struct Scene {
     GpsSample sample;
     sample.header.stamp_ns = stamp_ns;
     sample.fix = GpsFix::fix_3d;
-    sample.latitude_rad = 36.4 * kDegree;
-    sample.longitude_rad = 127.4 * kDegree;
+    sample.latitude_rad = 36.4 * kRadPerDeg;
+    sample.longitude_rad = 127.4 * kRadPerDeg;
     add(sample, "gps");
   }
   void verdict(TimeNs stamp_ns, VerdictKind kind, const char* sensor = "gps", std::uint32_t revision = 0,
@@ -221,14 +221,14 @@ TEST(VehicleView, ARelativeFixIsPlacedFromItsStation) {
   UsblSample sample;
   sample.frame = UsblFrame::vessel_frd;
   sample.relative_m = {100.0, 0.0, 20.0};
-  sample.station_latitude_rad = 36.4 * kDegree;
-  sample.station_longitude_rad = 127.4 * kDegree;
-  sample.station_rpy_rad = {0.0, 0.0, 90.0 * kDegree};
+  sample.station_latitude_rad = 36.4 * kRadPerDeg;
+  sample.station_longitude_rad = 127.4 * kRadPerDeg;
+  sample.station_rpy_rad = {0.0, 0.0, 90.0 * kRadPerDeg};
   scene.add(sample, "usbl");
   scene.wait(3.0);
   const auto fix = scene.tick()["fixes"][0];
   EXPECT_NEAR(fix[1].get<double>(), 36.4, 1e-6) << "the ship heads east: forward is east";
-  EXPECT_NEAR((fix[2].get<double>() - 127.4) * 111195 * std::cos(36.4 * kDegree), 100.0, 0.5);
+  EXPECT_NEAR((fix[2].get<double>() - 127.4) * 111195 * std::cos(36.4 * kRadPerDeg), 100.0, 0.5);
 }
 
 TEST(VehicleView, ABeaconIsShownWithItsRangeAndVerdict) {
@@ -238,8 +238,8 @@ TEST(VehicleView, ABeaconIsShownWithItsRangeAndVerdict) {
   sample.header.stamp_ns = kUtc;
   sample.beacon = "2";
   sample.range_m = 80.0;
-  sample.beacon_latitude_rad = 36.4 * kDegree;
-  sample.beacon_longitude_rad = 190.0 * kDegree;
+  sample.beacon_latitude_rad = 36.4 * kRadPerDeg;
+  sample.beacon_longitude_rad = 190.0 * kRadPerDeg;
   sample.beacon_depth_m = 40.0;
   scene.add(sample, "range", "another");
   EXPECT_TRUE(scene.tick()["beacons"].empty()) << "another vehicle's";

@@ -1,10 +1,9 @@
 #include "console/view/route_book.hpp"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "console/view/vehicle_view.hpp"
 #include "console/view/vehicle_view_json.hpp"
 
@@ -12,7 +11,6 @@ namespace fathom::console {
 namespace {
 
 constexpr TimeNs kUtc = 1'700'000'000 * kNsPerSecond;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A vehicle with programs that guide it, seen by a console with its own clock.
 struct Scene {
@@ -29,10 +27,10 @@ struct Scene {
     out.header.sensor = publisher;
     out.header.stamp_ns = now.utc_ns;
     out.active = 1;
-    out.waypoints = {{.name = "A", .latitude_rad = 36.4 * kDegree, .longitude_rad = 187.5 * kDegree},
+    out.waypoints = {{.name = "A", .latitude_rad = 36.4 * kRadPerDeg, .longitude_rad = 187.5 * kRadPerDeg},
                      {.name = "<b>",
-                      .latitude_rad = -36.5 * kDegree,
-                      .longitude_rad = -127.5 * kDegree,
+                      .latitude_rad = -36.5 * kRadPerDeg,
+                      .longitude_rad = -127.5 * kRadPerDeg,
                       .depth_m = 5.0,
                       .speed_m_s = 1.5}};
     return out;
@@ -54,8 +52,8 @@ TEST(Routes, TravelToThePageAsTheyWereSaid) {
   Scene scene;
   EXPECT_TRUE(scene.routes().empty());
   Route said = scene.route();
-  said.leg_start_latitude_rad = 36.3 * kDegree;
-  said.leg_start_longitude_rad = 127.5 * kDegree;
+  said.leg_start_latitude_rad = 36.3 * kRadPerDeg;
+  said.leg_start_longitude_rad = 127.5 * kRadPerDeg;
   said.repeats = true;
   said.first_number = 7;
   said.mission_count = 20;

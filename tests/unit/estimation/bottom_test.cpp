@@ -1,10 +1,10 @@
 #include "estimation/engine/bottom.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -13,7 +13,6 @@ namespace fathom::estimation {
 namespace {
 
 constexpr TimeNs kBegin = 1'700'000'000 * kNsPerSecond;
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 EngineConfig config_with(const std::array<double, 3>& lever_B_m) {
   EngineConfig config;
@@ -99,13 +98,13 @@ TEST(Bottom, AStampOutOfTheFutureKeepsNobodyOut) {
 }
 
 TEST(Bottom, TiltAndLeverAreTakenOut) {
-  Diver diver(config_with({2.0, 0.0, 0.5}), 30.0 * kDegree, 0.0);
+  Diver diver(config_with({2.0, 0.0, 0.5}), 30.0 * kRadPerDeg, 0.0);
   diver.until(1.0);
   diver.hear(1.0, 10.0);
   diver.until(1.01);
   // The transducer ahead of a raised nose lies higher: 2 sin 30 up, 0.5 cos 30 down.
-  const double lower_m = 0.5 * std::cos(30.0 * kDegree) - 2.0 * std::sin(30.0 * kDegree);
-  EXPECT_NEAR(diver.altitude_m(), 10.0 * std::cos(30.0 * kDegree) + lower_m, 1e-3);
+  const double lower_m = 0.5 * std::cos(30.0 * kRadPerDeg) - 2.0 * std::sin(30.0 * kRadPerDeg);
+  EXPECT_NEAR(diver.altitude_m(), 10.0 * std::cos(30.0 * kRadPerDeg) + lower_m, 1e-3);
   diver.hear(1.01, 10.0, true);
   diver.until(1.02);
   EXPECT_NEAR(diver.altitude_m(), 10.0 + lower_m, 1e-3);
@@ -120,7 +119,7 @@ TEST(Bottom, FollowsTheWayDownSinceTheStamp) {
 }
 
 TEST(Bottom, AnAxisFarOffTheVerticalSaysNothing) {
-  Diver diver(config_with({0.0, 0.0, 0.0}), 65.0 * kDegree, 0.0);
+  Diver diver(config_with({0.0, 0.0, 0.0}), 65.0 * kRadPerDeg, 0.0);
   diver.until(1.0);
   diver.hear(1.0, 10.0);
   diver.until(1.01);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/navigator/navigator.hpp"
 #include "support/vehicles/road_run.hpp"
 
@@ -11,8 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 using test::RoadRun;
-
-constexpr double kDeg = M_PI / 180.0;
 
 struct Course {
   double aligned_at_s = kUnknown;
@@ -61,14 +60,14 @@ TEST(CourseHeading, IsFoundInMotionAndAsGoodAsItSays) {
     EXPECT_GT(course.states, 3000) << "seed " << seed;
     EXPECT_LT(course.aligned_at_s, 60.0) << "seed " << seed;
     EXPECT_LT(course.worst_sigma, 3.0) << "seed " << seed;
-    EXPECT_LT(course.last_sigma_rad, 0.5 * kDeg) << "seed " << seed;
+    EXPECT_LT(course.last_sigma_rad, 0.5 * kRadPerDeg) << "seed " << seed;
   }
 }
 
 /// (KF-5) A speed without direction moves the wind, which says nothing of where the vehicle points.
 TEST(CourseHeading, AnAirspeedInAnUnknownWindTellsNothingOfIt) {
   EngineConfig config = RoadRun::config();
-  config.alignment.in_motion_heading_sigma_rad = 20.0 * kDeg;
+  config.alignment.in_motion_heading_sigma_rad = 20.0 * kRadPerDeg;
   config.alignment.in_motion_speed_m_s = 3.0;  // no current of water: the wheels do not crab in the wind
   config.groups.current = true;
   config.states.current_sigma_m_s = 8.0;
@@ -85,28 +84,28 @@ TEST(CourseHeading, AnAirspeedInAnUnknownWindTellsNothingOfIt) {
 }
 
 TEST(CourseHeading, ABiasThatSettlesIsOnlyALieWhereNobodySaysSo) {
-  const RoadRun run({.settling_rad_s = 0.5 * kDeg});
+  const RoadRun run({.settling_rad_s = 0.5 * kRadPerDeg});
   EXPECT_GT(follow(RoadRun::config(), run).worst_sigma, 3.0);
   EngineConfig settling = RoadRun::config();
-  settling.imu.gyro_bias_settling_rad_s = 0.5 * kDeg;
+  settling.imu.gyro_bias_settling_rad_s = 0.5 * kRadPerDeg;
   settling.imu.bias_settling_time_s = 25.0;
   const Course course = follow(settling, run);
   EXPECT_LT(course.worst_sigma, 3.0);
   EXPECT_LT(course.aligned_at_s, 100.0);
   // Once the unit has settled nothing is left of the doubt.
-  EXPECT_LT(course.last_sigma_rad, 0.5 * kDeg);
+  EXPECT_LT(course.last_sigma_rad, 0.5 * kRadPerDeg);
 }
 
 TEST(CourseHeading, OfTheWheelsWhereTheUnitIsMountedAskew) {
-  const RoadRun run({.mount_pitch_rad = 0.6 * kDeg, .mount_yaw_rad = -1.5 * kDeg});
+  const RoadRun run({.mount_pitch_rad = 0.6 * kRadPerDeg, .mount_yaw_rad = -1.5 * kRadPerDeg});
   EngineConfig config = RoadRun::config();
   config.groups.mount_angles = true;
   config.constraints.non_holonomic.enabled = true;
   const Course body = follow(config, run);
-  EXPECT_NEAR(body.last_error_rad, 1.5 * kDeg, 0.4 * kDeg);
+  EXPECT_NEAR(body.last_error_rad, 1.5 * kRadPerDeg, 0.4 * kRadPerDeg);
   config.output_axes = OutputAxes::wheels;
   const Course wheels = follow(config, run);
-  EXPECT_LT(std::abs(wheels.last_error_rad), 0.3 * kDeg);
+  EXPECT_LT(std::abs(wheels.last_error_rad), 0.3 * kRadPerDeg);
   EXPECT_LT(wheels.worst_sigma, 3.0);
   EXPECT_LT(wheels.last_sigma_rad, body.last_sigma_rad);
   // Without the constraint nothing tells where the wheels point.

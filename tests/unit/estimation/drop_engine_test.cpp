@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "support/orders.hpp"
 #include "support/vehicles/drop_run.hpp"
 
@@ -12,7 +13,6 @@ namespace {
 
 using test::Fall;
 using test::feed;
-using test::kDegree;
 using test::kEpoch;
 using test::release;
 
@@ -34,7 +34,7 @@ TEST(DropEngine, GoesThroughThePhasesAndNavigatesOn) {
       EXPECT_EQ(status.phase, AlignmentPhase::waiting);
       EXPECT_EQ(status.condition_count, 10U);
       EXPECT_NE(std::string(status.advice.data()).find("water"), std::string::npos);
-      EXPECT_GT(status.rpy_sigma_rad[0], 5.0 * kDegree);
+      EXPECT_GT(status.rpy_sigma_rad[0], 5.0 * kRadPerDeg);
     }
   }
   const std::vector<AlignmentPhase> wanted{AlignmentPhase::waiting, AlignmentPhase::averaging,
@@ -45,9 +45,9 @@ TEST(DropEngine, GoesThroughThePhasesAndNavigatesOn) {
   EXPECT_LT(aligned_s, 26.0);
   const NavState& nav = engine.nav_state();
   const Truth& truth = fall.truth.back();
-  EXPECT_LT(std::abs(nav.rpy_rad[0] - truth.rpy_rad[0]), 0.4 * kDegree);
-  EXPECT_LT(std::abs(nav.rpy_rad[1] - truth.rpy_rad[1]), 0.4 * kDegree);
-  EXPECT_LT(std::abs(geo::wrap_pi(nav.rpy_rad[2] - truth.rpy_rad[2])), 2.0 * kDegree);
+  EXPECT_LT(std::abs(nav.rpy_rad[0] - truth.rpy_rad[0]), 0.4 * kRadPerDeg);
+  EXPECT_LT(std::abs(nav.rpy_rad[1] - truth.rpy_rad[1]), 0.4 * kRadPerDeg);
+  EXPECT_LT(std::abs(geo::wrap_pi(nav.rpy_rad[2] - truth.rpy_rad[2])), 2.0 * kRadPerDeg);
   const Eigen::Vector3d off = geo::difference_N({truth.latitude_rad, truth.longitude_rad, truth.altitude_m},
                                                 {nav.latitude_rad, nav.longitude_rad, nav.altitude_m});
   const double sigma = std::sqrt(nav.position_covariance_N_m2[0] + nav.position_covariance_N_m2[4]);
@@ -122,7 +122,7 @@ TEST(DropEngine, AlignsAgainOnCommandUnderWay) {
   const NavState& nav = engine.nav_state();
   EXPECT_EQ(nav.alignment, AlignmentPhase::aligned);
   for (std::size_t i = 0; i < 2; ++i)
-    EXPECT_LT(std::abs(nav.rpy_rad[i] - fall.truth.back().rpy_rad[i]), 0.4 * kDegree);
+    EXPECT_LT(std::abs(nav.rpy_rad[i] - fall.truth.back().rpy_rad[i]), 0.4 * kRadPerDeg);
 }
 
 }  // namespace

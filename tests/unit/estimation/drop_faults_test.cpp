@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/alignment/stability_gate.hpp"
 #include "support/orders.hpp"
 #include "support/vehicles/drop_run.hpp"
@@ -15,7 +16,6 @@ namespace {
 
 using test::Fall;
 using test::feed;
-using test::kDegree;
 using test::kEpoch;
 using test::release;
 
@@ -208,9 +208,9 @@ TEST(DropFaults, AttitudeLostUnderWayIsFoundAgain) {
     EXPECT_LT(silence.aligned_again_s, from_s + 27.0);
     const NavState& nav = drop.engine.nav_state();
     // Nothing measures the heading, and it says so.
-    EXPECT_GT(nav.rpy_sigma_rad[2], 30.0 * kDegree);
+    EXPECT_GT(nav.rpy_sigma_rad[2], 30.0 * kRadPerDeg);
     for (std::size_t i = 0; i < 2; ++i)
-      EXPECT_LT(std::abs(nav.rpy_rad[i] - fall.truth.back().rpy_rad[i]), 0.4 * kDegree) << i;
+      EXPECT_LT(std::abs(nav.rpy_rad[i] - fall.truth.back().rpy_rad[i]), 0.4 * kRadPerDeg) << i;
     expect_true_within(nav, fall.truth.back(), 3.0);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/alignment/motion_level.hpp"
 #include "estimation/alignment/stability_gate.hpp"
 #include "estimation/alignment/tilt_filter.hpp"
@@ -17,7 +18,6 @@ using Eigen::Vector3d;
 using nlohmann::json;
 using test::vector3;
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kExact = 1e-10;
 
 class DropVectors : public ::testing::Test {
@@ -31,7 +31,7 @@ class DropVectors : public ::testing::Test {
 };
 
 Vector3d angles(const json& one) {
-  return kDegree * Vector3d(one.at("roll_deg"), one.at("pitch_deg"), one.at("yaw_deg"));
+  return kRadPerDeg * Vector3d(one.at("roll_deg"), one.at("pitch_deg"), one.at("yaw_deg"));
 }
 
 TEST_F(DropVectors, AttitudeMatrix) {
@@ -114,7 +114,7 @@ TEST_F(DropVectors, ConditionsToTheSample) {
     for (int i = 0; i < 700 && full < 0; ++i) {
       StabilityInput in = steady(i);
       in.pitch_rad = 1e-5 * i;
-      if (which == 1 && i == 150) in.roll_rad = 16.0 * kDegree;
+      if (which == 1 && i == 150) in.roll_rad = 16.0 * kRadPerDeg;
       if (which == 2 && i == 250) in.force_B_m_s2.x() = 1.2;
       const auto phase = gate.add(in);
       if (first_ok < 0 && phase == StabilityGate::Phase::averaging) first_ok = i;

@@ -12,8 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = 0.017453292519943295;
-constexpr double kSensitivity = 0.005 * kDegree / kStandardGravity_m_s2;  // rad/s per m/s^2
+constexpr double kSensitivity = 0.005 * kRadPerDeg / kStandardGravity_m_s2;  // rad/s per m/s^2
 constexpr double kMemory_s = 30.0;
 constexpr double kRate_hz = 20.0;
 constexpr double kLatitude_rad = 0.7;
@@ -70,24 +69,25 @@ double expected(double pitch_rad, double t_s) {
 
 TEST(GSensitivity, AForceThatIsHeldTurnsTheAttitudeInProportionToTime) {
   for (const double t_s : {3.0, 10.0, 30.0, 120.0})
-    EXPECT_NEAR(more_variance(20.0 * kDegree, 1e9, t_s) / expected(20.0 * kDegree, t_s), 1.0, 0.03) << t_s;
+    EXPECT_NEAR(more_variance(20.0 * kRadPerDeg, 1e9, t_s) / expected(20.0 * kRadPerDeg, t_s), 1.0, 0.03)
+        << t_s;
 }
 
 TEST(GSensitivity, WhatTheBiasHasLearnedAddsNoMore) {
-  const double once = more_variance(20.0 * kDegree, 1e9, 120.0);
-  const double longer = more_variance(20.0 * kDegree, 1e9, 240.0);
-  const double white = expected(20.0 * kDegree, 240.0) - expected(20.0 * kDegree, 120.0);
+  const double once = more_variance(20.0 * kRadPerDeg, 1e9, 120.0);
+  const double longer = more_variance(20.0 * kRadPerDeg, 1e9, 240.0);
+  const double white = expected(20.0 * kRadPerDeg, 240.0) - expected(20.0 * kRadPerDeg, 120.0);
   EXPECT_NEAR(longer - once, white, 0.05 * once);
 }
 
 TEST(GSensitivity, LevelAndAtRestItIsPartOfTheBias) {
-  EXPECT_LT(more_variance(0.0, 1e9, 60.0), 1e-4 * expected(20.0 * kDegree, 60.0));
+  EXPECT_LT(more_variance(0.0, 1e9, 60.0), 1e-4 * expected(20.0 * kRadPerDeg, 60.0));
 }
 
 TEST(GSensitivity, PitchHeldUpAndDownByTurnsAddsUp) {
   // Each half period begins anew, the horizontal force with the other sign.
-  const double twice = more_variance(20.0 * kDegree, 25.0, 50.0);
-  const double eight_times = more_variance(20.0 * kDegree, 25.0, 200.0);
+  const double twice = more_variance(20.0 * kRadPerDeg, 25.0, 50.0);
+  const double eight_times = more_variance(20.0 * kRadPerDeg, 25.0, 200.0);
   EXPECT_GT(eight_times, 2.0 * twice);
   EXPECT_GT(twice, 10.0 * kSensitivity * kSensitivity * 3.4 * 3.4 * 50.0 / 2.0)
       << "more than white noise of 1 s";

@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "geo/wgs84.hpp"
 #include "support/orders.hpp"
 #include "support/vehicles/spoilt_survey.hpp"
@@ -154,12 +155,11 @@ TEST(HardCase, BeyondAPoleThereIsNoNavigationAndNoFigureThatIsNone) {
 }
 
 TEST(HardCase, ACompassThatIsDisturbedForAMinuteIsNotBelieved) {
-  constexpr double kDegree = M_PI / 180.0;
   for (const double dive_s : {50.0, 1e9}) {
     const SurveyRun run({.duration_s = 200.0, .dive_s = dive_s});
     for (const double off_deg : {15.0, 40.0, -90.0}) {
-      const SpoiltSurvey got = survey_with_compass_off(run, off_deg * kDegree, 110.0, 170.0, 30.0);
-      EXPECT_LT(got.worst_yaw_rad, 3.0 * kDegree) << off_deg << " deg, dive at " << dive_s;
+      const SpoiltSurvey got = survey_with_compass_off(run, off_deg * kRadPerDeg, 110.0, 170.0, 30.0);
+      EXPECT_LT(got.worst_yaw_rad, 3.0 * kRadPerDeg) << off_deg << " deg, dive at " << dive_s;
       EXPECT_LT(got.worst_yaw_sigmas, 4.0) << off_deg << " deg, dive at " << dive_s;
       EXPECT_GT(got.refused, 500) << off_deg << " deg, dive at " << dive_s;
     }
@@ -167,11 +167,10 @@ TEST(HardCase, ACompassThatIsDisturbedForAMinuteIsNotBelieved) {
 }
 
 TEST(HardCase, ACompassThatWasWrongAtTheStartIsBelievedOnceItHasBeenRightForAsLong) {
-  constexpr double kDegree = M_PI / 180.0;
   const SurveyRun run({.duration_s = 130.0});
   for (const double off_deg : {30.0, -60.0}) {
-    const SpoiltSurvey got = survey_with_compass_off(run, off_deg * kDegree, 0.0, 55.0, 115.0);
-    EXPECT_LT(got.worst_yaw_rad, 0.2 * std::abs(off_deg) * kDegree) << off_deg;
+    const SpoiltSurvey got = survey_with_compass_off(run, off_deg * kRadPerDeg, 0.0, 55.0, 115.0);
+    EXPECT_LT(got.worst_yaw_rad, 0.2 * std::abs(off_deg) * kRadPerDeg) << off_deg;
   }
 }
 

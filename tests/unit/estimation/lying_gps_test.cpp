@@ -21,7 +21,7 @@ struct Lie {
   double silent_s = 0.0;  ///< without any fix before
 };
 
-struct Outcome {
+struct LyingOutcome {
   double pulled_m = 0.0;        ///< furthest from where the navigator would be without the lie, during it
   double drift_m = 0.0;         ///< largest error without the lie, at the same time
   double disputed_after_s = 0;  ///< from the first false fix until the first such verdict; 0: never
@@ -41,14 +41,14 @@ class Liar {
 
   Liar(Aiding aiding, double longest_s) : aiding_(aiding), run_(options(longest_s)) {}
 
-  [[nodiscard]] Outcome navigate(const Lie& lie, double dispute_s = 600.0) const {
+  [[nodiscard]] LyingOutcome navigate(const Lie& lie, double dispute_s = 600.0) const {
     EngineConfig told = config();
     told.sensors[0].dispute_s = dispute_s;
     FusionEngine deceived(told);
     FusionEngine left_alone(told);
     const double from = kBegin_s + lie.silent_s;
     const double to = from + lie.length_s;
-    Outcome out;
+    LyingOutcome out;
     std::size_t row = 0;
     for (const test::Sample& sample : run_.samples) {
       const double t = to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs);
@@ -110,7 +110,7 @@ class Liar {
   static double between(const geo::Geodetic& a, const geo::Geodetic& b) {
     return geo::difference_N(a, b).head<2>().norm();
   }
-  void note_verdicts(FusionEngine& engine, double from, double to, Outcome& out) const {
+  void note_verdicts(FusionEngine& engine, double from, double to, LyingOutcome& out) const {
     Verdict verdict;
     while (engine.next_verdict(verdict)) {
       if (heard) heard(verdict);
@@ -130,7 +130,7 @@ constexpr double kDisputed_s = 25.0;  // reacquire_s of a receiver is 20, fixes 
 // A measurement that is refused still parts the covariance's strides (KF-1), and rounds the gains otherwise.
 constexpr double kNothing_m = 1e-4;
 
-void expect_refused(const Outcome& got) {
+void expect_refused(const LyingOutcome& got) {
   EXPECT_EQ(got.used, 0);
   EXPECT_LT(got.pulled_m, kNothing_m);
   EXPECT_GT(got.disputed_after_s, 0.0);
@@ -172,7 +172,7 @@ TEST(LyingGps, AnEstimateThatWasLedAstrayFollowsTheTruth) {
                          Lie{300.0, 0.0, 10.0, 300.0}, Lie{300.0, 700.0, 0.0, 300.0}}) {
     SCOPED_TRACE(::testing::Message() << lie.aside_m << " m aside, " << lie.away_m_s << " m/s, after "
                                       << lie.silent_s << " s of silence");
-    const Outcome got = liar.navigate(lie);
+    const LyingOutcome got = liar.navigate(lie);
     EXPECT_GT(got.used, 0) << "else this shows nothing";
     EXPECT_LT(got.back_after_s, 60.0);
     if (lie.silent_s == 0.0) {
@@ -183,7 +183,7 @@ TEST(LyingGps, AnEstimateThatWasLedAstrayFollowsTheTruth) {
 
 /// A lie that leaves the motion more slowly than a drift could is followed at its own rate, no faster.
 TEST(LyingGps, ASlowLieIsFollowedAndLeft) {
-  const Outcome got = Liar(Aiding::log_and_compass, 300.0).navigate({300.0, 0.0, 0.3});
+  const LyingOutcome got = Liar(Aiding::log_and_compass, 300.0).navigate({300.0, 0.0, 0.3});
   EXPECT_LT(got.pulled_m, 0.3 * 300.0 + 5.0);
   EXPECT_LT(got.back_after_s, 30.0);
 }
@@ -208,7 +208,7 @@ TEST(LyingGps, TheMonitorAsksAPersonAndKeepsAsking) {
     text = alarm->text;
     EXPECT_EQ(alarm->severity, Severity::critical);
   };
-  const Outcome got = liar.navigate({120.0, 700.0, 0.0});
+  const LyingOutcome got = liar.navigate({120.0, 700.0, 0.0});
   EXPECT_EQ(got.used, 0);
   EXPECT_GT(raised_s, Liar::kBegin_s + 20.0);
   EXPECT_LT(raised_s, Liar::kBegin_s + kDisputed_s);

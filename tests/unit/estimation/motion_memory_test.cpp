@@ -5,19 +5,19 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
+
 namespace fathom::estimation {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// A vehicle that turns a quarter at the beginning of each period and goes straight for the rest.
 MotionMemory::Second of_circuit(int second, int period_s) {
   const int turned = second / period_s * 90 + std::min(second % period_s, 15) * 6;
   MotionMemory::Second out;
   const bool turning = second % period_s < 15;
-  out.q_NB = geo::from_rpy({turning ? 0.4 : 0.0, 0.05, turned * kDegree});
-  out.v_N_m_s = 40.0 * Eigen::Vector3d(std::cos(turned * kDegree), std::sin(turned * kDegree), 0.0);
-  out.rate_B_rad_s = Eigen::Vector3d(0.0, 0.0, turning ? 6.0 * kDegree : 0.0);
+  out.q_NB = geo::from_rpy({turning ? 0.4 : 0.0, 0.05, turned * kRadPerDeg});
+  out.v_N_m_s = 40.0 * Eigen::Vector3d(std::cos(turned * kRadPerDeg), std::sin(turned * kRadPerDeg), 0.0);
+  out.rate_B_rad_s = Eigen::Vector3d(0.0, 0.0, turning ? 6.0 * kRadPerDeg : 0.0);
   out.force_B_m_s2 = Eigen::Vector3d(0.0, 0.0, -9.8);
   return out;
 }

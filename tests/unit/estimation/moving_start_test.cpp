@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "sim/random.hpp"
 
 namespace fathom::estimation {
@@ -15,7 +16,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kG = 9.81;
 constexpr double kLength_s = 2.0;
 constexpr double kImu_hz = 200.0;
@@ -100,7 +100,7 @@ MovingStartInputs inputs() {
   return {.gravity_N_m_s2 = Vector3d(0.0, 0.0, kG),
           .lever_B_m = Vector3d::Zero(),
           .heading_rad = std::nullopt,
-          .heading_sigma_rad = 2.0 * kDegree,
+          .heading_sigma_rad = 2.0 * kRadPerDeg,
           .force_sigma_m_s2 = 1e-3,
           .accel_bias_sigma_m_s2 = 0.05};
 }
@@ -114,7 +114,7 @@ TEST(MovingStart, FindsTheAttitudeOfAnyMotionAlongTheForwardAxis) {
   for (const Motion& motion : {straight(), turn(30.0, 0.3), turn(15.0, -0.8), turn(60.0, 0.15, -2.9)}) {
     const auto start = start_moving(measure(motion, {}), inputs());
     ASSERT_TRUE(start);
-    EXPECT_LT(attitude_error(motion, *start).norm(), 0.05 * kDegree);
+    EXPECT_LT(attitude_error(motion, *start).norm(), 0.05 * kRadPerDeg);
     EXPECT_LT((start->v_N_m_s - motion.velocity_N_m_s(end_s())).norm(), 0.02);
   }
 }
@@ -126,7 +126,7 @@ TEST(MovingStart, ACompassTellsWhatTheCourseCannot) {
   in.heading_rad = motion.rpy_rad(kLength_s).z();
   const auto start = start_moving(measure(motion, {}), in);
   ASSERT_TRUE(start);
-  EXPECT_LT(attitude_error(motion, *start).norm(), 0.2 * kDegree);
+  EXPECT_LT(attitude_error(motion, *start).norm(), 0.2 * kRadPerDeg);
 }
 
 TEST(MovingStart, ALeverArmIsTakenIntoAccount) {
@@ -138,7 +138,7 @@ TEST(MovingStart, ALeverArmIsTakenIntoAccount) {
   in.lever_B_m = errors.lever_B_m;
   const auto start = start_moving(measure(motion, errors), in);
   ASSERT_TRUE(start);
-  EXPECT_LT(attitude_error(motion, *start).norm(), 0.3 * kDegree);
+  EXPECT_LT(attitude_error(motion, *start).norm(), 0.3 * kRadPerDeg);
   EXPECT_LT((start->v_N_m_s - motion.velocity_N_m_s(end_s())).norm(), 0.02);
 
   in.lever_B_m.setZero();
@@ -241,7 +241,7 @@ TEST(MovingStart, VelocitiesThatDisagreeMakeItUncertain) {
 
 TEST(MovingStart, WhatTellsNothingStartsNothing) {
   // Up like a rocket: a course is no heading.
-  const Motion up{[](double) { return Vector3d(0.0, 89.0 * kDegree, 0.3); },
+  const Motion up{[](double) { return Vector3d(0.0, 89.0 * kRadPerDeg, 0.3); },
                   [](double t) { return Vector3d(0.2, 0.1, -30.0 - t); }};
   EXPECT_FALSE(start_moving(measure(up, {}), inputs()));
   const Motion falling{[](double) { return Vector3d(0.0, 0.1, 0.3); },

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/aiding/registry.hpp"
 #include "estimation/filter/chi_square.hpp"
 #include "estimation/navigator/constraints.hpp"
@@ -18,7 +19,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr TimeNs kNow_ns = 1'000 * kNsPerSecond;
-constexpr double kDegree = 0.017453292519943295;
 
 /// An estimate at the equator that navigates and knows each axis as well as is said.
 Estimate navigating(const estimation::Setup& setup, double position_sigma_m,
@@ -29,7 +29,7 @@ Estimate navigating(const estimation::Setup& setup, double position_sigma_m,
   for (std::size_t i = 0; i < 3; ++i) {
     sigma[i] = position_sigma_m;
     sigma[3 + i] = velocity_sigma_m_s;
-    sigma[6 + i] = kDegree;
+    sigma[6 + i] = kRadPerDeg;
   }
   estimate.begin(FilterState{}, sigma);
   return estimate;
@@ -48,12 +48,12 @@ Observation fix_off_by(double north_m, double east_m, double sigma_m = 1.0) {
 
 TEST(AlignmentWatch, IsAlignedAfterTheHoldAndFallsOutAtTwiceTheLimit) {
   EngineConfig config;
-  config.alignment.aligned_tilt_sigma_rad = 1.0 * kDegree;
-  config.alignment.aligned_heading_sigma_rad = 2.0 * kDegree;
+  config.alignment.aligned_tilt_sigma_rad = 1.0 * kRadPerDeg;
+  config.alignment.aligned_heading_sigma_rad = 2.0 * kRadPerDeg;
   config.alignment.aligned_hold_s = 5.0;
   AlignmentWatch watch;
   const auto at = [&](double t_s, double tilt_deg, double heading_deg) {
-    const Vector3d sigma = kDegree * Vector3d(tilt_deg, tilt_deg, heading_deg);
+    const Vector3d sigma = kRadPerDeg * Vector3d(tilt_deg, tilt_deg, heading_deg);
     watch.judge(config, sigma, Plausible::yes, kNow_ns + from_seconds(t_s));
     return watch.phase;
   };
@@ -87,12 +87,12 @@ TEST(AlignmentWatch, WaitsForWhatGravitySaysToComeInAndFallsOutOfWhatCannotBeRig
 
 TEST(AlignmentWatch, AsksForNoMoreThanTheAccelerometersCanShow) {
   EngineConfig config;
-  config.alignment.aligned_tilt_sigma_rad = 0.1 * kDegree;
+  config.alignment.aligned_tilt_sigma_rad = 0.1 * kRadPerDeg;
   config.imu.accel_scale_sigma = 0.003;
   config.imu.accel_misalignment_sigma_rad = 0.004;
   EXPECT_NEAR(config.aligned_tilt_sigma_rad(), 0.01, 1e-12);
-  config.alignment.aligned_tilt_sigma_rad = 1.0 * kDegree;
-  EXPECT_EQ(config.aligned_tilt_sigma_rad(), 1.0 * kDegree);
+  config.alignment.aligned_tilt_sigma_rad = 1.0 * kRadPerDeg;
+  EXPECT_EQ(config.aligned_tilt_sigma_rad(), 1.0 * kRadPerDeg);
 }
 
 TEST(Usage, ModeFollowsWhatWasUsedLast) {

@@ -2,13 +2,13 @@
 // only as bad as their sheets allow are left alone.
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/navigator/plausibility/plausibility.hpp"
 #include "sim/random.hpp"
 #include "support/vehicles/plausibility_run.hpp"
@@ -21,7 +21,6 @@ using test::kDriveEpoch_ns;
 using test::PlausibilityRun;
 using test::SampleChange;
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr std::uint64_t kFirstSeed = 1001;
 constexpr int kDraws = 6;  ///< of each mistake
 
@@ -49,7 +48,7 @@ std::vector<Drawn> mistakes(sim::Random& random) {
   imu({"gyro_negated", "gyro_axes"}, [](ImuSample& s) { s.angular_rate_B_rad_s[2] *= -1.0; });
   const double sign = random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0;
   imu({"gyro_too_slow"}, [sign](ImuSample& s) {
-    for (double& one : s.angular_rate_B_rad_s) one *= sign * kDeg;
+    for (double& one : s.angular_rate_B_rad_s) one *= sign * kRadPerDeg;
   });
   // Farther off it is another setting, and no clock.
   const double rate =
@@ -58,7 +57,8 @@ std::vector<Drawn> mistakes(sim::Random& random) {
     s.header.stamp_ns =
         kDriveEpoch_ns + static_cast<TimeNs>(static_cast<double>(s.header.stamp_ns - kDriveEpoch_ns) / rate);
   });
-  const double angle = (random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * random.uniform(40.0, 180.0) * kDeg;
+  const double angle =
+      (random.uniform(0.0, 1.0) < 0.5 ? 1.0 : -1.0) * random.uniform(40.0, 180.0) * kRadPerDeg;
   out.push_back({{"dvl_turned"}, change_of<DvlSample>([angle](DvlSample& s) {
                    const double x = s.velocity_D_m_s[0];
                    const double y = s.velocity_D_m_s[1];
@@ -103,8 +103,8 @@ TEST(PlausibilityDrawn, NoMistakeIsGivenAnothersNameAndMostAreNamedWithinAMinute
 TEST(PlausibilityDrawn, InstrumentsAsBadAsTheirSheetsAllowAreLeftAlone) {
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + 4 * kDraws; ++seed) {
     sim::Random random(seed, "sheets");
-    const double deviation = random.normal(3.0 * kDeg);
-    const double turned = random.normal(2.0 * kDeg);
+    const double deviation = random.normal(3.0 * kRadPerDeg);
+    const double turned = random.normal(2.0 * kRadPerDeg);
     const double scale = 1.0 + random.normal(0.02);
     const double slow = random.uniform(0.98, 1.02);
     const PlausibilityRun run(seed, [&](sim::Measurement& measurement) {

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "estimation/navigator/plausibility/axes_fit.hpp"
 #include "estimation/navigator/plausibility/pair_fit.hpp"
@@ -24,12 +25,11 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kDeg = M_PI / 180.0;
 constexpr Proof kProof{.fewest = kFewestPairs, .most_left = 0.25, .claim = 0.0};
 
 /// An AUV at 2 m/s that turns at the surface and dives.
 sim::Scenario scenario(bool dives) {
-  sim::Scenario out = test::auv_at(36.4 * kDeg, 127.4 * kDeg);
+  sim::Scenario out = test::auv_at(36.4 * kRadPerDeg, 127.4 * kRadPerDeg);
   out.environment.surface_altitude_m = 18.5;
   out.environment.water_depth_m = 45.0;
   double t = 0.0;
@@ -38,21 +38,21 @@ sim::Scenario scenario(bool dives) {
     sim::MissionStep one;
     one.at_s = t;
     one.speed_m_s = 2.0;
-    one.heading_rad = heading * kDeg;
+    one.heading_rad = heading * kRadPerDeg;
     one.depth_m = dives && i % 2 == 1 ? 8.0 : 0.0;
     out.mission.push_back(one);
     t += 10.0;
     ++i;
   }
   auto& imu = test::enable<ImuSample>(out, 100.0);
-  imu.gyro.bias_sigma = 1.0 * kDeg / 3600.0;
-  imu.gyro.random_walk = 0.012 * kDeg / 60.0;
+  imu.gyro.bias_sigma = 1.0 * kRadPerDeg / 3600.0;
+  imu.gyro.random_walk = 0.012 * kRadPerDeg / 60.0;
   imu.accelerometer.bias_sigma = 0.01;
   imu.accelerometer.random_walk = 0.07 / 60.0;
   test::enable<GpsSample>(out, 2.0).lever_B_m = {0.0, 0.0, -0.4};
   test::enable<DvlSample>(out, 5.0);
   test::enable<DepthSample>(out, 10.0);
-  test::enable<HeadingSample>(out, 10.0).sigma_rad = 0.3 * kDeg;
+  test::enable<HeadingSample>(out, 10.0).sigma_rad = 0.3 * kRadPerDeg;
   return out;
 }
 
@@ -136,7 +136,7 @@ std::vector<Mistake> mistakes() {
          std::swap(s.angular_rate_B_rad_s[0], s.angular_rate_B_rad_s[1]);
        })},
       {"implausible_gyro_in_degrees", "0.017453", false,
-       change_of<ImuSample>([](auto& s) { scale(s.angular_rate_B_rad_s, 1.0 / kDeg); })},
+       change_of<ImuSample>([](auto& s) { scale(s.angular_rate_B_rad_s, 1.0 / kRadPerDeg); })},
       {"implausible_dvl_turned", "+45 deg", false, change_of<DvlSample>([](auto& s) {
          auto& v = s.velocity_D_m_s;
          v = {std::sqrt(0.5) * (v[0] + v[1]), std::sqrt(0.5) * (v[1] - v[0]), v[2]};
@@ -149,12 +149,12 @@ std::vector<Mistake> mistakes() {
          s.velocity_N_m_s[2] *= -1.0;
        })},
       {"implausible_heading_unit", "57.29", false,
-       change_of<HeadingSample>([](auto& s) { s.heading_rad *= kDeg; })},
+       change_of<HeadingSample>([](auto& s) { s.heading_rad *= kRadPerDeg; })},
       {"implausible_heading_negated", "clockwise", false,
        change_of<HeadingSample>([](auto& s) { s.heading_rad = 2.0 * M_PI - s.heading_rad; })},
       {"implausible_gps_place_unit", "57.29", false, change_of<GpsSample>([](auto& s) {
-         s.latitude_rad *= kDeg;
-         s.longitude_rad *= kDeg;
+         s.latitude_rad *= kRadPerDeg;
+         s.longitude_rad *= kRadPerDeg;
        })},
       {"implausible_imu_rate", "110.0 Hz", false, change_of<ImuSample>([](auto& s) {
          const TimeNs first = test::kDriveEpoch_ns;

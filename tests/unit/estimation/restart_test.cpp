@@ -10,7 +10,7 @@ namespace {
 
 using test::SurveyRun;
 
-struct Outcome {
+struct RestartOutcome {
   double aligned_after_s = kUnknown;
   double horizontal_m = 0.0;        ///< error at the end
   double horizontal_sigma_m = 0.0;  ///< of the filter at the end
@@ -18,11 +18,11 @@ struct Outcome {
   double yaw_sigma_rad = 0.0;
 };
 
-Outcome begin_at(double start_s, const SurveyRun::Options& options) {
+RestartOutcome begin_at(double start_s, const SurveyRun::Options& options) {
   const SurveyRun run(options);
   FusionEngine engine(SurveyRun::config());
   const TimeNs begin = SurveyRun::kEpochNs + from_seconds(start_s);
-  Outcome out;
+  RestartOutcome out;
   for (const auto& sample : run.samples) {
     const SampleHeader& header = test::header(sample);
     if (header.received_ns < begin) continue;
@@ -45,7 +45,7 @@ Outcome begin_at(double start_s, const SurveyRun::Options& options) {
 TEST(Restart, UnderWayOnTheSurfaceWithGpsAndCompass) {
   // 1.8 m/s: too slow for the course to be a heading, too fast for levelling at rest.
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Outcome out = begin_at(35.0, {.duration_s = 75.0, .dive_s = 70.0, .seed = seed});
+    const RestartOutcome out = begin_at(35.0, {.duration_s = 75.0, .dive_s = 70.0, .seed = seed});
     EXPECT_LT(out.aligned_after_s, 25.0) << "seed " << seed;
     EXPECT_LT(out.horizontal_m, 4.0 * out.horizontal_sigma_m + 0.5) << "seed " << seed;
     EXPECT_LT(out.horizontal_m, 5.0) << "seed " << seed;
@@ -55,7 +55,7 @@ TEST(Restart, UnderWayOnTheSurfaceWithGpsAndCompass) {
 
 TEST(Restart, UnderWaterWithDvlCompassAndUsbl) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Outcome out = begin_at(75.0, {.duration_s = 140.0, .dive_s = 50.0, .seed = seed});
+    const RestartOutcome out = begin_at(75.0, {.duration_s = 140.0, .dive_s = 50.0, .seed = seed});
     EXPECT_LT(out.aligned_after_s, 50.0) << "seed " << seed;
     EXPECT_LT(out.horizontal_m, 4.0 * out.horizontal_sigma_m + 0.5) << "seed " << seed;
     EXPECT_LT(out.horizontal_m, 10.0) << "seed " << seed;
@@ -64,7 +64,7 @@ TEST(Restart, UnderWaterWithDvlCompassAndUsbl) {
 }
 
 TEST(Restart, UnderWaterWithoutAnyPositionThereIsNone) {
-  const Outcome out = begin_at(75.0, {.duration_s = 100.0, .dive_s = 50.0, .seed = 1, .usbl = false});
+  const RestartOutcome out = begin_at(75.0, {.duration_s = 100.0, .dive_s = 50.0, .seed = 1, .usbl = false});
   EXPECT_FALSE(known(out.aligned_after_s));
   EXPECT_TRUE(std::isnan(out.horizontal_m));
 }

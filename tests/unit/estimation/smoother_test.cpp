@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "support/vehicles/spoilt_survey.hpp"
 
 namespace fathom::estimation {
@@ -154,16 +155,15 @@ TEST(Smoother, HoldsAnOutageFromBothEnds) {
 
 // What is found of the start (GATE-9) was so before it was found (SMOOTH-6): the vehicle leaves at 20 s.
 TEST(Smoother, AHeadingThatWasWrongAtTheStartIsRightFromTheStart) {
-  constexpr double kDegree = M_PI / 180.0;
   const SurveyRun run({.duration_s = 120.0});
   std::vector<test::Sample> spoilt = run.samples;
   for (test::Sample& sample : spoilt)
-    test::turn_compass(sample, test::seconds_of(sample), 20.0 * kDegree, 0.0, 45.0);
+    test::turn_compass(sample, test::seconds_of(sample), 20.0 * kRadPerDeg, 0.0, 45.0);
   const Result result = smooth(spoilt, SurveyRun::config());
   const Errors filtered = errors(run, result.filtered, 12.0, 28.0);
   const Errors smoothed = errors(run, result.smoothed, 12.0, 28.0);
-  EXPECT_GT(filtered.yaw_rms_rad, 10.0 * kDegree);
-  EXPECT_LT(smoothed.yaw_rms_rad, 2.0 * kDegree);
+  EXPECT_GT(filtered.yaw_rms_rad, 10.0 * kRadPerDeg);
+  EXPECT_LT(smoothed.yaw_rms_rad, 2.0 * kRadPerDeg);
   // In place of the forward pass's 30 to 50 while GPS was refused.
   EXPECT_GT(errors(run, result.filtered, 24.0, 32.0).nees_horizontal, 20.0);
   EXPECT_LT(errors(run, result.smoothed, 24.0, 32.0).nees_horizontal, 7.4);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/smoothing/filter_log.hpp"
 #include "geo/so3.hpp"
 #include "support/vehicles/analytic_vehicle.hpp"
@@ -18,7 +19,6 @@ using Eigen::Vector3d;
 using test::Normal;
 using test::SurveyRun;
 
-constexpr double kDegree = M_PI / 180.0;
 constexpr int kStates = 17;
 constexpr int kBias = 15;  ///< of a compass
 
@@ -112,16 +112,16 @@ void run(double wrong_rad, std::uint64_t seed, Loop& believing, Loop& open, Star
 // What it finds is what a filter finds that knew nothing of the heading: its error and its covariance.
 TEST(StartHeading, FindsWhatAFilterFindsThatWasToldNothingOfTheHeading) {
   for (const double wrong_deg : {-20.0, 8.0}) {
-    Loop believing(known_to(1.0 * kDegree));
+    Loop believing(known_to(1.0 * kRadPerDeg));
     ErrorFilter unknown = believing.filter;
     constexpr double kNothing_rad = 30.0;
     unknown.shift(by_compass(), 0.0, kNothing_rad * kNothing_rad);
     Loop open(unknown);
     StartHeading start;
-    run(wrong_deg * kDegree, 3, believing, open, start);
+    run(wrong_deg * kRadPerDeg, 3, believing, open, start);
     ASSERT_TRUE(start.is_wrong());
     const double found_rad = start.error_rad();
-    EXPECT_NEAR(found_rad, wrong_deg * kDegree, 4.0 * std::sqrt(start.variance_rad2()));
+    EXPECT_NEAR(found_rad, wrong_deg * kRadPerDeg, 4.0 * std::sqrt(start.variance_rad2()));
     // Forgetting over eight of its sixty seconds, and the last measurement, are what is left between the two.
     constexpr double kForgotten = 0.05;
     believing.filter.shift(start.column(), found_rad, start.variance_rad2());
@@ -140,11 +140,11 @@ TEST(StartHeading, IsNotDoubtedForWhatItsSigmaAllows) {
   int doubted = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Normal normal(1000 + seed);
-    Loop believing(known_to(1.0 * kDegree));
+    Loop believing(known_to(1.0 * kRadPerDeg));
     Loop open(believing.filter);
     StartHeading start;
     // Heading and compass are wrong by the same: what is drawn lies along that.
-    run(normal(0.7 * kDegree), seed, believing, open, start);
+    run(normal(0.7 * kRadPerDeg), seed, believing, open, start);
     doubted += start.is_wrong() ? 1 : 0;
   }
   EXPECT_EQ(doubted, 0);
@@ -152,7 +152,7 @@ TEST(StartHeading, IsNotDoubtedForWhatItsSigmaAllows) {
 
 // A single reading that is far off says much of itself and next to nothing of the start.
 TEST(StartHeading, NoSingleReadingDecides) {
-  Loop believing(known_to(1.0 * kDegree));
+  Loop believing(known_to(1.0 * kRadPerDeg));
   Loop open(believing.filter);
   StartHeading start;
   run(0.0, 5, believing, open, start);
@@ -171,7 +171,7 @@ TEST(StartHeading, NoSingleReadingDecides) {
 
 // Of what has been found all the time before was wrong as well (SMOOTH-6).
 TEST(StartHeading, WhatIsFoundHoldsBeforeIt) {
-  ErrorFilter filter = known_to(1.0 * kDegree);
+  ErrorFilter filter = known_to(1.0 * kRadPerDeg);
   FilterLog log(kStates);
   filter.record_to(&log);
   const ErrorFilter before = filter;
@@ -203,10 +203,10 @@ TEST(StartHeading, ACompassBesideSteelAtTheStartIsFoundOutByTheWay) {
   for (const double off_deg : {-20.0, 15.0, 20.0})
     for (const double until_s : {15.0, 45.0}) {
       const test::SpoiltSurvey got =
-          test::survey_with_compass_off(run, off_deg * kDegree, 0.0, until_s, 60.0);
+          test::survey_with_compass_off(run, off_deg * kRadPerDeg, 0.0, until_s, 60.0);
       EXPECT_LT(got.worst_h_sigmas, 3.7) << off_deg << " deg until " << until_s;
-      EXPECT_LT(got.worst_yaw_rad, 3.0 * kDegree) << off_deg << " deg until " << until_s;
-      EXPECT_LT(got.last_yaw_rad, 1.5 * kDegree) << off_deg << " deg until " << until_s;
+      EXPECT_LT(got.worst_yaw_rad, 3.0 * kRadPerDeg) << off_deg << " deg until " << until_s;
+      EXPECT_LT(got.last_yaw_rad, 1.5 * kRadPerDeg) << off_deg << " deg until " << until_s;
       const auto said = got.advice.find("wrong by ");
       ASSERT_NE(said, std::string::npos) << got.advice;
       EXPECT_NEAR(std::stod(got.advice.substr(said + 9)), off_deg, 0.4 * std::abs(off_deg)) << got.advice;

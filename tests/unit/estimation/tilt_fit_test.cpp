@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -18,7 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kStep_s = 0.01;
 constexpr double kBelieved = 13.2;  // PLAUS-1
 
@@ -58,8 +56,8 @@ Heard drive(std::uint64_t seed, double seconds, const Flaws& flaws,
       yaw_rate_rad_s = random.uniform(0.0, 1.0) < 0.4 ? random.normal(0.25) : 0.0;
     }
     if (i % 300 == 0) {
-      hill_to_rad = random.normal(0.8 * kDeg);
-      camber_to_rad = random.normal(0.8 * kDeg);
+      hill_to_rad = random.normal(0.8 * kRadPerDeg);
+      camber_to_rad = random.normal(0.8 * kRadPerDeg);
     }
     const double share = kStep_s / 1.0;
     hill_rad += share * (hill_to_rad + 0.004 * gain_m_s2 - hill_rad);
@@ -74,7 +72,7 @@ Heard drive(std::uint64_t seed, double seconds, const Flaws& flaws,
     Vector3d dv_m_s = geo::to_matrix(before).transpose() *
                       (v_N_m_s - v_before_N_m_s - kStep_s * Vector3d(0.0, 0.0, kStandardGravity_m_s2));
     for (int k = 0; k < 3; ++k) {
-      dtheta_rad[k] += random.normal(4.0 * kDeg / 60.0 * std::sqrt(kStep_s));
+      dtheta_rad[k] += random.normal(4.0 * kRadPerDeg / 60.0 * std::sqrt(kStep_s));
       dv_m_s[k] += random.normal(0.02 * std::sqrt(kStep_s) + 0.3 * kStep_s);
     }
     before = q;
@@ -124,11 +122,11 @@ TEST(TiltFit, NamesAxesOfACarOnFlatRoads) {
 TEST(TiltFit, LeavesACarAloneWhoseAxesAreRight) {
   const std::vector<Flaws> flaws{{},
                                  {.gps_late_s = 0.3},
-                                 {.heading_off_rad = 25.0 * kDeg},
-                                 {.heading_off_rad = -25.0 * kDeg},
-                                 {.gyro_bias_rad_s = 1.0 * kDeg},
+                                 {.heading_off_rad = 25.0 * kRadPerDeg},
+                                 {.heading_off_rad = -25.0 * kRadPerDeg},
+                                 {.gyro_bias_rad_s = 1.0 * kRadPerDeg},
                                  {.antenna_m = 2.0},
-                                 {.gps_late_s = 0.3, .heading_off_rad = 15.0 * kDeg, .antenna_m = 2.0}};
+                                 {.gps_late_s = 0.3, .heading_off_rad = 15.0 * kRadPerDeg, .antenna_m = 2.0}};
   for (std::size_t k = 0; k < flaws.size(); ++k)
     for (std::uint64_t seed = 1; seed <= 10; ++seed)
       EXPECT_EQ(drive(seed, 600.0, flaws[k], nothing).remedy, "") << "flaw " << k << ", seed " << seed;

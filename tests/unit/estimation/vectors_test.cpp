@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/aiding/depth.hpp"
 #include "estimation/aiding/dvl_velocity.hpp"
 #include "estimation/aiding/heading.hpp"
@@ -18,8 +19,6 @@ using nlohmann::json;
 using test::matrix;
 using test::relative_error;
 using test::vector3;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 class Vectors : public test::VectorsTest {};
 
@@ -38,7 +37,7 @@ TEST_F(Vectors, Gravity) {
   const auto& expected = out("gravity_somigliana");
   const auto& cases = in("gravity_somigliana").at("cases_lat_deg_h_m");
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const double latitude = cases.at(i).at(0).get<double>() * kDegree;
+    const double latitude = cases.at(i).at(0).get<double>() * kRadPerDeg;
     EXPECT_NEAR(geo::gravity(latitude, cases.at(i).at(1).get<double>()), expected.at(i).get<double>(), 1e-9);
   }
 }
@@ -46,14 +45,14 @@ TEST_F(Vectors, Gravity) {
 TEST_F(Vectors, Radii) {
   const auto& latitudes = in("curvature_radii").at("lat_deg");
   for (std::size_t i = 0; i < latitudes.size(); ++i) {
-    const geo::Radii r = geo::radii(latitudes.at(i).get<double>() * kDegree);
+    const geo::Radii r = geo::radii(latitudes.at(i).get<double>() * kRadPerDeg);
     EXPECT_NEAR(r.meridian_m, out("curvature_radii").at("RM").at(i).get<double>(), 1e-6);
     EXPECT_NEAR(r.normal_m, out("curvature_radii").at("RN").at(i).get<double>(), 1e-6);
   }
 }
 
 TEST_F(Vectors, EulerAngles) {
-  const Vector3d rpy = kDegree * vector3(in("euler_to_dcm_quat").at("rpy_deg"));
+  const Vector3d rpy = kRadPerDeg * vector3(in("euler_to_dcm_quat").at("rpy_deg"));
   const geo::Quaternion q = geo::from_rpy(rpy);
   expect_equal(q, out("euler_to_dcm_quat").at("q_wxyz"), 1e-14);
   EXPECT_LT(relative_error(geo::to_matrix(q), matrix(out("euler_to_dcm_quat").at("C_bn"))), 1e-14);
@@ -73,7 +72,7 @@ struct Start {
 
 Start mechanisation_start(const json& j) {
   Start s;
-  s.nav.position = {j.at("lat_deg").get<double>() * kDegree, j.at("lon_deg").get<double>() * kDegree,
+  s.nav.position = {j.at("lat_deg").get<double>() * kRadPerDeg, j.at("lon_deg").get<double>() * kRadPerDeg,
                     j.at("h").get<double>()};
   s.nav.v_N_m_s = vector3(j.at("v_ned"));
   s.nav.q_NB = quaternion(j.at("q_wxyz"));
@@ -116,9 +115,9 @@ TEST_F(Vectors, MechanisationHundredSteps) {
 TEST_F(Vectors, ErrorDynamics) {
   const json& j = in("F_matrix_9_geodetic");
   NavSolution nav;
-  nav.position = {j.at("lat_deg").get<double>() * kDegree, 0.0, j.at("h").get<double>()};
+  nav.position = {j.at("lat_deg").get<double>() * kRadPerDeg, 0.0, j.at("h").get<double>()};
   nav.v_N_m_s = vector3(j.at("v_ned"));
-  nav.q_NB = geo::from_rpy(kDegree * vector3(j.at("rpy_deg")));
+  nav.q_NB = geo::from_rpy(kRadPerDeg * vector3(j.at("rpy_deg")));
   const Matrix9 f = error_dynamics(nav, geo::to_matrix(nav.q_NB) * vector3(j.at("f_body")));
   // The vector speaks of latitude, longitude and height; ours of metres north, east and down. Besides the
   // units, the metric itself changes on the way: d(R dL)/dt has a part from dR/dt.
@@ -148,8 +147,8 @@ TEST_F(Vectors, DvlJacobian) {
   groups.dvl_scale_xyz = groups.dvl_misalignment = groups.dvl_bias = true;
   const StateIndex index(groups);
   FilterState state;
-  state.nav.position.latitude_rad = j.at("lat_deg").get<double>() * kDegree;
-  state.nav.q_NB = geo::from_rpy(kDegree * vector3(j.at("rpy_deg")));
+  state.nav.position.latitude_rad = j.at("lat_deg").get<double>() * kRadPerDeg;
+  state.nav.q_NB = geo::from_rpy(kRadPerDeg * vector3(j.at("rpy_deg")));
   state.nav.v_N_m_s = vector3(j.at("v_ned"));
   const auto put = [&](Group group, const char* key) {
     for (int i = 0; i < 3; ++i)
@@ -194,12 +193,12 @@ TEST_F(Vectors, CompassJacobian) {
   groups.heading_bias = groups.heading_deviation = true;
   const StateIndex index(groups);
   FilterState state;
-  state.nav.q_NB = geo::from_rpy(kDegree * vector3(j.at("rpy_deg")));
+  state.nav.q_NB = geo::from_rpy(kRadPerDeg * vector3(j.at("rpy_deg")));
   state.x[static_cast<std::size_t>(index.of(Group::heading_bias))] =
-      j.at("A..E_deg").at(0).get<double>() * kDegree;
+      j.at("A..E_deg").at(0).get<double>() * kRadPerDeg;
   for (int i = 0; i < 4; ++i)
     state.x[static_cast<std::size_t>(index.of(Group::heading_deviation) + i)] =
-        j.at("A..E_deg").at(static_cast<std::size_t>(i + 1)).get<double>() * kDegree;
+        j.at("A..E_deg").at(static_cast<std::size_t>(i + 1)).get<double>() * kRadPerDeg;
   const AidingState aiding(index, state, Vector3d::Zero(), kUnknown);
   const SensorConfig sensor = default_sensor(SourceKind::heading, "compass0");
   HeadingSample sample;
@@ -255,9 +254,9 @@ TEST_F(Vectors, PredictAndUpdate15) {
   const json& e = out("predict_update_15");
   const StateIndex index{StateGroups{}};
   FilterState state;
-  state.nav.position = {j.at("lat_deg").get<double>() * kDegree, 0.0, j.at("h").get<double>()};
+  state.nav.position = {j.at("lat_deg").get<double>() * kRadPerDeg, 0.0, j.at("h").get<double>()};
   state.nav.v_N_m_s = vector3(j.at("v_ned"));
-  state.nav.q_NB = geo::from_rpy(kDegree * vector3(j.at("rpy_deg")));
+  state.nav.q_NB = geo::from_rpy(kRadPerDeg * vector3(j.at("rpy_deg")));
   const Vector3d force = vector3(j.at("f_body"));
   std::array<double, kMaxStates> sigma{};
   for (std::size_t i = 0; i < 15; ++i) sigma[i] = std::sqrt(j.at("P0_diag").at(i).get<double>());
@@ -309,7 +308,7 @@ TEST_F(Vectors, Levelling) {
 
 TEST_F(Vectors, ConingCorrectionLeavesFivePercent) {
   const json& j = in("coning_drift");
-  const double half = j.at("cone_half_angle_deg").get<double>() * kDegree;
+  const double half = j.at("cone_half_angle_deg").get<double>() * kRadPerDeg;
   const double w = 2.0 * 3.14159265358979323846 * j.at("freq_hz").get<double>();
   const double dt = j.at("dt").get<double>();
   // The vector is the limit of a small cone: half of half^2 w, less what one sample sees of it.

@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "codec/registry.hpp"
 
 namespace fathom::exchange::nmea {
@@ -143,9 +144,8 @@ TEST(Sentences, OurOwnReaderFindsThePositionAgain) {
   for (const AnySample& sample : samples) {
     if (const auto* gps = std::get_if<GpsSample>(&sample)) {
       fix = true;
-      constexpr double kDegree = 0.017453292519943295;
-      EXPECT_NEAR(gps->latitude_rad, p.latitude_deg * kDegree, 2e-9);
-      EXPECT_NEAR(gps->longitude_rad, p.longitude_deg * kDegree, 2e-9);
+      EXPECT_NEAR(gps->latitude_rad, p.latitude_deg * kRadPerDeg, 2e-9);
+      EXPECT_NEAR(gps->longitude_rad, p.longitude_deg * kRadPerDeg, 2e-9);
     } else if (const auto* compass = std::get_if<HeadingSample>(&sample)) {
       heading = true;
       EXPECT_NEAR(compass->heading_rad, 123.45 * 0.017453292519943295, 1e-9);

@@ -7,6 +7,7 @@
 #include <GeographicLib/NormalGravity.hpp>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "geo/wgs84.hpp"
 #include "support/vehicles/analytic_vehicle.hpp"
 
@@ -15,17 +16,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegree = 0.017453292519943295;
-
 Geodetic place(test::Normal& draw, double most_latitude_deg) {
-  const double latitude = draw.uniform(-most_latitude_deg, most_latitude_deg) * kDegree;
-  const double longitude = draw.uniform(-180.0, 180.0) * kDegree;
+  const double latitude = draw.uniform(-most_latitude_deg, most_latitude_deg) * kRadPerDeg;
+  const double longitude = draw.uniform(-180.0, 180.0) * kRadPerDeg;
   return {latitude, longitude, draw.uniform(-6000.0, 12000.0)};
 }
 
 Vector3d geocentric(const Geodetic& at) {
   Vector3d out;
-  GeographicLib::Geocentric::WGS84().Forward(at.latitude_rad / kDegree, at.longitude_rad / kDegree,
+  GeographicLib::Geocentric::WGS84().Forward(at.latitude_rad / kRadPerDeg, at.longitude_rad / kRadPerDeg,
                                              at.altitude_m, out.x(), out.y(), out.z());
   return out;
 }
@@ -33,7 +32,7 @@ Vector3d geocentric(const Geodetic& at) {
 TEST(Oracle, RadiiOfCurvature) {
   const GeographicLib::Ellipsoid& earth = GeographicLib::Ellipsoid::WGS84();
   for (double degrees = -90.0; degrees <= 90.0; degrees += 0.5) {
-    const Radii own = radii(degrees * kDegree);
+    const Radii own = radii(degrees * kRadPerDeg);
     EXPECT_NEAR(own.meridian_m, earth.MeridionalCurvatureRadius(degrees), 1e-6) << degrees;
     EXPECT_NEAR(own.normal_m, earth.TransverseCurvatureRadius(degrees), 1e-6) << degrees;
   }
@@ -46,7 +45,7 @@ TEST(Oracle, NormalGravity) {
     const Geodetic at = place(draw, 89.0);
     double north = 0.0;
     double up = 0.0;
-    gravity.Gravity(at.latitude_rad / kDegree, at.altitude_m, north, up);
+    gravity.Gravity(at.latitude_rad / kRadPerDeg, at.altitude_m, north, up);
     const Vector3d own = gravity_N(at.latitude_rad, at.altitude_m);
     // The third order of altitude is left out, and under water the lean, which is below 5e-5 m/s^2 there.
     EXPECT_NEAR(own.z(), -up, 3e-6) << at.latitude_rad << " " << at.altitude_m;
@@ -62,12 +61,12 @@ TEST(Oracle, WaysOverTheGroundAreGeodesics) {
     Geodetic from = place(draw, 80.0);
     from.altitude_m = 0.0;
     const double length = std::exp(draw.uniform(std::log(1.0), std::log(5000.0)));
-    const double way = draw.uniform(-180.0, 180.0) * kDegree;
+    const double way = draw.uniform(-180.0, 180.0) * kRadPerDeg;
     const Vector3d delta(length * std::cos(way), length * std::sin(way), 0.0);
     const Geodetic to = moved_by(from, delta);
     double distance = 0.0;
-    earth.Inverse(from.latitude_rad / kDegree, from.longitude_rad / kDegree, to.latitude_rad / kDegree,
-                  to.longitude_rad / kDegree, distance);
+    earth.Inverse(from.latitude_rad / kRadPerDeg, from.longitude_rad / kRadPerDeg,
+                  to.latitude_rad / kRadPerDeg, to.longitude_rad / kRadPerDeg, distance);
     EXPECT_NEAR(distance, length, 1e-6 * length + 1e-7) << from.latitude_rad << " " << way;
     EXPECT_NEAR(difference_N(from, to).norm(), distance, 1e-6 * length + 1e-7);
   }

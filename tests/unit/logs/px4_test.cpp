@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "logs/convert/build.hpp"
 #include "logs/convert/vehicle.hpp"
 
@@ -14,7 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kDeg = std::numbers::pi / 180.0;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Series series(const std::string& topic, std::vector<std::string> columns,
@@ -107,7 +107,7 @@ TEST(Px4, PositionsOfOldAndNewMessagesAreTheSame) {
   const GpsSample& new_gps = b.data.of<GpsSample>().at(0);
   EXPECT_EQ(old_gps[0].header.stamp_ns, new_gps.header.stamp_ns);
   EXPECT_EQ(seconds(new_gps.header.received_ns), 2.1);
-  EXPECT_NEAR(old_gps[0].latitude_rad, 47.3977422 * kDeg, 1e-15);
+  EXPECT_NEAR(old_gps[0].latitude_rad, 47.3977422 * kRadPerDeg, 1e-15);
   EXPECT_NEAR(old_gps[0].latitude_rad, new_gps.latitude_rad, 1e-15);
   EXPECT_NEAR(old_gps[0].longitude_rad, new_gps.longitude_rad, 1e-15);
   EXPECT_EQ(old_gps[0].altitude_m, 535.0);

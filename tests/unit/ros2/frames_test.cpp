@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "ros2/frames/convention.hpp"
 #include "ros2/output/messages.hpp"
 #include "unit/ros2/state.hpp"
@@ -12,7 +13,6 @@
 namespace fathom::ros2 {
 namespace {
 
-using test::kDegree;
 using test::state_at;
 
 void expect_near(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double within, const char* what = "") {
@@ -26,7 +26,7 @@ void expect_near(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double with
 TEST(Frames, AreRightInAllEightOctantsOfBothHemispheres) {
   for (const double hemisphere : {1.0, -1.0}) {
     for (const double side : {1.0, -1.0}) {
-      const geo::Geodetic origin{hemisphere * 36.4 * kDegree, side * 121.0 * kDegree, -5.0};
+      const geo::Geodetic origin{hemisphere * 36.4 * kRadPerDeg, side * 121.0 * kRadPerDeg, -5.0};
       for (const double n : {1.0, -1.0}) {
         for (const double e : {1.0, -1.0}) {
           for (const double d : {1.0, -1.0}) {
@@ -63,7 +63,7 @@ TEST(Frames, AreRightInAllEightOctantsOfBothHemispheres) {
 TEST(Frames, QuaternionsOfTheCompassPointsAreThoseOfTheBook) {
   const double r = std::sqrt(0.5);
   const auto of = [](double yaw_deg) {
-    return quaternion(q_WF(Convention::enu_flu, geo::from_rpy({0.0, 0.0, yaw_deg * kDegree})));
+    return quaternion(q_WF(Convention::enu_flu, geo::from_rpy({0.0, 0.0, yaw_deg * kRadPerDeg})));
   };
   const Quaternion east = of(90.0);
   EXPECT_NEAR(east.w, 1.0, 1e-15);
@@ -78,14 +78,14 @@ TEST(Frames, QuaternionsOfTheCompassPointsAreThoseOfTheBook) {
   // Heading east, the right side 90 degrees down: a rotation of 90 degrees about forward, which is +x in
   // both.
   const Quaternion rolled =
-      quaternion(q_WF(Convention::enu_flu, geo::from_rpy({90.0 * kDegree, 0.0, 90.0 * kDegree})));
+      quaternion(q_WF(Convention::enu_flu, geo::from_rpy({90.0 * kRadPerDeg, 0.0, 90.0 * kRadPerDeg})));
   EXPECT_NEAR(rolled.w, r, 1e-15);
   EXPECT_NEAR(rolled.x, r, 1e-15);
   // Heading east, the nose 30 degrees up: about left by -30 degrees.
   const Quaternion up =
-      quaternion(q_WF(Convention::enu_flu, geo::from_rpy({0.0, 30.0 * kDegree, 90.0 * kDegree})));
-  EXPECT_NEAR(up.w, std::cos(15.0 * kDegree), 1e-15);
-  EXPECT_NEAR(up.y, -std::sin(15.0 * kDegree), 1e-15);
+      quaternion(q_WF(Convention::enu_flu, geo::from_rpy({0.0, 30.0 * kRadPerDeg, 90.0 * kRadPerDeg})));
+  EXPECT_NEAR(up.w, std::cos(15.0 * kRadPerDeg), 1e-15);
+  EXPECT_NEAR(up.y, -std::sin(15.0 * kRadPerDeg), 1e-15);
 }
 
 TEST(Frames, GoBackToWhereTheyCameFrom) {
@@ -120,7 +120,7 @@ TEST(Covariance, OfPlaceTurnsWithTheAxes) {
 TEST(Covariance, OfVelocityTurnsIntoTheBody) {
   const geo::Geodetic origin{0.6, 0.1, 0.0};
   // Heading east: forward is east, left is north.
-  const auto motion = motion_of(state_at(origin, {0.0, 0.0, 90.0 * kDegree}), Convention::enu_flu, origin);
+  const auto motion = motion_of(state_at(origin, {0.0, 0.0, 90.0 * kRadPerDeg}), Convention::enu_flu, origin);
   ASSERT_TRUE(motion.ok());
   expect_near(motion.value().velocity_F_m_s, {0.5, 1.0, 0.25}, 1e-12);
   const Eigen::Matrix3d& c = motion.value().velocity_covariance_F;
@@ -134,11 +134,11 @@ TEST(Covariance, OfAttitudeIsAboutTheFixedAxes) {
         attitude_of(state_at(origin, rpy), convention).value().rotation_covariance_W.diagonal());
   };
   // Sigma of roll 1, of pitch 2, of yaw 10 mrad. Heading east, roll is about east (x); heading north about y.
-  expect_near(diagonal({0, 0, 90.0 * kDegree}, Convention::enu_flu), {1e-6, 4e-6, 1e-4}, 1e-15);
+  expect_near(diagonal({0, 0, 90.0 * kRadPerDeg}, Convention::enu_flu), {1e-6, 4e-6, 1e-4}, 1e-15);
   expect_near(diagonal({0, 0, 0}, Convention::enu_flu), {4e-6, 1e-6, 1e-4}, 1e-15);
   expect_near(diagonal({0, 0, 0}, Convention::ned_frd), {1e-6, 4e-6, 1e-4}, 1e-15);
   // The nose straight up, as before heading north: roll and yaw are both about the vertical.
-  expect_near(diagonal({0, 90.0 * kDegree, 0}, Convention::ned_frd), {0.0, 4e-6, 1e-6 + 1e-4}, 1e-12);
+  expect_near(diagonal({0, 90.0 * kRadPerDeg, 0}, Convention::ned_frd), {0.0, 4e-6, 1e-6 + 1e-4}, 1e-12);
 }
 
 // The same small rotations, applied to the attitude, spread as the covariance says.

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "ros2/input/samples.hpp"
 
 namespace fathom::ros2 {
@@ -18,7 +19,6 @@ using ::testing::HasSubstr;
 constexpr TimeNs kNow_ns = 1'700'000'000 * kNsPerSecond;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 Header header_at(TimeNs stamp_ns, const std::string& frame = "imu_link") {
   return {{static_cast<std::int32_t>(stamp_ns / kNsPerSecond),
@@ -152,8 +152,8 @@ TEST(GpsSampleOf, HasNorthFirst) {
   const auto entry = gps_sample(fix(), kHeader);
   ASSERT_TRUE(entry.sample) << entry.text;
   EXPECT_EQ(entry.sample->fix, GpsFix::fix_3d);
-  EXPECT_NEAR(entry.sample->latitude_rad, -33.5 * kDegree, 1e-15);
-  EXPECT_NEAR(entry.sample->longitude_rad, -160.0 * kDegree, 1e-12);
+  EXPECT_NEAR(entry.sample->latitude_rad, -33.5 * kRadPerDeg, 1e-15);
+  EXPECT_NEAR(entry.sample->longitude_rad, -160.0 * kRadPerDeg, 1e-12);
   EXPECT_EQ(entry.sample->altitude_m, 21.0);
   EXPECT_EQ(entry.sample->position_sigma_N_m, (std::array<double, 3>{3.0, 2.0, 5.0}));
 }
@@ -198,7 +198,7 @@ TEST(DepthSampleOf, IsDepthOfSeaWater) {
   FluidPressure message;
   message.fluid_pressure = 101'325.0 + 1.0e6;
   message.variance = 1.0e4;
-  const auto entry = depth_sample(message, kHeader, {36.4 * kDegree, 101'325.0});
+  const auto entry = depth_sample(message, kHeader, {36.4 * kRadPerDeg, 101'325.0});
   ASSERT_TRUE(entry.sample) << entry.text;
   EXPECT_NEAR(entry.sample->depth_m, 99.2, 0.3);  // 100 dbar
   EXPECT_NEAR(entry.sample->sigma_m, 0.0099, 0.0002);
@@ -296,7 +296,7 @@ PoseWithCovarianceStamped pose_at(double x, double y, double xx, double yy, doub
 }
 
 TEST(FixOfPose, IsWhereThePoseIsInMapWhateverItsAxes) {
-  const geo::Geodetic origin{-33.5 * kDegree, 179.9999 * kDegree, 12.0};
+  const geo::Geodetic origin{-33.5 * kRadPerDeg, 179.9999 * kRadPerDeg, 12.0};
   for (const Convention convention : {Convention::enu_flu, Convention::ned_frd}) {
     const auto entry = fix_sample(pose_at(300.0, 400.0, 4.0, 4.0), kHeader, {origin, convention});
     ASSERT_TRUE(entry.sample) << entry.text;
@@ -314,8 +314,8 @@ TEST(FixOfPose, IsWhereThePoseIsInMapWhateverItsAxes) {
 
 TEST(FixOfPose, CountsByTheLongestAxisOfItsEllipse) {
   // Axes of 5 m and 1 m, turned by 30 degrees.
-  const double c = std::cos(30 * kDegree);
-  const double s = std::sin(30 * kDegree);
+  const double c = std::cos(30 * kRadPerDeg);
+  const double s = std::sin(30 * kRadPerDeg);
   const auto entry = fix_sample(pose_at(0, 0, 25 * c * c + s * s, 25 * s * s + c * c, 24 * c * s), kHeader,
                                 {geo::Geodetic{}, Convention::enu_flu});
   ASSERT_TRUE(entry.sample) << entry.text;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "ros2/output/diagnostics.hpp"
 #include "ros2/output/messages.hpp"
 #include "unit/ros2/state.hpp"
@@ -12,11 +13,10 @@
 namespace fathom::ros2 {
 namespace {
 
-using test::kDegree;
 using test::kStart_ns;
 using test::state_at;
 
-const geo::Geodetic kOrigin{36.4 * kDegree, -121.5 * kDegree, -3.0};
+const geo::Geodetic kOrigin{36.4 * kRadPerDeg, -121.5 * kRadPerDeg, -3.0};
 
 struct Said {
   explicit Said(const NavState& state, Convention convention = Convention::enu_flu)
@@ -40,7 +40,7 @@ void expect_filled(const Covariance6& c) {
 }
 
 TEST(OdometryMessage, HasThePoseInOdomAndTheTwistInTheBody) {
-  const Said said(state_at(kOrigin, {0, 0, 90.0 * kDegree}));
+  const Said said(state_at(kOrigin, {0, 0, 90.0 * kRadPerDeg}));
   const Odometry message = odometry(said.motion, said.attitude, said.odom, said.names, said.noise);
   EXPECT_EQ(message.header.frame_id, "odom");
   EXPECT_EQ(message.child_frame_id, "base_link");
@@ -57,7 +57,7 @@ TEST(OdometryMessage, HasThePoseInOdomAndTheTwistInTheBody) {
 
 TEST(OdometryMessage, TurnsTheCovarianceWithOdom) {
   Said said(state_at(kOrigin));
-  NavState turned = state_at(kOrigin, {0, 0, 90.0 * kDegree});
+  NavState turned = state_at(kOrigin, {0, 0, 90.0 * kRadPerDeg});
   turned.header.stamp_ns += 10 * kNsPerMillisecond;
   said.motion = motion_of(turned, Convention::enu_flu, kOrigin).value();
   said.odom.update(said.motion.map);  // a step of the heading by 90 degrees: odom lies across map

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <numbers>
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -9,7 +8,6 @@
 
 namespace fathom::ros2::test {
 
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 inline constexpr TimeNs kStart_ns = 1'700'000'000 * kNsPerSecond;
 
 /// A state that can be used, at a place, with an attitude in roll, pitch, yaw.

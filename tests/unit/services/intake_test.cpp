@@ -7,8 +7,6 @@
 namespace fathom::fusion {
 namespace {
 
-constexpr DurationNs kMs = kNsPerMillisecond;
-
 template <class Sample>
 Arrival arrival(const Name& sensor, std::uint64_t sequence, TimeNs received_ns, std::uint8_t process = 1) {
   Sample sample;
@@ -21,13 +19,15 @@ Arrival arrival(const Name& sensor, std::uint64_t sequence, TimeNs received_ns, 
 }
 
 TEST(Intake, LogsWhatItTakesWithItsWriterAndNothingElse) {
-  Intake intake("auv", "imu", 200 * kMs);
+  Intake intake("auv", "imu", 200 * kNsPerMillisecond);
   intake.keep(true);
   EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 1, 0)).fate, Intake::Fate::taken);
-  EXPECT_EQ(intake.take(arrival<GpsSample>("gps", 1, kMs)).fate, Intake::Fate::taken);
-  EXPECT_EQ(intake.take(arrival<ImuSample>("imu_spare", 1, 2 * kMs)).fate, Intake::Fate::other_imu);
-  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 2, 3 * kMs, 2)).fate, Intake::Fate::other_imu);
-  Arrival other = arrival<GpsSample>("gps", 2, 4 * kMs);
+  EXPECT_EQ(intake.take(arrival<GpsSample>("gps", 1, kNsPerMillisecond)).fate, Intake::Fate::taken);
+  EXPECT_EQ(intake.take(arrival<ImuSample>("imu_spare", 1, 2 * kNsPerMillisecond)).fate,
+            Intake::Fate::other_imu);
+  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 2, 3 * kNsPerMillisecond, 2)).fate,
+            Intake::Fate::other_imu);
+  Arrival other = arrival<GpsSample>("gps", 2, 4 * kNsPerMillisecond);
   std::get<GpsSample>(other.sample).header.vehicle = "another";
   EXPECT_EQ(intake.take(other).fate, Intake::Fate::other_vehicle);
 
@@ -36,7 +36,7 @@ TEST(Intake, LogsWhatItTakesWithItsWriterAndNothingElse) {
   EXPECT_EQ(log[0].source(), SourceKind::imu);
   EXPECT_EQ(log[1].source(), SourceKind::gps);
   EXPECT_EQ(log[1].writer, "bridge");
-  EXPECT_EQ(log[1].received_ns, kMs);
+  EXPECT_EQ(log[1].received_ns, kNsPerMillisecond);
   const Intake::Counts counts = intake.counts();
   EXPECT_EQ(counts.imu_samples, 1U);
   EXPECT_EQ(counts.other_vehicle, 1U);
@@ -45,26 +45,28 @@ TEST(Intake, LogsWhatItTakesWithItsWriterAndNothingElse) {
 }
 
 TEST(Intake, AnotherUnitOfAnotherKindIsNoOtherImu) {
-  Intake intake("auv", "imu", 200 * kMs);
+  Intake intake("auv", "imu", 200 * kNsPerMillisecond);
   EXPECT_EQ(intake.take(arrival<GpsSample>("gps", 1, 0, 1)).fate, Intake::Fate::taken);
   EXPECT_EQ(intake.take(arrival<GpsSample>("gps_aft", 1, 0, 2)).fate, Intake::Fate::taken)
       << "only the inertial unit is one";
 }
 
 TEST(Intake, WhatIsLeftOutLeavesNoGap) {
-  Intake intake("auv", "imu", 200 * kMs);
+  Intake intake("auv", "imu", 200 * kNsPerMillisecond);
   EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 10, 0)).missed, 0U);
-  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 500, kMs, 2)).missed, 0U) << "another process";
-  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 11, 2 * kMs)).missed, 0U);
-  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 15, 3 * kMs)).missed, 3U);
+  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 500, kNsPerMillisecond, 2)).missed, 0U)
+      << "another process";
+  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 11, 2 * kNsPerMillisecond)).missed, 0U);
+  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 15, 3 * kNsPerMillisecond)).missed, 3U);
   EXPECT_EQ(intake.last().at({SourceKind::imu, "imu"}), 15U);
 }
 
 TEST(Intake, AfterItsPatienceItTakesTheProcessThatFollows) {
-  Intake intake("auv", "imu", 200 * kMs);
+  Intake intake("auv", "imu", 200 * kNsPerMillisecond);
   EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 1, 0)).fate, Intake::Fate::taken);
-  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 1, 200 * kMs, 2)).fate, Intake::Fate::other_imu);
-  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 2, 201 * kMs, 2)).fate, Intake::Fate::taken);
+  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 1, 200 * kNsPerMillisecond, 2)).fate,
+            Intake::Fate::other_imu);
+  EXPECT_EQ(intake.take(arrival<ImuSample>("imu", 2, 201 * kNsPerMillisecond, 2)).fate, Intake::Fate::taken);
   EXPECT_EQ(intake.counts().imu_changes, 1U);
 }
 

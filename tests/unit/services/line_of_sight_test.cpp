@@ -6,11 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
+
 namespace fathom::guidance {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180.0;
 
 PathState at(double north_m, double east_m, double yaw_rad = 0.0) {
   return {north_m, east_m, 0.0, 0.0, yaw_rad};
@@ -26,16 +27,16 @@ TEST(LineOfSight, PointsAlongTheLegAndTurnsTowardsIt) {
   const SteeringOrder right =
       path.steer(at(20, 10));  // 10 m right of the leg, look-ahead 10 m: 45 deg to the left
   EXPECT_NEAR(right.cross_track_m, 10.0, 1e-9);
-  EXPECT_NEAR(right.course_rad, 315.0 * kDegree, 1e-9);
+  EXPECT_NEAR(right.course_rad, 315.0 * kRadPerDeg, 1e-9);
   const SteeringOrder left = path.steer(at(20, -10));
   EXPECT_NEAR(left.cross_track_m, -10.0, 1e-9);
-  EXPECT_NEAR(left.course_rad, 45.0 * kDegree, 1e-9);
+  EXPECT_NEAR(left.course_rad, 45.0 * kRadPerDeg, 1e-9);
 }
 
 TEST(LineOfSight, HeadingIsCorrectedForDrift) {
   LineOfSight path({{100, 0, 0, 1.5}}, {10.0, 5.0, false});
   // Heading north, the current sets to the east: course over ground 45 deg, so steer 45 deg to the west.
-  EXPECT_NEAR(path.steer({0, 0, 1.0, 1.0, 0.0}).heading_rad, 315.0 * kDegree, 1e-9);
+  EXPECT_NEAR(path.steer({0, 0, 1.0, 1.0, 0.0}).heading_rad, 315.0 * kRadPerDeg, 1e-9);
   EXPECT_NEAR(path.steer({0, 0, 0.1, 0.1, 0.0}).heading_rad, 0.0, 1e-9) << "too slow to tell";
   EXPECT_NEAR(path.steer({0, 0, -1.0, 0.0, 0.0}).heading_rad, 0.0, 1e-9) << "backwards";
 }

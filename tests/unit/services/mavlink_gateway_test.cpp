@@ -1,11 +1,11 @@
 // What a navigation state becomes for an autopilot.
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 #include "mavlink_gateway/messages.hpp"
@@ -13,17 +13,15 @@
 namespace fathom::mavlink_gateway {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 NavState state_at(double yaw_deg, double pitch_deg = 0.0, double latitude_deg = -33.0) {
   NavState s;
   s.header = {"auv", "fusion", *from_civil({2026, 1, 2, 3, 4, 5, 250'000'000}), 0, 1};
   s.mode = NavMode::gps_aided;
   s.alignment = AlignmentPhase::aligned;
-  s.latitude_rad = latitude_deg * kDegree;
-  s.longitude_rad = 151.0 * kDegree;
+  s.latitude_rad = latitude_deg * kRadPerDeg;
+  s.longitude_rad = 151.0 * kRadPerDeg;
   s.altitude_m = 20.0;
-  s.rpy_rad = {0.0, pitch_deg * kDegree, yaw_deg * kDegree};
+  s.rpy_rad = {0.0, pitch_deg * kRadPerDeg, yaw_deg * kRadPerDeg};
   const Eigen::Quaterniond q(Eigen::AngleAxisd(s.rpy_rad[2], Eigen::Vector3d::UnitZ()) *
                              Eigen::AngleAxisd(s.rpy_rad[1], Eigen::Vector3d::UnitY()));
   s.q_NB = {q.w(), q.x(), q.y(), q.z()};
@@ -37,9 +35,9 @@ NavState state_at(double yaw_deg, double pitch_deg = 0.0, double latitude_deg = 
 }
 
 TEST(MavlinkMessages, OdometryInEveryOctant) {
-  const geo::Geodetic origin{-33.0 * kDegree, 151.0 * kDegree, 0.0};
+  const geo::Geodetic origin{-33.0 * kRadPerDeg, 151.0 * kRadPerDeg, 0.0};
   for (int octant = 0; octant < 8; ++octant) {
-    const double yaw = 45.0 * octant * kDegree;
+    const double yaw = 45.0 * octant * kRadPerDeg;
     const NavState state = state_at(45.0 * octant);
     const auto pose = pose_of(state, {});
     ASSERT_TRUE(pose.has_value());
@@ -74,7 +72,7 @@ TEST(MavlinkMessages, OdometryInEveryOctant) {
 TEST(MavlinkMessages, PlaceIsNorthEastDownInBothHemispheres) {
   for (const double latitude_deg : {-70.0, -1.0, 1.0, 70.0}) {
     NavState state = state_at(0.0, 0.0, latitude_deg);
-    const geo::Geodetic origin{latitude_deg * kDegree, 151.0 * kDegree, 20.0};
+    const geo::Geodetic origin{latitude_deg * kRadPerDeg, 151.0 * kRadPerDeg, 20.0};
     const geo::Geodetic place = geo::moved_by(origin, {30.0, -40.0, 5.0});
     state.latitude_rad = place.latitude_rad;
     state.longitude_rad = place.longitude_rad;
@@ -114,7 +112,7 @@ TEST(MavlinkMessages, AReceiverForThoseWhoTakeNothingElse) {
   EXPECT_EQ(g.time_week_ms, 5U * 86'400'000U + 3U * 3'600'000U + 4U * 60'000U + 23'250U);
   EXPECT_NEAR(g.horiz_accuracy, std::sqrt(5.0), 1e-6);
   EXPECT_NEAR(g.speed_accuracy, std::sqrt(0.05), 1e-6);
-  state.longitude_rad = 200.0 * kDegree;
+  state.longitude_rad = 200.0 * kRadPerDeg;
   EXPECT_EQ(gps_input_of(*pose_of(state, config), config).lon, -1'600'000'000);
   config.valid_95_m = 1.0;
   EXPECT_EQ(gps_input_of(*pose_of(state, config), config).fix_type, 0);

@@ -1,14 +1,13 @@
 #include "guidance_example/mission_route.hpp"
 
-#include <numbers>
-
 #include <gtest/gtest.h>
+
+#include "base/units.hpp"
 
 namespace fathom::guidance {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-const geo::Geodetic kOrigin{36.4 * kDegree, 127.4 * kDegree, 0.0};
+const geo::Geodetic kOrigin{36.4 * kRadPerDeg, 127.4 * kRadPerDeg, 0.0};
 
 config::GuidanceConfig mission_of(int count) {
   config::GuidanceConfig config;
@@ -52,11 +51,11 @@ TEST(MissionRoute, GeodeticWaypointsStayWhereTheyAre) {
   config.frame = config::WaypointFrame::geodetic;
   config::Waypoint point;
   point.latitude_rad = 0.5;
-  point.longitude_rad = 350.0 * kDegree;
+  point.longitude_rad = 350.0 * kRadPerDeg;
   config.waypoints = {point};
   const auto mission = mission_waypoints(config, kOrigin);
   EXPECT_EQ(mission[0].latitude_rad, 0.5);
-  EXPECT_NEAR(mission[0].longitude_rad, -10.0 * kDegree, 1e-12);
+  EXPECT_NEAR(mission[0].longitude_rad, -10.0 * kRadPerDeg, 1e-12);
 }
 
 TEST(MissionRoute, TheLegBeginsAtTheWaypointBeforeAndTheFirstOneWhereGuidanceTookOver) {

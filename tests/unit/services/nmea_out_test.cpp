@@ -1,12 +1,12 @@
 // What a navigation state becomes for those who read NMEA 0183, and when it is said.
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
 #include "nmea_out/report.hpp"
@@ -20,26 +20,24 @@ using exchange::Quality;
 using exchange::nmea::Validity;
 using ::testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 NavState state_at(double heading_deg, double speed_m_s = 2.0) {
   NavState s;
   s.header = {"auv", "fusion", *from_civil({2026, 1, 2, 3, 4, 5}), 0, 1};
   s.mode = NavMode::gps_aided;
   s.alignment = AlignmentPhase::aligned;
-  s.latitude_rad = -30.0 * kDegree;
-  s.longitude_rad = 179.9999 * kDegree;
+  s.latitude_rad = -30.0 * kRadPerDeg;
+  s.longitude_rad = 179.9999 * kRadPerDeg;
   s.altitude_m = -20.0;
   s.depth_m = 20.0;
   s.altitude_above_bottom_m = 7.0;
-  const double yaw = heading_deg * kDegree;
+  const double yaw = heading_deg * kRadPerDeg;
   s.velocity_N_m_s = {speed_m_s * std::cos(yaw), speed_m_s * std::sin(yaw), 0.0};
   s.rpy_rad = {0.0, 0.0, yaw};
   s.q_NB = {std::cos(0.5 * yaw), 0.0, 0.0, std::sin(0.5 * yaw)};
-  s.angular_rate_B_rad_s = {0.0, 0.0, 1.0 * kDegree};
+  s.angular_rate_B_rad_s = {0.0, 0.0, 1.0 * kRadPerDeg};
   s.position_covariance_N_m2 = {4.0, 0.0, 0.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.25};
   s.velocity_covariance_N_m2_s2 = {0.01, 0, 0, 0, 0.04, 0, 0, 0, 0.01};
-  s.rpy_sigma_rad = {0.1 * kDegree, 0.2 * kDegree, 0.5 * kDegree};
+  s.rpy_sigma_rad = {0.1 * kRadPerDeg, 0.2 * kRadPerDeg, 0.5 * kRadPerDeg};
   s.gps_outage_s = 0.1;
   return s;
 }
@@ -69,14 +67,15 @@ TEST(NmeaReport, APointOfTheVehicleMovesWithItInEveryOctant) {
     const Report here = report_of(state, {});
     const Report there = report_of(state, config);
     const auto moved = geo::difference_N(
-        {here.point.latitude_deg * kDegree, here.point.longitude_deg * kDegree, here.point.altitude_m},
-        {there.point.latitude_deg * kDegree, there.point.longitude_deg * kDegree, there.point.altitude_m});
-    EXPECT_NEAR(moved.x(), 10.0 * std::cos(heading_deg * kDegree), 1e-3);
-    EXPECT_NEAR(moved.y(), 10.0 * std::sin(heading_deg * kDegree), 1e-3);
+        {here.point.latitude_deg * kRadPerDeg, here.point.longitude_deg * kRadPerDeg, here.point.altitude_m},
+        {there.point.latitude_deg * kRadPerDeg, there.point.longitude_deg * kRadPerDeg,
+         there.point.altitude_m});
+    EXPECT_NEAR(moved.x(), 10.0 * std::cos(heading_deg * kRadPerDeg), 1e-3);
+    EXPECT_NEAR(moved.y(), 10.0 * std::sin(heading_deg * kRadPerDeg), 1e-3);
     EXPECT_NEAR(moved.z(), 2.0, 1e-3);
     // It turns to starboard by a degree a second: the bow goes that way besides.
     EXPECT_NEAR(there.forward_m_s, 2.0, 1e-9);
-    EXPECT_NEAR(there.starboard_m_s, 10.0 * kDegree, 1e-9);
+    EXPECT_NEAR(there.starboard_m_s, 10.0 * kRadPerDeg, 1e-9);
     EXPECT_NEAR(there.below_m, 5.0, 1e-9);
     EXPECT_NEAR(there.uncertainty.depth_m, 22.0, 1e-9);
     EXPECT_THAT(sentence_of(there, NmeaSentence::gga, "IN"), HasSubstr(",S,"));
@@ -117,7 +116,7 @@ TEST(NmeaReport, NothingIsMadeUpWhereThereIsNoPositionOrHeading) {
   state.position_covariance_N_m2.fill(kUnknown);
   EXPECT_EQ(report_of(state, {}).validity, Validity::not_valid) << "an unknown sigma vouches for nothing";
   state = state_at(10.0);
-  state.rpy_sigma_rad[2] = 30.0 * kDegree;
+  state.rpy_sigma_rad[2] = 30.0 * kRadPerDeg;
   EXPECT_FALSE(known(report_of(state, {}).point.heading_deg));
   EXPECT_FALSE(known(report_of(state, {}).forward_m_s));
   EXPECT_NEAR(report_of(state, {}).uncertainty.heading_sigma_deg, 30.0, 1e-9);

@@ -2,12 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "cli/solve/course.hpp"
 
 namespace fathom::cli {
 namespace {
-
-constexpr double kDeg = M_PI / 180.0;
 
 class HeadingWatchTest : public ::testing::Test {
  protected:
@@ -24,15 +23,16 @@ class HeadingWatchTest : public ::testing::Test {
       GpsSample& fix = gps.emplace_back();
       fix.header.stamp_ns = at(static_cast<double>(gps.size()) - 1.0);
       fix.fix = GpsFix::fix_3d;
-      fix.velocity_N_m_s = {speed_m_s * std::cos(course * kDeg), speed_m_s * std::sin(course * kDeg), 0.0};
+      fix.velocity_N_m_s = {speed_m_s * std::cos(course * kRadPerDeg),
+                            speed_m_s * std::sin(course * kRadPerDeg), 0.0};
     }
   }
   static NavState state(double t_s, double yaw_deg, double sigma_deg, bool aligned = true) {
     NavState out;
     out.header.stamp_ns = at(t_s);
     out.latitude_rad = 0.7;
-    out.rpy_rad = {0.0, 0.0, yaw_deg * kDeg};
-    out.rpy_sigma_rad = {0.01, 0.01, sigma_deg * kDeg};
+    out.rpy_rad = {0.0, 0.0, yaw_deg * kRadPerDeg};
+    out.rpy_sigma_rad = {0.01, 0.01, sigma_deg * kRadPerDeg};
     out.alignment = aligned ? AlignmentPhase::aligned : AlignmentPhase::fine;
     return out;
   }
@@ -54,16 +54,16 @@ TEST_F(HeadingWatchTest, ComparesOnStraightsAtTheInstantOfTheFix) {
   EXPECT_NEAR(figures.course.worst_own(), 4.0, 1e-9);
   EXPECT_EQ(figures.course.beyond_own(), 1U);
   // With 0.57 degrees of course noise the same 2 degrees are no lie.
-  EXPECT_NEAR(figures.course.worst(), 2.0 / std::hypot(0.5, 0.01 / kDeg), 1e-9);
+  EXPECT_NEAR(figures.course.worst(), 2.0 / std::hypot(0.5, 0.01 / kRadPerDeg), 1e-9);
   EXPECT_EQ(figures.course.beyond(), 0U);
-  EXPECT_NEAR(figures.course.mean_rad(), 1.0 * kDeg, 1e-12);
+  EXPECT_NEAR(figures.course.mean_rad(), 1.0 * kRadPerDeg, 1e-12);
   EXPECT_NEAR(figures.aligned_after_s, 3.0, 1e-6);
   EXPECT_FALSE(figures.through_medium);
 }
 
 TEST_F(HeadingWatchTest, AnAircraftThatCrabsIsComparedThroughTheAir) {
   estimation::SensorConfig air = estimation::default_sensor(SourceKind::airspeed, "air0");
-  air.sideslip_sigma_rad = 2.0 * kDeg;
+  air.sideslip_sigma_rad = 2.0 * kRadPerDeg;
   config.engine.sensors.push_back(air);
   drive({0, 0, 0});
   HeadingWatch watch(config, gps);
@@ -71,15 +71,15 @@ TEST_F(HeadingWatchTest, AnAircraftThatCrabsIsComparedThroughTheAir) {
   detail.count = 3;
   detail.states[0] = {Name("current_north_m_s"), 0.0, 0.3};
   detail.states[1] = {Name("current_east_m_s"), 10.0, 0.4};
-  detail.states[2] = {Name("sideslip_rad"), 1.0 * kDeg, 1.0 * kDeg};
+  detail.states[2] = {Name("sideslip_rad"), 1.0 * kRadPerDeg, 1.0 * kRadPerDeg};
   // North over ground in a wind from the west: the nose is 45 degrees to the left of the course, less the
   // sideslip.
   watch.add(state(0.8, -46.0 + 3.0, 1.0), detail);
   const HeadingFigures& figures = watch.figures();
   ASSERT_EQ(figures.course.count(), 1U);
   EXPECT_TRUE(figures.through_medium);
-  EXPECT_NEAR(figures.course.mean_rad(), 3.0 * kDeg, 1e-9);
-  const double others = std::hypot(0.1, 0.4) / std::hypot(10.0, 10.0) / kDeg;
+  EXPECT_NEAR(figures.course.mean_rad(), 3.0 * kRadPerDeg, 1e-9);
+  const double others = std::hypot(0.1, 0.4) / std::hypot(10.0, 10.0) / kRadPerDeg;
   EXPECT_NEAR(figures.course.worst(), 3.0 / std::sqrt(1.0 + 1.0 + 4.0 + others * others), 1e-9);
 }
 
@@ -98,13 +98,13 @@ TEST_F(HeadingWatchTest, SlowFixesAndStatesThatComeLateSayNothing) {
 TEST_F(HeadingWatchTest, TheReferenceIsComparedTheShorterWayRound) {
   HeadingErrors errors;
   Truth truth;
-  truth.rpy_rad = {0.0, 0.0, -179.0 * kDeg};
+  truth.rpy_rad = {0.0, 0.0, -179.0 * kRadPerDeg};
   add_heading(state(0.0, 179.0, 1.0), truth, errors);
   truth.rpy_rad[2] = kUnknown;
   add_heading(state(0.1, 0.0, 1.0), truth, errors);
   EXPECT_EQ(errors.count(), 1U);
   EXPECT_NEAR(errors.worst(), 2.0, 1e-9);
-  EXPECT_NEAR(errors.rms_rad(), 2.0 * kDeg, 1e-12);
+  EXPECT_NEAR(errors.rms_rad(), 2.0 * kRadPerDeg, 1e-12);
 }
 
 }  // namespace

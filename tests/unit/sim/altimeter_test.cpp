@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "codec/registry.hpp"
 #include "sim/device_encoder.hpp"
 #include "sim/simulation.hpp"
@@ -31,11 +32,11 @@ TEST(AltimeterModel, IsTheWayToTheBottomAlongItsAxisFromItsPlace) {
   AltimeterConfig config = perfect();
   EXPECT_DOUBLE_EQ(AltimeterModel(config, 1).sample(at_depth(10.0)).altitude_m, 30.0);
   TruthPoint tilted = at_depth(10.0);
-  tilted.q_NB = q_of_rpy(0.0, 60.0 * test::kDegree, 0.3);
+  tilted.q_NB = q_of_rpy(0.0, 60.0 * kRadPerDeg, 0.3);
   EXPECT_NEAR(AltimeterModel(config, 1).sample(tilted).altitude_m, 60.0, 1e-9);
   config.lever_B_m = {1.0, 0.0, 0.2};  // nose up: the altimeter ahead of the origin is higher by sin 60
-  tilted.q_NB = q_of_rpy(0.0, 60.0 * test::kDegree, 0.0);
-  const double lower_m = 0.2 * std::cos(60.0 * test::kDegree) - std::sin(60.0 * test::kDegree);
+  tilted.q_NB = q_of_rpy(0.0, 60.0 * kRadPerDeg, 0.0);
+  const double lower_m = 0.2 * std::cos(60.0 * kRadPerDeg) - std::sin(60.0 * kRadPerDeg);
   EXPECT_NEAR(AltimeterModel(config, 1).sample(tilted).altitude_m, 2.0 * (30.0 - lower_m), 1e-6);
 }
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "geo/so3.hpp"
 #include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
@@ -20,7 +21,6 @@ using test::bytes_of;
 using test::decode_whole;
 using test::DecodeRun;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kEarthRadius_m = 6.4e6;
 
 template <class Sample>
@@ -47,8 +47,8 @@ GpsSample fix(double latitude_deg, double longitude_deg, GpsFix kind = GpsFix::r
   sample.fix = kind;
   sample.satellites = 14;
   sample.hdop = 0.75;
-  sample.latitude_rad = latitude_deg * kDegree;
-  sample.longitude_rad = longitude_deg * kDegree;
+  sample.latitude_rad = latitude_deg * kRadPerDeg;
+  sample.longitude_rad = longitude_deg * kRadPerDeg;
   sample.altitude_m = 18.523;
   sample.altitude_msl_m = -7.125;
   sample.position_sigma_N_m = {1.25, 1.5, 2.5};
@@ -118,22 +118,22 @@ TEST(EncodeNmeaGps, RoundsTheTimeIntoTheNextYear) {
 TEST(EncodeNmeaHeading, TrueMagneticAndUnknown) {
   for (double heading_deg = 0.0; heading_deg < 360.0; heading_deg += 7.3) {
     HeadingSample sent;
-    sent.heading_rad = heading_deg * kDegree;
+    sent.heading_rad = heading_deg * kRadPerDeg;
     EXPECT_NEAR(only<HeadingSample>(decode_whole("heading", bytes_of(nmea_heading(sent)))).heading_rad,
-                sent.heading_rad, 1e-3 * kDegree);
+                sent.heading_rad, 1e-3 * kRadPerDeg);
     sent.north = North::magnetic;
-    sent.deviation_rad = 3.0 * kDegree;
-    sent.variation_rad = -8.5 * kDegree;
+    sent.deviation_rad = 3.0 * kRadPerDeg;
+    sent.variation_rad = -8.5 * kRadPerDeg;
     const auto got = only<HeadingSample>(decode_whole("heading", bytes_of(nmea_heading(sent))));
     EXPECT_EQ(got.north, North::magnetic);
     EXPECT_NEAR(std::remainder(got.heading_rad - sent.heading_rad, 2.0 * std::numbers::pi), 0.0,
-                2e-3 * kDegree);
-    EXPECT_NEAR(got.deviation_rad, sent.deviation_rad, 1e-3 * kDegree);
-    EXPECT_NEAR(got.variation_rad, sent.variation_rad, 1e-3 * kDegree);
+                2e-3 * kRadPerDeg);
+    EXPECT_NEAR(got.deviation_rad, sent.deviation_rad, 1e-3 * kRadPerDeg);
+    EXPECT_NEAR(got.variation_rad, sent.variation_rad, 1e-3 * kRadPerDeg);
   }
   EXPECT_FALSE(known(only<HeadingSample>(decode_whole("heading", bytes_of(nmea_heading({})))).heading_rad));
   HeadingSample full_turn;
-  full_turn.heading_rad = 359.999'9 * kDegree;
+  full_turn.heading_rad = 359.999'9 * kRadPerDeg;
   EXPECT_EQ(only<HeadingSample>(decode_whole("heading", bytes_of(nmea_heading(full_turn)))).heading_rad, 0.0);
 }
 
@@ -146,8 +146,8 @@ TEST(EncodeNmeaActuator, RpmAndFins) {
   fins.rudder_rad = 0.15;
   fins.stern_rad = -0.21;
   const auto got = only<FinsSample>(decode_whole("actuator", bytes_of(nmea_fins(fins))));
-  EXPECT_NEAR(got.rudder_rad, fins.rudder_rad, 1e-3 * kDegree);
-  EXPECT_NEAR(got.stern_rad, fins.stern_rad, 1e-3 * kDegree);
+  EXPECT_NEAR(got.rudder_rad, fins.rudder_rad, 1e-3 * kRadPerDeg);
+  EXPECT_NEAR(got.stern_rad, fins.stern_rad, 1e-3 * kRadPerDeg);
   fins.stern_rad = kUnknown;
   EXPECT_FALSE(known(only<FinsSample>(decode_whole("actuator", bytes_of(nmea_fins(fins)))).stern_rad));
 }
@@ -172,8 +172,8 @@ TEST(EncodePsimssb, EveryFrameAndNoReply) {
   }
   // A ship that is known goes ahead; the vessel's axes are sent levelled.
   sent.frame = UsblFrame::vessel_frd;
-  sent.station_latitude_rad = 36.4 * kDegree;
-  sent.station_longitude_rad = 127.4 * kDegree;
+  sent.station_latitude_rad = 36.4 * kRadPerDeg;
+  sent.station_longitude_rad = 127.4 * kRadPerDeg;
   sent.station_rpy_rad = {0.1, -0.05, 2.0};
   const auto ship = only<UsblSample>(decode_whole("psimssb", bytes_of(psimssb(sent, instant()))));
   EXPECT_NEAR((ship.station_latitude_rad - sent.station_latitude_rad) * kEarthRadius_m, 0.0, 1e-3);
@@ -184,8 +184,8 @@ TEST(EncodePsimssb, EveryFrameAndNoReply) {
   };
   EXPECT_LT((along_north(ship) - along_north(sent)).norm(), 2e-3);
   sent.frame = UsblFrame::geodetic;
-  sent.latitude_rad = 36.4 * kDegree;
-  sent.longitude_rad = -127.4 * kDegree;
+  sent.latitude_rad = 36.4 * kRadPerDeg;
+  sent.longitude_rad = -127.4 * kRadPerDeg;
   sent.depth_m = 35.5;
   const auto got = only<UsblSample>(decode_whole("psimssb", bytes_of(psimssb(sent, instant()))));
   EXPECT_EQ(got.frame, UsblFrame::geodetic);
@@ -204,8 +204,8 @@ TEST(EncodeUbx, NavPvtRoundTrip) {
     const DecodeRun run = decode_whole("ubx", ubx_nav_pvt(sent, instant() + 12'345));
     const auto got = only<GpsSample>(run);
     EXPECT_EQ(got.fix, kind);
-    EXPECT_NEAR(got.latitude_rad, sent.latitude_rad, 0.6e-7 * kDegree);
-    EXPECT_NEAR(got.longitude_rad, sent.longitude_rad, 0.6e-7 * kDegree);
+    EXPECT_NEAR(got.latitude_rad, sent.latitude_rad, 0.6e-7 * kRadPerDeg);
+    EXPECT_NEAR(got.longitude_rad, sent.longitude_rad, 0.6e-7 * kRadPerDeg);
     EXPECT_NEAR(got.altitude_m, sent.altitude_m, 1e-3);
     EXPECT_NEAR(got.altitude_msl_m, sent.altitude_msl_m, 1e-3);
     EXPECT_NEAR(got.position_sigma_N_m[0], std::hypot(1.25, 1.5) / std::numbers::sqrt2, 1e-3);
@@ -237,7 +237,7 @@ TEST(EncodeUbx, UnknownsDoNotBecomeGoodNumbers) {
 
 TEST(EncodeDepth, ParoscientificToATenthOfAMillimetre) {
   codec::CodecOptions options;
-  options.latitude_rad = 36.4 * kDegree;
+  options.latitude_rad = 36.4 * kRadPerDeg;
   for (const double depth_m : {0.0, 0.5, 12.345, 250.0, 6000.0}) {
     DepthSample sent;
     sent.depth_m = depth_m;

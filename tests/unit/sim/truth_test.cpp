@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "ecef_integrator.hpp"
 #include "geo/wgs84.hpp"
 #include "sim/truth_generator.hpp"
@@ -136,14 +137,14 @@ TEST(Truth, TheAirDropEntersTheWaterAndHoldsItsDepth) {
       entry_s = now.t_s;
       entry_pitch_rad = pitch_rad;
     }
-    if (entry_s > 0.0 && dive_s == 0.0 && pitch_rad > -30.0 * test::kDegree) dive_s = now.t_s;
+    if (entry_s > 0.0 && dive_s == 0.0 && pitch_rad > -30.0 * kRadPerDeg) dive_s = now.t_s;
     if (now.depth_m > 76.0) steepest_near_depth_rad = std::min(steepest_near_depth_rad, pitch_rad);
   }
   EXPECT_NEAR(entry_s, 12.0, 1.0);
   // The order slews from the attitude of the fall to the dive, and from there the flare takes over.
-  EXPECT_LT(entry_pitch_rad, -60.0 * test::kDegree);
+  EXPECT_LT(entry_pitch_rad, -60.0 * kRadPerDeg);
   EXPECT_NEAR(dive_s - entry_s, 3.0, 1.0);
-  EXPECT_GT(steepest_near_depth_rad, -6.5 * test::kDegree);
+  EXPECT_GT(steepest_near_depth_rad, -6.5 * kRadPerDeg);
   EXPECT_NEAR(truth.point().depth_m, 80.0, 0.5);
   EXPECT_NEAR(truth.point().V_B_m_s.x(), 17.0, 0.2);
   EXPECT_NEAR(truth.point().rpm * 0.0068, 17.0, 0.3);
@@ -153,8 +154,8 @@ TEST(Truth, TheAircraftTurnsWithoutSideForce) {
   TruthGenerator truth(test::aircraft_scenario(), 1);
   for (int i = 1; i <= 8000; ++i) (void)truth.advance_to(i * 0.01);
   const TruthPoint& now = truth.point();
-  EXPECT_NEAR(rpy_of(now.q_NB).x(), 45.0 * test::kDegree, 1.0 * test::kDegree);
-  EXPECT_NEAR(now.f_B_m_s2.z(), -9.8 / std::cos(45.0 * test::kDegree), 1.5);
+  EXPECT_NEAR(rpy_of(now.q_NB).x(), 45.0 * kRadPerDeg, 1.0 * kRadPerDeg);
+  EXPECT_NEAR(now.f_B_m_s2.z(), -9.8 / std::cos(45.0 * kRadPerDeg), 1.5);
   EXPECT_NEAR(now.f_B_m_s2.y(), 0.0, 1.0);
 }
 

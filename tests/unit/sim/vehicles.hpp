@@ -1,19 +1,16 @@
 #pragma once
 
-#include <numbers>
-
+#include "base/units.hpp"
 #include "sim/scenario.hpp"
 
 namespace fathom::test {
-
-inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 inline sim::Scenario base_scenario(sim::VehicleConfig::Kind kind) {
   sim::Scenario out;
   out.name = "test";
   out.vehicle.kind = kind;
-  out.start.latitude_rad = 45.0 * kDegree;
-  out.start.longitude_rad = 7.0 * kDegree;
+  out.start.latitude_rad = 45.0 * kRadPerDeg;
+  out.start.longitude_rad = 7.0 * kRadPerDeg;
   out.environment.surface_altitude_m = 20.0;
   out.sensors.of<ImuSample>().enabled = true;
   out.sensors.of<ImuSample>().rate_hz = 100.0;
@@ -28,7 +25,7 @@ inline sim::Scenario auv_scenario() {
   out.environment.current_N_m_s = {0.2, -0.3};
   out.environment.current_from_s = 10.0;
   out.environment.wave_height_m = 0.02;
-  out.environment.wave_tilt_rad = 0.4 * kDegree;
+  out.environment.wave_tilt_rad = 0.4 * kRadPerDeg;
   out.environment.turbulence_m_s = 0.02;
   out.environment.water_depth_m = 40.0;
   out.mission = {{0.0, 0.0, 1.0, 0.0},
@@ -54,8 +51,8 @@ inline sim::Scenario aircraft_scenario() {
   out.environment.turbulence_m_s = 0.4;
   out.mission = {{0.0, 50.0, 1.0, -800.0, 0.0, 0.0},
                  {20.0, 50.0, 1.0, -900.0, 0.0, 0.0},
-                 {60.0, 50.0, 1.0, -900.0, 45.0 * kDegree, 0.0},
-                 {90.0, 50.0, 1.0, -900.0, 0.0, 8.0 * kDegree}};
+                 {60.0, 50.0, 1.0, -900.0, 45.0 * kRadPerDeg, 0.0},
+                 {90.0, 50.0, 1.0, -900.0, 0.0, 8.0 * kRadPerDeg}};
   return out;
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 using Table = std::map<std::string, Statistics>;  // "method metric"
 
-Table table(const std::string& one, int runs, std::vector<std::string> methods = {}) {
+Table alignment_table(const std::string& one, int runs, std::vector<std::string> methods = {}) {
   RunOptions options;
   options.runs = runs;
   options.seed = 3;
@@ -26,7 +26,7 @@ Table table(const std::string& one, int runs, std::vector<std::string> methods =
 }
 
 TEST(AlignmentStudy, PublishedCaseAlignsInTimeAndTheFineSolutionIsBetter) {
-  const Table t = table("-10+10", 6);
+  const Table t = alignment_table("-10+10", 6);
   for (const char* method : {"printed", "printed_gated", "robust", "fine"}) {
     const std::string name = method;
     EXPECT_EQ(t.at(name + " aligned").mean, 1.0) << name;
@@ -44,7 +44,7 @@ TEST(AlignmentStudy, PublishedCaseAlignsInTimeAndTheFineSolutionIsBetter) {
 
 TEST(AlignmentStudy, WhereThePrintedMethodTimesOutTheFineOneRecovers) {
   for (const char* name : {"pitch_11", "+30+30"}) {
-    const Table t = table(name, 3, {"printed", "fine"});
+    const Table t = alignment_table(name, 3, {"printed", "fine"});
     EXPECT_EQ(t.at("printed aligned").mean, 0.0) << name;
     EXPECT_EQ(t.at("printed timed_out").mean, 1.0) << name;
     EXPECT_EQ(t.at("fine aligned").mean, 1.0) << name;
@@ -54,7 +54,7 @@ TEST(AlignmentStudy, WhereThePrintedMethodTimesOutTheFineOneRecovers) {
 }
 
 TEST(AlignmentStudy, ATurnIsNoStraightRun) {
-  const Table t = table("turn_6dps", 2);
+  const Table t = alignment_table("turn_6dps", 2);
   // The published conditions hold in a steady turn, and its claim is false each time.
   EXPECT_EQ(t.at("printed aligned").mean, 1.0);
   EXPECT_EQ(t.at("printed falsely_aligned").mean, 1.0);
@@ -68,8 +68,8 @@ TEST(AlignmentStudy, ATurnIsNoStraightRun) {
 
 TEST(AlignmentStudy, ASigmaIsNotSmallerThanTheFlowMakesTheError) {
   // In strong turbulence no window is good enough; each claim there is must be true.
-  const Table rough = table("turbulence_0.1", 6);
-  const Table rolled = table("roll_30", 6);
+  const Table rough = alignment_table("turbulence_0.1", 6);
+  const Table rolled = alignment_table("roll_30", 6);
   for (const char* method : {"printed_gated", "robust", "fine"}) {
     const std::string name = std::string(method) + " falsely_aligned";
     EXPECT_EQ(rough.at(name).mean, 0.0) << name;
@@ -82,7 +82,7 @@ TEST(AlignmentStudy, ASigmaIsNotSmallerThanTheFlowMakesTheError) {
 }
 
 TEST(AlignmentStudy, VibrationHidesTheSteadyRunFromTheUnfilteredConditionsOnly) {
-  const Table t = table("vibration_20mg", 3, {"printed", "printed_gated", "robust"});
+  const Table t = alignment_table("vibration_20mg", 3, {"printed", "printed_gated", "robust"});
   EXPECT_EQ(t.at("printed timed_out").mean, 1.0);
   for (const char* method : {"printed_gated", "robust"}) {
     const std::string name = method;
@@ -92,7 +92,7 @@ TEST(AlignmentStudy, VibrationHidesTheSteadyRunFromTheUnfilteredConditionsOnly) 
 }
 
 TEST(AlignmentStudy, WithoutErrorsTheMethodsAreExactButForWhatTheyNeglect) {
-  const Table t = table("error_free", 1);
+  const Table t = alignment_table("error_free", 1);
   EXPECT_LT(t.at("robust roll_error").max, 0.02);
   EXPECT_LT(t.at("robust pitch_error").max, 0.05);
   EXPECT_GT(t.at("printed pitch_error").max, 0.1);  // the speed still dies away, which it takes for pitch

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using estimation::hydro::VehicleModel;
 using Table = std::map<std::string, Statistics>;  // "method metric"
 
-Table table(const std::string& one, int runs, std::vector<std::string> methods) {
+Table hydro_table(const std::string& one, int runs, std::vector<std::string> methods) {
   RunOptions options;
   options.runs = runs;
   options.seed = 11;
@@ -70,7 +70,7 @@ TEST(HydroVehicles, CoefficientsThatAreOffAreStillAVehicle) {
 }
 
 TEST(HydroStudy, PublishedFilterDriftsLessThanInertialAlone) {
-  const Table t = table("perfect", 2, {"ins", "printed", "linked", "ins_dvl"});
+  const Table t = hydro_table("perfect", 2, {"ins", "printed", "linked", "ins_dvl"});
   EXPECT_EQ(t.at("ins time_mean_ratio_to_ins").max, 1.0);
   EXPECT_LT(t.at("printed time_mean_ratio_to_ins").mean, 0.5);
   EXPECT_LT(t.at("linked position_rms_199s").rms, 15.0);
@@ -79,21 +79,21 @@ TEST(HydroStudy, PublishedFilterDriftsLessThanInertialAlone) {
 }
 
 TEST(HydroStudy, ModelBridgesTheLossOfTheDvl) {
-  const Table t = table("dvl_loss_300s", 2, {"engine", "engine_no_model"});
+  const Table t = hydro_table("dvl_loss_300s", 2, {"engine", "engine_no_model"});
   EXPECT_LT(t.at("engine drift_since_loss").max, 0.3 * t.at("engine_no_model drift_since_loss").mean);
 }
 
 TEST(HydroStudy, UncertaintyWithoutTheDvlIsNeitherTooLargeNorTooSmall) {
   // 95 % of means of eight runs with two degrees of freedom: chi-squared of 16, over 8.
   for (const char* one : {"dvl_loss_300s", "dvl_loss_300s_coeff_30pct"}) {
-    const double nees = table(one, 8, {"engine"}).at("engine nees_position").mean;
+    const double nees = hydro_table(one, 8, {"engine"}).at("engine nees_position").mean;
     EXPECT_GT(nees, 0.86) << one;
     EXPECT_LT(nees, 3.61) << one;
   }
 }
 
 TEST(HydroStudy, AnotherVehiclesCoefficientsDoNoHarm) {
-  const Table t = table("dvl_loss_300s_other_vehicle", 2, {"engine", "engine_no_model"});
+  const Table t = hydro_table("dvl_loss_300s_other_vehicle", 2, {"engine", "engine_no_model"});
   EXPECT_LT(t.at("engine drift_since_loss").mean, 1.1 * t.at("engine_no_model drift_since_loss").mean);
   EXPECT_LT(t.at("engine position_rms_199s").rms, 1.1 * t.at("engine_no_model position_rms_199s").rms);
 }

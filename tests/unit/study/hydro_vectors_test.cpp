@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/hydro/runge_kutta.hpp"
 #include "study/baselines/embedded_dynamics.hpp"
 #include "study/baselines/ukf.hpp"
@@ -19,8 +20,6 @@ using estimation::hydro::Vector6;
 using nlohmann::json;
 using test::matrix;
 using test::vector3;
-
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 Eigen::VectorXd vector(const json& j) {
   Eigen::VectorXd v(static_cast<Eigen::Index>(j.size()));
@@ -74,7 +73,7 @@ TEST_F(HydroVectors, RungeKuttaStep) {
 TEST_F(HydroVectors, InsErrorMatrices) {
   const json& one = vectors_.at("ins_error_matrices");
   const InsErrorMatrices m = ins_error_matrices(
-      one.at("lat_deg").get<double>() * kDegree, one.at("h").get<double>(), vector3(one.at("v_n")),
+      one.at("lat_deg").get<double>() * kRadPerDeg, one.at("h").get<double>(), vector3(one.at("v_n")),
       vector3(one.at("f_n")), {one.at("R0").get<double>(), one.at("Omega").get<double>()});
   const std::pair<const char*, const Matrix3d*> all[] = {
       {"P_rho", &m.P_rho}, {"P_v", &m.P_v},     {"V_rho", &m.V_rho}, {"V_v", &m.V_v},
@@ -95,7 +94,7 @@ TEST_F(HydroVectors, UkfStep) {
   navigator.C_NB = matrix(one.at("C_b_n_INS"));
   navigator.f_N_m_s2 = vector3(one.at("f_n"));
   navigator.v_N_m_s = vector3(one.at("v_n"));
-  navigator.latitude_rad = one.at("lat_deg").get<double>() * kDegree;
+  navigator.latitude_rad = one.at("lat_deg").get<double>() * kRadPerDeg;
   navigator.altitude_m = one.at("h_used_for_wen").get<double>();
   const EmbeddedDynamics dynamics(model, navigator, controls(one, model.coefficients()),
                                   {one.at("R0_used_in_deltas").get<double>(), geo::kEarthRate_rad_s});

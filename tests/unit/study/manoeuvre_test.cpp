@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/hydro/vehicle_model.hpp"
 #include "study/hydro/vehicles.hpp"
 #include "unit/study/remus_motion.hpp"
@@ -16,7 +17,7 @@ using estimation::hydro::Vector6;
 using estimation::hydro::VehicleModel;
 
 using Motion = RemusMotion;
-constexpr double kDegree = RemusMotion::kDegree;
+constexpr double kRadPerDeg = RemusMotion::kRadPerDeg;
 
 Motion run(double rudder_deg, double stern_deg, double duration_s) {
   return RemusMotion::run(rudder_deg, stern_deg, duration_s);
@@ -32,7 +33,7 @@ TEST(RemusManoeuvres, StraightAhead) {
   const VehicleModel model(hydro::remus100());
   Vector6 nu = Vector6::Zero();
   nu[0] = 1.54;
-  const double heel_rad = -5.3 * kDegree;
+  const double heel_rad = -5.3 * kRadPerDeg;
   const Vector6 load = model.load(nu, {0.0, std::sin(heel_rad), std::cos(heel_rad)}, {1500.0, 0.0, 0.0});
   EXPECT_NEAR(load[0], 0.0, 0.03);
   EXPECT_NEAR(load[3], 0.0, 0.005);
@@ -46,12 +47,12 @@ TEST(RemusManoeuvres, TurningCircle) {
     const double speed = after.nu.head<2>().norm();
     // A fin turned to port (negative) turns to starboard.
     EXPECT_LT(rate_rad_s * rudder, 0.0) << rudder;
-    EXPECT_NEAR(std::abs(rate_rad_s) / kDegree, 7.2, 1.5) << rudder;
+    EXPECT_NEAR(std::abs(rate_rad_s) / kRadPerDeg, 7.2, 1.5) << rudder;
     const std::string name = "rudder_" + std::to_string(rudder).substr(0, 5);
-    record(name + "_rate_deg_s", rate_rad_s / kDegree);
+    record(name + "_rate_deg_s", rate_rad_s / kRadPerDeg);
     record(name + "_speed_m_s", speed);
     record(name + "_radius_m", speed / std::abs(rate_rad_s));
-    record(name + "_drift_deg", std::atan2(-after.nu[1], after.nu[0]) / kDegree);
+    record(name + "_drift_deg", std::atan2(-after.nu[1], after.nu[0]) / kRadPerDeg);
     record(name + "_roll_deg", after.rpy_deg(0));
     record(name + "_pitch_deg", after.rpy_deg(1));
   }

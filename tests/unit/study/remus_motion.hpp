@@ -4,6 +4,7 @@
 #include <functional>
 #include <numbers>
 
+#include "base/units.hpp"
 #include "estimation/hydro/vehicle_model.hpp"
 #include "geo/so3.hpp"
 #include "study/hydro/vehicles.hpp"
@@ -12,7 +13,7 @@ namespace fathom::study {
 
 /// The REMUS 100 model in open water, its fins held.
 struct RemusMotion {
-  static constexpr double kDegree = std::numbers::pi / 180.0;
+  static constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   static constexpr double kDt_s = 0.02;
 
   estimation::hydro::Vector6 nu = estimation::hydro::Vector6::Zero();
@@ -20,7 +21,7 @@ struct RemusMotion {
   Eigen::Vector3d position_N_m = Eigen::Vector3d::Zero();
   double turned_rad = 0.0;
 
-  [[nodiscard]] double rpy_deg(int i) const { return geo::to_rpy(q_NB)(i) / kDegree; }
+  [[nodiscard]] double rpy_deg(int i) const { return geo::to_rpy(q_NB)(i) / kRadPerDeg; }
 
   /// From steady flight ahead. `each` sees every step.
   static RemusMotion run(double rudder_deg, double stern_deg, double duration_s,
@@ -28,8 +29,8 @@ struct RemusMotion {
     const estimation::hydro::VehicleModel model(hydro::remus100());
     RemusMotion m;
     m.nu[0] = 1.54;
-    m.q_NB = geo::from_rpy({-5.3 * kDegree, 0.0, 0.0});
-    const estimation::hydro::Controls controls{1500.0, rudder_deg * kDegree, stern_deg * kDegree};
+    m.q_NB = geo::from_rpy({-5.3 * kRadPerDeg, 0.0, 0.0});
+    const estimation::hydro::Controls controls{1500.0, rudder_deg * kRadPerDeg, stern_deg * kRadPerDeg};
     const int steps = static_cast<int>(std::lround(duration_s / kDt_s));
     for (int i = 0; i < steps; ++i) {
       if (each) each(i * kDt_s, m);

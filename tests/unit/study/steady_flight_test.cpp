@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "study/consistency/instruments.hpp"
 #include "study/consistency/truth_path.hpp"
@@ -13,7 +14,6 @@
 namespace fathom::study {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr double kBias_m_s2 = 0.5;
 constexpr double kBiasSigma_m_s2 = 0.3;
 
@@ -47,7 +47,7 @@ class SteadyFlight {
     c.groups = {};
     c.left_out = estimation::LeftOut::noise;
     c.alignment.mode = estimation::StartMode::given;
-    c.imu.angle_random_walk_rad_sqrt_s = 0.4 * kDegree / 60.0;
+    c.imu.angle_random_walk_rad_sqrt_s = 0.4 * kRadPerDeg / 60.0;
     c.imu.velocity_random_walk_m_s_sqrt_s = 0.1 / 60.0;
     c.imu.accel_bias_sigma_m_s2 = kBiasSigma_m_s2;
     c.imu.accel_bias_instability_m_s2 = c.imu.gyro_bias_instability_rad_s = 0.0;
@@ -88,7 +88,7 @@ class SteadyFlight {
     state.altitude_m = pose.place.height_m;
     state.velocity_N_m_s = {pose.velocity_N_m_s.x(), pose.velocity_N_m_s.y(), pose.velocity_N_m_s.z()};
     state.rpy_rad = {0.0, std::asin(-pose.axes_NB(2, 0)) + kBias_m_s2 / 9.8, 0.0};
-    state.attitude_sigma_rad = {5.0 * kDegree, 5.0 * kDegree, 0.1 * kDegree};
+    state.attitude_sigma_rad = {5.0 * kRadPerDeg, 5.0 * kRadPerDeg, 0.1 * kRadPerDeg};
     engine_.start_from(state);
   }
 
@@ -113,9 +113,9 @@ TEST(SteadyFlightTest, TeachesNothingOfTheTilt) {
 }
 
 TEST(SteadyFlightTest, IsToldByASwingInPitch) {
-  SteadyFlight swinging(0.5 * kDegree);
+  SteadyFlight swinging(0.5 * kRadPerDeg);
   swinging.fly(420.0);
-  EXPECT_LT(swinging.tilt_sigma_rad(), 0.5 * kDegree);
+  EXPECT_LT(swinging.tilt_sigma_rad(), 0.5 * kRadPerDeg);
   EXPECT_LT(std::abs(swinging.pitch_error_rad()), 3.0 * swinging.tilt_sigma_rad());
 }
 

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/wgs84.hpp"
 #include "study/consistency/cells.hpp"
@@ -14,12 +15,10 @@
 namespace fathom::study {
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
-
 TEST(EarthFixed, GravityIsThatOfSomigliana) {
   for (const double latitude : {-80.0, -35.0, 0.0, 10.0, 45.0, 89.0})
     for (const double height : {0.0, 8000.0}) {
-      const ecef::Geodetic place{latitude * kDegree, 0.7, height};
+      const ecef::Geodetic place{latitude * kRadPerDeg, 0.7, height};
       const Eigen::Vector3d r = ecef::to_cartesian(place);
       const Eigen::Vector3d turn(0.0, 0.0, ecef::kTurnRate_rad_s);
       const Eigen::Vector3d g_N =
@@ -32,7 +31,7 @@ TEST(EarthFixed, GravityIsThatOfSomigliana) {
 TEST(EarthFixed, PlacesComeBack) {
   for (const double latitude : {-89.9, -30.0, 0.0, 60.0})
     for (const double height : {-5000.0, 0.0, 20000.0}) {
-      const ecef::Geodetic place{latitude * kDegree, -2.5, height};
+      const ecef::Geodetic place{latitude * kRadPerDeg, -2.5, height};
       const ecef::Geodetic back = ecef::to_geodetic(ecef::to_cartesian(place));
       EXPECT_NEAR(back.latitude_rad, place.latitude_rad, 1e-14);
       EXPECT_NEAR(back.longitude_rad, place.longitude_rad, 1e-14);
@@ -68,7 +67,7 @@ TEST(TruthPath, AtRestItFeelsGravityAndTheEarthsTurn) {
 TEST(TruthPath, TheMechanisationFollowsItFreely) {
   for (const Cell& cell : consistency_cells()) {
     const Manoeuvres manoeuvres = cell.motion(3);
-    TruthPath path(manoeuvres, {cell.latitude_deg * kDegree, 0.3, cell.height_m});
+    TruthPath path(manoeuvres, {cell.latitude_deg * kRadPerDeg, 0.3, cell.height_m});
     estimation::EngineConfig config;
     config.alignment.mode = estimation::StartMode::given;
     config.sensors = {estimation::default_sensor(SourceKind::gps, "gps")};

@@ -1,6 +1,7 @@
 // The published fixed-gain algorithm against the numerical vectors.
 #include <Eigen/Eigenvalues>
 
+#include "base/units.hpp"
 #include "geo/wgs84.hpp"
 #include "study/baselines/fixed_gain.hpp"
 #include "support/vectors.hpp"
@@ -15,7 +16,6 @@ using test::matrix;
 using test::relative_error;
 using test::vector3;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kTolerance = 1e-9;
 
 class FixedGainVectors : public test::VectorsTest {};
@@ -42,7 +42,7 @@ TEST_F(FixedGainVectors, QuaternionRate) {
 TEST_F(FixedGainVectors, TangentFrame) {
   const json& j = in("p003_Aphi_wphi");
   const json& e = out("p003_Aphi_wphi");
-  const double latitude = j.at("lat_deg").get<double>() * kDegree;
+  const double latitude = j.at("lat_deg").get<double>() * kRadPerDeg;
   EXPECT_LT(relative_error(geo::earth_rate_N(latitude), vector3(e.at("u_phi"))), kTolerance);
   EXPECT_LT(relative_error(inertial_to_tangent(latitude, j.at("t").get<double>()), matrix(e.at("A_phi"))),
             kTolerance);
@@ -52,8 +52,8 @@ TEST_F(FixedGainVectors, TangentFrame) {
 
 TEST_F(FixedGainVectors, Transition) {
   const json& j = in("p003_transition_9");
-  const Matrix9 f =
-      transition(j.at("lat_deg").get<double>() * kDegree, j.at("dt").get<double>(), vector3(j.at("f_nav")));
+  const Matrix9 f = transition(j.at("lat_deg").get<double>() * kRadPerDeg, j.at("dt").get<double>(),
+                               vector3(j.at("f_nav")));
   const Eigen::MatrixXd expected = matrix(out("p003_transition_9").at("F"));
   // Small entries next to 1 carry its rounding.
   for (int row = 0; row < 9; ++row)
