@@ -27,8 +27,6 @@ namespace fathom::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using commission::Finding;
-using commission::Severity;
 
 struct CommissionOptions {
   std::string log;
@@ -47,7 +45,7 @@ Json number(double value) {
 Json json_of(const commission::Commissioning& found, const std::vector<Change>& changes) {
   Json out;
   out["findings"] = Json::array();
-  for (const Finding& finding : found.findings) {
+  for (const commission::Finding& finding : found.findings) {
     out["findings"].push_back({{"sensor", finding.sensor},
                                {"what", finding.what},
                                {"kind", to_string(finding.kind)},
@@ -68,7 +66,7 @@ Json json_of(const commission::Commissioning& found, const std::vector<Change>& 
 void print(const commission::Commissioning& found) {
   const auto group = [&](const char* title, auto&& belongs) {
     bool first = true;
-    for (const Finding& finding : found.findings) {
+    for (const commission::Finding& finding : found.findings) {
       if (!belongs(finding)) continue;
       if (first) std::printf("%s\n", title);
       first = false;
@@ -76,11 +74,12 @@ void print(const commission::Commissioning& found) {
     }
   };
   std::printf("%.0f s of log, %.0f s of it at rest in one piece.\n", found.duration_s, found.rest_s);
-  group("WRONG", [](const Finding& f) { return f.severity == Severity::wrong; });
-  group("To look at", [](const Finding& f) { return f.severity == Severity::note; });
-  group("As it should be", [](const Finding& f) { return f.severity == Severity::ok && f.known; });
+  group("WRONG", [](const commission::Finding& f) { return f.severity == commission::Severity::wrong; });
+  group("To look at", [](const commission::Finding& f) { return f.severity == commission::Severity::note; });
+  group("As it should be",
+        [](const commission::Finding& f) { return f.severity == commission::Severity::ok && f.known; });
   group("What the log cannot tell",
-        [](const Finding& f) { return f.severity != Severity::wrong && !f.known; });
+        [](const commission::Finding& f) { return f.severity != commission::Severity::wrong && !f.known; });
 }
 
 // Written beside the old one and checked before it takes its place.
