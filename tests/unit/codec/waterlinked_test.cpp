@@ -100,21 +100,21 @@ TEST_P(WaterLinkedFaults, AreRefusedOnceAndTheNextReportIsFound) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, WaterLinkedFaults,
-    ::testing::Values(WaterlinkedFault{"cut", kGood.substr(0, 300), RejectReason::length},
-                      WaterlinkedFault{"cut_in_a_word", kGood.substr(0, 4), RejectReason::length},
-                      WaterlinkedFault{"not_json", R"({"type":velocity})", RejectReason::structure},
-                      WaterlinkedFault{"not_a_number", with(R"("vx":1.5)", R"("vx":NaN)"), RejectReason::structure},
-                      WaterlinkedFault{"beyond_double", with(R"("vx":1.5)", R"("vx":1e999)"), RejectReason::structure},
-                      WaterlinkedFault{"word_for_number", with(R"("vx":1.5)", R"("vx":"fast")"), RejectReason::field},
-                      WaterlinkedFault{"number_for_flag", with(R"("velocity_valid":true)", R"("velocity_valid":1)"),
-                            RejectReason::field},
-                      WaterlinkedFault{"beam_nobody_has", with(R"("id":0)", R"("id":7)"), RejectReason::field},
-                      WaterlinkedFault{"impossible_speed", with(R"("vx":1.5)", R"("vx":1500)"),
-                            RejectReason::out_of_range},
-                      WaterlinkedFault{"no_type", R"({"vx":1})", RejectReason::structure},
-                      WaterlinkedFault{"too_deep", "{\"a\":[[[[[[[[[[1]]]]]]]]]]}", RejectReason::structure},
-                      WaterlinkedFault{"binary", std::string("{\"a\":\x01\x02}"), RejectReason::structure},
-                      WaterlinkedFault{"too_long", "{\"a\":\"" + std::string(9000, 'x') + "\"}", RejectReason::length}),
+    ::testing::Values(
+        WaterlinkedFault{"cut", kGood.substr(0, 300), RejectReason::length},
+        WaterlinkedFault{"cut_in_a_word", kGood.substr(0, 4), RejectReason::length},
+        WaterlinkedFault{"not_json", R"({"type":velocity})", RejectReason::structure},
+        WaterlinkedFault{"not_a_number", with(R"("vx":1.5)", R"("vx":NaN)"), RejectReason::structure},
+        WaterlinkedFault{"beyond_double", with(R"("vx":1.5)", R"("vx":1e999)"), RejectReason::structure},
+        WaterlinkedFault{"word_for_number", with(R"("vx":1.5)", R"("vx":"fast")"), RejectReason::field},
+        WaterlinkedFault{"number_for_flag", with(R"("velocity_valid":true)", R"("velocity_valid":1)"),
+                         RejectReason::field},
+        WaterlinkedFault{"beam_nobody_has", with(R"("id":0)", R"("id":7)"), RejectReason::field},
+        WaterlinkedFault{"impossible_speed", with(R"("vx":1.5)", R"("vx":1500)"), RejectReason::out_of_range},
+        WaterlinkedFault{"no_type", R"({"vx":1})", RejectReason::structure},
+        WaterlinkedFault{"too_deep", "{\"a\":[[[[[[[[[[1]]]]]]]]]]}", RejectReason::structure},
+        WaterlinkedFault{"binary", std::string("{\"a\":\x01\x02}"), RejectReason::structure},
+        WaterlinkedFault{"too_long", "{\"a\":\"" + std::string(9000, 'x') + "\"}", RejectReason::length}),
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(WaterLinked, EndlessGarbageIsSkippedInBoundedMemory) {
