@@ -257,9 +257,9 @@ bool Navigator::update(Trial& trial) {
 
 bool Navigator::start_was_wrong(const Trial& trial) const {
   // Without positions nothing but the Earth's rate shows a heading, and that faintly.
-  const double patience_s = setup_->config.gps_timeout_s;
-  const bool placed = trial.policy.fix != Fix::none || gps_outage_s() <= patience_s ||
-                      estimate_.since(usage_.usbl_used_ns) <= patience_s;
+  const NavMode mode = usage_.mode(setup_->config, estimate_);
+  const bool placed =
+      trial.policy.fix != Fix::none || mode == NavMode::gps_aided || mode == NavMode::acoustic_aided;
   return placed && estimate_.start_heading.is_wrong();
 }
 
