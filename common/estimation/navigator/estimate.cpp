@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fathom::estimation {
 
@@ -132,6 +133,21 @@ void Estimate::widen(const GapSigma& sigma) {
   }
 }
 
+namespace {
+
+/// What place and velocity are off by besides what is linear in a heading error, per 1 - cos of it: an arc
+/// ends short of its tangent. `linear` is per radian about down.
+std::array<double, kMaxStates> short_of_tangent(const std::array<double, kMaxStates>& linear) {
+  std::array<double, kMaxStates> out{};
+  for (const std::size_t north : {0U, 3U}) {
+    out[north] = -linear[north + 1];
+    out[north + 1] = linear[north];
+  }
+  return out;
+}
+
+}  // namespace
+
 void Estimate::widen_heading(double variance_rad2) {
   constexpr int kHeading = 8;
   std::array<double, kMaxStates> with{};
@@ -140,6 +156,9 @@ void Estimate::widen_heading(double variance_rad2) {
     (i < 3 ? place : with)[static_cast<std::size_t>(i)] = filter(i, kHeading) / filter(kHeading, kHeading);
   filter.shift(with, 0.0, variance_rad2);
   filter.shift(place, 0.0, variance_rad2);
+  const double short_of = 1.0 - std::cos(std::min(std::sqrt(variance_rad2), std::numbers::pi));
+  filter.shift(short_of_tangent(with), 0.0, short_of * short_of);
+  filter.shift(short_of_tangent(place), 0.0, short_of * short_of);
 }
 
 bool Estimate::update(const Setup& setup, const Observation& observation,
@@ -165,14 +184,15 @@ void Estimate::move(const Setup& setup, const std::array<double, kMaxStates>& x,
 void Estimate::correct_start(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x) {
   // (GATE-9)
   const Vector3d before = velocity_N_m_s(setup, along);
+  const StartHeading::Column linear = start_heading.column();
+  const StartHeading::Column arc = short_of_tangent(linear);
   const double error_rad = start_heading.error_rad();
-  // The column is linear: of a large angle it is off by the square.
-  const double second_order = 0.5 * error_rad * error_rad;
-  filter.shift(start_heading.column(), error_rad,
-               start_heading.variance_rad2() + second_order * second_order);
+  const double short_of = 1.0 - std::cos(error_rad);
+  filter.shift(linear, error_rad, start_heading.variance_rad2() + short_of * short_of);
+  filter.shift(arc, short_of, short_of * short_of);
   std::array<double, kMaxStates> moved{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i) {
-    moved[i] = error_rad * start_heading.column()[i];
+    moved[i] = error_rad * linear[i] + short_of * arc[i];
     x[i] += moved[i];
   }
   start_heading.corrected();

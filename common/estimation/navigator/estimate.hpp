@@ -47,7 +47,7 @@ struct Estimate {
   /// Something may have happened while nothing was measured.
   void widen(const GapSigma& sigma);
   /// The heading has drifted by more than the filter knew, and so has what hangs on it; where the vehicle
-  /// went meanwhile is uncertain by as much, and stays where it is (GATE-3).
+  /// went meanwhile is uncertain by as much, along and across, and stays where it is (GATE-3).
   void widen_heading(double variance_rad2);
   /// Takes a gated measurement in and moves the state by the estimated error `x` (KF-3 to KF-5). `along`: of
   /// what is measured along the vehicle. False, with nothing changed, when the statistics are not positive.

@@ -214,5 +214,20 @@ TEST(StartHeading, ACompassBesideSteelAtTheStartIsFoundOutByTheWay) {
   EXPECT_EQ(test::survey(run, 60.0, [](test::Sample&, double) {}).advice, "");
 }
 
+// Who dives right from the ship has fixes of two metres, and seconds between them. Of a large angle the place
+// is off across what is linear in it as well: an arc ends short of its tangent.
+TEST(StartHeading, IsTakenOutUnderWaterAsWell) {
+  for (const double dive_s : {14.0, 60.0}) {
+    const SurveyRun run({.duration_s = 240.0, .dive_s = dive_s, .seed = 2});
+    for (const double off_deg : {-20.0, 15.0, 30.0}) {
+      const test::SpoiltSurvey got =
+          test::survey_with_compass_off(run, off_deg * kRadPerDeg, 0.0, 40.0, 90.0);
+      EXPECT_LT(got.worst_h_sigmas, 3.7) << off_deg << " deg, dive after " << dive_s;
+      EXPECT_LT(got.worst_yaw_sigmas, 3.0) << off_deg << " deg, dive after " << dive_s;
+      EXPECT_LT(got.last_yaw_rad, 0.4 * kRadPerDeg) << off_deg << " deg, dive after " << dive_s;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fathom::estimation
