@@ -18,6 +18,17 @@ constexpr double kProductMemory_s = 3.0;
 /// follow a change (NOISE-4).
 constexpr double kDriftMemory_s = 30.0;
 
+/// What place and velocity are off by besides what is linear in a heading error, per 1 - cos of it: an arc
+/// ends short of its tangent. `linear` is per radian about down.
+std::array<double, kMaxStates> short_of_tangent(const std::array<double, kMaxStates>& linear) {
+  std::array<double, kMaxStates> out{};
+  for (const std::size_t north : {0U, 3U}) {
+    out[north] = -linear[north + 1];
+    out[north + 1] = linear[north];
+  }
+  return out;
+}
+
 }  // namespace
 
 void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns) {
@@ -132,21 +143,6 @@ void Estimate::widen(const GapSigma& sigma) {
     filter.widen(6 + i, sigma.angle_rad * sigma.angle_rad);
   }
 }
-
-namespace {
-
-/// What place and velocity are off by besides what is linear in a heading error, per 1 - cos of it: an arc
-/// ends short of its tangent. `linear` is per radian about down.
-std::array<double, kMaxStates> short_of_tangent(const std::array<double, kMaxStates>& linear) {
-  std::array<double, kMaxStates> out{};
-  for (const std::size_t north : {0U, 3U}) {
-    out[north] = -linear[north + 1];
-    out[north + 1] = linear[north];
-  }
-  return out;
-}
-
-}  // namespace
 
 void Estimate::widen_heading(double variance_rad2) {
   constexpr int kHeading = 8;
