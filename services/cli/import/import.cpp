@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -13,6 +12,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/units.hpp"
 #include "cli/command.hpp"
 #include "cli/outputs.hpp"
 #include "cli/removed_files.hpp"
@@ -75,7 +75,7 @@ logs::Ros2Options ros2_options(const ImportOptions& options) {
     if (!sound || in.peek() != std::istringstream::traits_type::eof())
       throw Failure(ExitCode::bad_configuration,
                     "--mounting " + one + ": expected " + std::string(kExpected));
-    for (double& angle : rpy_deg) angle *= std::numbers::pi / 180.0;
+    for (double& angle : rpy_deg) angle *= kRadPerDeg;
     out.mounting_rpy_rad[frame] = rpy_deg;
   }
   return out;

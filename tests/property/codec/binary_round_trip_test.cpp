@@ -1,10 +1,10 @@
 // What the simulator's encoders write, the codecs read back within the protocol's resolution.
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/waterlinked.hpp"
@@ -16,7 +16,6 @@
 namespace fathom {
 namespace {
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr TimeNs kSomeTime_ns = 1'780'000'000'123'456'789;
 constexpr int kRuns = 300;
 

@@ -48,7 +48,6 @@ struct PlausibilityRun {
 
  private:
   static constexpr double kRate_hz = 100.0;
-  static constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
   static sim::Scenario drawn(std::uint64_t seed) {
     sim::Random random(seed, "mission");

@@ -1,12 +1,12 @@
 // Positions told, one a line.
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "base/iso8601.hpp"
+#include "base/units.hpp"
 #include "nmea_text.hpp"
 
 namespace fathom::codec {
@@ -15,8 +15,6 @@ namespace {
 using test::decode_text;
 using test::DecodeRun;
 using test::sentence;
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 DecodeRun run(const std::string& text, bool require_checksum = false) {
   CodecOptions options;

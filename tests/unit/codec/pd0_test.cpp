@@ -1,11 +1,11 @@
 #include "codec/dvl/pd0.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "base/little_endian.hpp"
+#include "base/units.hpp"
 #include "capture.hpp"
 #include "codec/dvl/pd0_layout.hpp"
 
@@ -17,7 +17,6 @@ using capture::decode;
 using capture::Harvest;
 using capture::of_kind;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr std::int16_t kBad = pd0::kBadVelocity;
 
 template <class T>

@@ -4,20 +4,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "config/registry.hpp"
 #include "samples/kinds.hpp"
 
 namespace fathom::config {
 namespace {
-
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 
 // A file in the temporary folder that goes with the object.
 class File {

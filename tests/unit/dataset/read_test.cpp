@@ -1,10 +1,10 @@
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "dataset/dataset.hpp"
 #include "dataset_folder.hpp"
@@ -14,7 +14,6 @@ namespace {
 
 using test::DatasetFolder;
 
-constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 const std::string kImuHeader = "t_s,gx_rad_s,gy_rad_s,gz_rad_s,ax_m_s2,ay_m_s2,az_m_s2\n";
 const std::string kGpsHeader =
     "t_s,lat_deg,lon_deg,alt_m,sigma_n_m,sigma_e_m,sigma_d_m,vn_m_s,ve_m_s,vd_m_s,fix\n";

@@ -17,7 +17,6 @@ using estimation::hydro::Vector6;
 using estimation::hydro::VehicleModel;
 
 using Motion = RemusMotion;
-constexpr double kRadPerDeg = RemusMotion::kRadPerDeg;
 
 Motion run(double rudder_deg, double stern_deg, double duration_s) {
   return RemusMotion::run(rudder_deg, stern_deg, duration_s);

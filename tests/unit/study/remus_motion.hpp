@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "base/units.hpp"
 #include "estimation/hydro/vehicle_model.hpp"
@@ -13,7 +12,6 @@ namespace fathom::study {
 
 /// The REMUS 100 model in open water, its fins held.
 struct RemusMotion {
-  static constexpr double kRadPerDeg = std::numbers::pi / 180.0;
   static constexpr double kDt_s = 0.02;
 
   estimation::hydro::Vector6 nu = estimation::hydro::Vector6::Zero();
