@@ -135,7 +135,7 @@ Explanation explain(const std::vector<Class>& classes, const Vector3d& mean_forc
 double scan_gps_latency(const Series& series, const GpsCheck& gps, const std::vector<Span>& windows,
                         const ImuReading& reading) {
   return scan_latency(0.1, 15, [&](double latency_s) {
-    return gps_squares(series, gps.velocity_N, windows, reading, latency_s);
+    return gps_squares(series, gps.velocity_N, windows, reading, latency_s).as_read;
   });
 }
 
@@ -199,29 +199,26 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
                                         {std::numbers::pi / 180.0, "deg/s"},
                                         {180.0 / std::numbers::pi, "rad/s, divided by 57.3 once too often"},
                                         {1.0 / dt, "rad (increments of one interval)"}}};
-  const auto evaluate = [&](Class& each, double factor) {
-    ImuReading reading;
-    reading.rate = factor * each.gyro;
-    reading.force = each.force_sign * unit.factor * Matrix3d::Identity();
-    reading.rate_bias = rest_rate;
-    if (has_gps)
-      each.gps = gps_squares(series, gps.velocity_N, evidence.gps, reading, evidence.gps_latency_s);
-    if (has_dvl && each.force_sign > 0.0)
-      each.dvl = fit_dvl_linear(series, evidence.dvl, reading, evidence.dvl_latency_s).squares;
-    if (has_heading) each.heading = heading_squares(series, reading);
-  };
   const auto classes_of = [&](double factor) {
     std::vector<Class> classes;
     for (const Matrix3d& P : signed_axes()) {
-      for (const double sign : {1.0, -1.0}) {
-        Class each;
-        each.gyro = P;
-        each.force_sign = sign;
-        evaluate(each, factor);
-        // The sign of the force is the DVL's own question: M takes it.
-        if (sign < 0.0) each.dvl = classes.back().dvl;
-        classes.push_back(each);
-      }
+      ImuReading reading;
+      reading.rate = factor * P;
+      reading.force = unit.factor * Matrix3d::Identity();
+      reading.rate_bias = rest_rate;
+      Class each;
+      each.gyro = P;
+      // The sign of the force is the DVL's own question: M takes it.
+      if (has_dvl) each.dvl = fit_dvl_linear(series, evidence.dvl, reading, evidence.dvl_latency_s).squares;
+      if (has_heading) each.heading = heading_squares(series, reading);
+      GpsSquares gps_of;
+      if (has_gps)
+        gps_of = gps_squares(series, gps.velocity_N, evidence.gps, reading, evidence.gps_latency_s);
+      each.gps = gps_of.as_read;
+      classes.push_back(each);
+      each.force_sign = -1.0;
+      each.gps = gps_of.force_negated;
+      classes.push_back(each);
     }
     return classes;
   };

@@ -38,17 +38,25 @@ struct Unknowns {
 using Own = Eigen::Matrix<double, 9, 1>;
 constexpr double kDrift_m_s3 = 7.292e-5 * 9.8;  // one sigma of each component of the drift
 
+// The integration at an instant.
+struct At {
+  At(const Strapdown& strapdown, double at_s)
+      : t_s(at_s), state(strapdown.at(at_s)), of_bias(strapdown.of_bias_at(at_s)) {}
+  double t_s;
+  Strapdown::State state;
+  Strapdown::OfBias of_bias;
+};
+
 // A window's rows: what the DVL read, when.
-struct Rows {
-  std::vector<double> t_s;
-  std::vector<Vector3d> read;
+struct Row {
+  Vector3d read;
+  At at;
 };
 
 // Velocity in body axes of the DVL's place.
-Vector3d body_velocity(const Strapdown& strapdown, double t_s, double begin_s, const Unknowns& u,
-                       const Own& own) {
-  const Strapdown::State state = strapdown.at(t_s);
-  const Vector3d v_W = own.head<3>() + state.S - state.IC * u.force_bias +
+Vector3d body_velocity(const At& at, double begin_s, const Unknowns& u, const Own& own) {
+  const auto& [t_s, state, of_bias] = at;
+  const Vector3d v_W = own.head<3>() + state.S - of_bias.IC * u.force_bias +
                        own.segment<3>(3) * (t_s - begin_s) +
                        own.tail<3>() * (0.5 * (t_s - begin_s) * (t_s - begin_s));
   return state.C_WB.transpose() * v_W + state.rate.cross(u.lever);
@@ -62,18 +70,17 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
                 WindowFit& fit, std::vector<double>& residuals) {
   const double from_s = window.from_s - kWindowMargin_s;
   const double to_s = window.to_s + kWindowMargin_s;
-  const Strapdown strapdown(series.imu, u.reading, from_s, to_s);
-  Rows rows;
+  const Strapdown strapdown(series.imu, u.reading, from_s, to_s, Strapdown::Integrate::motion_and_biases);
+  std::vector<Row> rows;
   for (const std::size_t i : rows_in(series.dvl, window, kLeastDvlStep_s)) {
     const double t = series.dvl.t_s[i] - u.latency_s;
     if (!strapdown.covers(t - 0.05) || !strapdown.covers(t + 0.05)) continue;
-    rows.t_s.push_back(t);
-    rows.read.push_back(series.dvl.v[i]);
+    rows.push_back({series.dvl.v[i], At(strapdown, t)});
   }
-  if (rows.t_s.size() < 6) return;
+  if (rows.size() < 6) return;
   const double begin_s = window.from_s;
   const Matrix3d A = u.D * u.C.transpose() / u.scale;
-  const auto count = static_cast<Eigen::Index>(3 * rows.t_s.size());
+  const auto count = static_cast<Eigen::Index>(3 * rows.size());
   const double drift_weight = (robust_scale > 0.0 ? robust_scale / 1.54 : 0.01) / kDrift_m_s3;
   // The window's own velocity and gravity for the present common unknowns: linear.
   MatrixXd Jw = MatrixXd::Zero(count + 3, 9);
@@ -81,11 +88,11 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
   Own own = Own::Zero();
   Jw.bottomRightCorner<3, 3>() = drift_weight * Matrix3d::Identity();
   for (int pass = 0; pass < 2; ++pass) {
-    for (std::size_t k = 0; k < rows.t_s.size(); ++k) {
+    for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(3 * k);
-      const double t = rows.t_s[k];
-      const Matrix3d turn = A * strapdown.at(t).C_WB.transpose();
-      const Vector3d residual = rows.read[k] - A * body_velocity(strapdown, t, begin_s, u, own);
+      const double t = rows[k].at.t_s;
+      const Matrix3d turn = A * rows[k].at.state.C_WB.transpose();
+      const Vector3d residual = rows[k].read - A * body_velocity(rows[k].at, begin_s, u, own);
       const double weight = pass == 0 ? 1.0 : weight_of(residual.norm(), robust_scale);
       Jw.block<3, 3>(at, 0) = -weight * turn;
       Jw.block<3, 3>(at, 3) = -weight * (t - begin_s) * turn;
@@ -97,12 +104,11 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
   }
   r.tail<3>() = drift_weight * own.tail<3>();
   MatrixXd J = MatrixXd::Zero(count + 3, kCommon);
-  for (std::size_t k = 0; k < rows.t_s.size(); ++k) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(3 * k);
-    const double t = rows.t_s[k];
-    const Strapdown::State state = strapdown.at(t);
-    const Vector3d v_B = body_velocity(strapdown, t, begin_s, u, own);
-    const Vector3d residual = rows.read[k] - A * v_B;
+    const auto& [t, state, of_bias] = rows[k].at;
+    const Vector3d v_B = body_velocity(rows[k].at, begin_s, u, own);
+    const Vector3d residual = rows[k].read - A * v_B;
     residuals.push_back(residual.norm());
     const double weight = weight_of(residual.norm(), robust_scale);
     const Matrix3d turn = A * state.C_WB.transpose();
@@ -111,14 +117,14 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
     row.col(kScale) = A * v_B;
     row.middleCols<3>(kLever) = -A * geo::skew(state.rate);
     row.col(kLatency) = A *
-                        (body_velocity(strapdown, t + kTimeStep_s, begin_s, u, own) -
-                         body_velocity(strapdown, t - kTimeStep_s, begin_s, u, own)) /
+                        (body_velocity(At(strapdown, t + kTimeStep_s), begin_s, u, own) -
+                         body_velocity(At(strapdown, t - kTimeStep_s), begin_s, u, own)) /
                         (2.0 * kTimeStep_s);
     const Vector3d v_W = state.C_WB * (v_B - state.rate.cross(u.lever));
     row.middleCols<3>(kRateBias) =
-        -A * (state.C_WB.transpose() * (state.IFC - geo::skew(v_W) * state.IC) + geo::skew(u.lever)) *
+        -A * (state.C_WB.transpose() * (of_bias.IFC - geo::skew(v_W) * of_bias.IC) + geo::skew(u.lever)) *
         u.reading.rate;
-    row.middleCols<3>(kForceBias) = turn * state.IC;
+    row.middleCols<3>(kForceBias) = turn * of_bias.IC;
     J.middleRows<3>(at) = weight * row;
     Jw.block<3, 3>(at, 0) = -weight * turn;
     Jw.block<3, 3>(at, 3) = -weight * (t - begin_s) * turn;

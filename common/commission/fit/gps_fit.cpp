@@ -44,8 +44,7 @@ Vector3d mean_of(const std::vector<Vector3d>& some) {
 }
 
 // What the unit felt up to an instant and the turning of the lever, in W.
-Vector3d felt(const Strapdown& strapdown, double t_s, const Vector3d& lever) {
-  const Strapdown::State state = strapdown.at(t_s);
+Vector3d felt(const Strapdown::State& state, const Vector3d& lever) {
   return state.S + state.C_WB * state.rate.cross(lever);
 }
 
@@ -57,10 +56,10 @@ double robust_weight(double residual, double scale) {
 
 }  // namespace
 
-double gps_squares(const Series& series, const VectorSeries& velocity_N, const std::vector<Span>& windows,
-                   const ImuReading& reading, double latency_s) {
+GpsSquares gps_squares(const Series& series, const VectorSeries& velocity_N, const std::vector<Span>& windows,
+                       const ImuReading& reading, double latency_s) {
   const Vector3d gravity(0.0, 0.0, gravity_of(series));
-  double squares = 0.0;
+  GpsSquares squares;
   for (const Span& window : windows) {
     const Strapdown strapdown(series.imu, reading, window.from_s - kWindowMargin_s,
                               window.to_s + kWindowMargin_s);
@@ -78,7 +77,11 @@ double gps_squares(const Series& series, const VectorSeries& velocity_N, const s
     Matrix3d sum = Matrix3d::Zero();
     for (std::size_t k = 0; k < x.size(); ++k) sum += (y[k] - mean_y) * (x[k] - mean_x).transpose();
     const Matrix3d R = best_rotation(sum);
-    for (std::size_t k = 0; k < x.size(); ++k) squares += (y[k] - mean_y - R * (x[k] - mean_x)).squaredNorm();
+    const Matrix3d R_negated = best_rotation(-sum);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      squares.as_read += (y[k] - mean_y - R * (x[k] - mean_x)).squaredNorm();
+      squares.force_negated += (y[k] - mean_y + R_negated * (x[k] - mean_x)).squaredNorm();
+    }
   }
   return squares;
 }
@@ -102,7 +105,7 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
     for (std::size_t w = 0; w < windows.size(); ++w) {
       const double from_s = windows[w].from_s - kWindowMargin_s;
       const double to_s = windows[w].to_s + kWindowMargin_s;
-      const Strapdown strapdown(series.imu, now, from_s, to_s);
+      const Strapdown strapdown(series.imu, now, from_s, to_s, Strapdown::Integrate::motion_and_biases);
       // Points of the window: v = v0 + R x + g t, v0 and R of the window.
       const double begin_s = windows[w].from_s;
       std::vector<double> times;
@@ -114,7 +117,7 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
         const double t = velocity_N.t_s[i] - out.latency_s;
         if (!strapdown.covers(t - 0.05) || !strapdown.covers(t + 0.05)) continue;
         times.push_back(t);
-        x.push_back(felt(strapdown, t, out.lever_B_m) - strapdown.at(t).IC * force_bias);
+        x.push_back(felt(strapdown.at(t), out.lever_B_m) - strapdown.of_bias_at(t).IC * force_bias);
         y.push_back(velocity_N.v[i] - gravity * (t - begin_s));
         mean_x += x.back();
         mean_y += y.back();
@@ -136,6 +139,7 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
         const auto at = static_cast<Eigen::Index>(3 * k);
         const double t = times[k];
         const Strapdown::State state = strapdown.at(t);
+        const Strapdown::OfBias of_bias = strapdown.of_bias_at(t);
         const Vector3d residual = y[k] - mean_y - R * (x[k] - mean_x);
         residuals.push_back(residual.norm());
         const double weight = std::sqrt(robust_weight(residual.norm(), scale));
@@ -143,14 +147,14 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
         row.block<3, 3>(0, 0) = -R * state.C_WB * geo::skew(state.rate);
         // The stamp moves gravity's part of y as well.
         row.col(3) = gravity - R *
-                                   (felt(strapdown, t - kTimeStep_s, out.lever_B_m) -
-                                    felt(strapdown, t + kTimeStep_s, out.lever_B_m)) /
+                                   (felt(strapdown.at(t - kTimeStep_s), out.lever_B_m) -
+                                    felt(strapdown.at(t + kTimeStep_s), out.lever_B_m)) /
                                    (2.0 * kTimeStep_s);
         const Vector3d swing_W = state.C_WB * state.rate.cross(out.lever_B_m);
         row.block<3, 3>(0, 4) =
-            -R * (state.IFC + geo::skew(swing_W) * state.IC + state.C_WB * geo::skew(out.lever_B_m)) *
+            -R * (of_bias.IFC + geo::skew(swing_W) * of_bias.IC + state.C_WB * geo::skew(out.lever_B_m)) *
             now.rate;
-        row.block<3, 3>(0, 7) = R * state.IC;
+        row.block<3, 3>(0, 7) = R * of_bias.IC;
         J.middleRows<3>(at) = weight * row;
         Jw.block<3, 3>(at, 0) = weight * geo::skew(R * (x[k] - mean_x));
         Jw.block<3, 3>(at, 3) = -weight * Matrix3d::Identity();

@@ -8,19 +8,29 @@ namespace fathom::commission {
 
 using Eigen::Vector3d;
 
+namespace {
+
+constexpr double kStep_s = 0.02;
+
+}  // namespace
+
 Strapdown::Strapdown(const ImuSeries& imu, const ImuReading& reading, double from_s, double to_s,
-                     double step_s) {
+                     Integrate what) {
+  const bool with_biases = what == Integrate::motion_and_biases;
   auto i =
       static_cast<std::size_t>(std::lower_bound(imu.t_s.begin(), imu.t_s.end(), from_s) - imu.t_s.begin());
   if (i >= imu.size()) return;
   const double span_s = std::min(to_s, imu.t_s.back()) - imu.t_s[i];
-  const auto most = static_cast<std::size_t>(std::clamp(span_s / step_s, 0.0, 1e6)) + 2;
+  const auto most = static_cast<std::size_t>(std::clamp(span_s / kStep_s, 0.0, 1e6)) + 2;
   t_s_.reserve(most);
   states_.reserve(most);
+  if (with_biases) of_bias_.reserve(most);
   State state;
+  OfBias of_bias;
   geo::Quaternion q;
   t_s_.push_back(imu.t_s[i]);
   states_.push_back(state);
+  if (with_biases) of_bias_.push_back(of_bias);
   Vector3d angle = Vector3d::Zero();
   Vector3d velocity = Vector3d::Zero();
   double span = 0.0;
@@ -30,19 +40,22 @@ Strapdown::Strapdown(const ImuSeries& imu, const ImuReading& reading, double fro
     angle += reading.rate * (imu.rate[i] - reading.rate_bias) * dt;
     velocity += reading.force * imu.force[i] * dt;
     span += dt;
-    if (span < step_s - 1e-6) continue;
+    if (span < kStep_s - 1e-6) continue;
     const geo::Quaternion half = geo::exp(0.5 * angle);
     const geo::Quaternion middle = q * half;
     q = geo::normalized(middle * half);
     const Eigen::Matrix3d C_middle = geo::to_matrix(middle);
     const Vector3d velocity_W = C_middle * velocity;
     state.S += velocity_W;
-    state.IFC += geo::skew(velocity_W) * (state.IC + 0.5 * span * C_middle);
-    state.IC += C_middle * span;
     state.C_WB = geo::to_matrix(q);
     state.rate = angle / span;
     t_s_.push_back(imu.t_s[i]);
     states_.push_back(state);
+    if (with_biases) {
+      of_bias.IFC += geo::skew(velocity_W) * (of_bias.IC + 0.5 * span * C_middle);
+      of_bias.IC += C_middle * span;
+      of_bias_.push_back(of_bias);
+    }
     angle.setZero();
     velocity.setZero();
     span = 0.0;
@@ -50,21 +63,30 @@ Strapdown::Strapdown(const ImuSeries& imu, const ImuReading& reading, double fro
   if (states_.size() > 1) states_.front().rate = states_[1].rate;
 }
 
+Strapdown::Place Strapdown::place_of(double t_s) const {
+  const auto later = std::lower_bound(t_s_.begin() + 1, t_s_.end() - 1, t_s);
+  const auto next = static_cast<std::size_t>(later - t_s_.begin());
+  return {next, (t_s - t_s_[next - 1]) / (t_s_[next] - t_s_[next - 1])};
+}
+
 Strapdown::State Strapdown::at(double t_s) const {
-  const auto next = std::lower_bound(t_s_.begin() + 1, t_s_.end() - 1, t_s);
-  const auto i = static_cast<std::size_t>(next - t_s_.begin());
-  const double share = (t_s - t_s_[i - 1]) / (t_s_[i] - t_s_[i - 1]);
-  const State& a = states_[i - 1];
-  const State& b = states_[i];
+  const auto [next, share] = place_of(t_s);
+  const State& a = states_[next - 1];
+  const State& b = states_[next];
   State out;
   out.S = a.S + share * (b.S - a.S);
-  out.IC = a.IC + share * (b.IC - a.IC);
-  out.IFC = a.IFC + share * (b.IFC - a.IFC);
   out.rate = b.rate;
   // The turn within one step is small.
   const Vector3d turn = geo::log(geo::from_matrix(a.C_WB.transpose() * b.C_WB));
   out.C_WB = a.C_WB * geo::to_matrix(geo::exp(share * turn));
   return out;
+}
+
+Strapdown::OfBias Strapdown::of_bias_at(double t_s) const {
+  const auto [next, share] = place_of(t_s);
+  const OfBias& a = of_bias_[next - 1];
+  const OfBias& b = of_bias_[next];
+  return {a.IC + share * (b.IC - a.IC), a.IFC + share * (b.IFC - a.IFC)};
 }
 
 Vector3d rate_about(const ImuSeries& imu, const ImuReading& reading, double t_s) {

@@ -21,24 +21,37 @@ class Strapdown {
   struct State {
     Eigen::Matrix3d C_WB = Eigen::Matrix3d::Identity();
     Eigen::Vector3d S = Eigen::Vector3d::Zero();  ///< integral of C_WB f, m/s
+    Eigen::Vector3d rate = Eigen::Vector3d::Zero();
+  };
+  /// What small biases of the unit do to a state.
+  struct OfBias {
     /// Integral of C_WB, s: what a bias of the force adds to S, and one of the rate to the angle, negative.
     Eigen::Matrix3d IC = Eigen::Matrix3d::Zero();
     /// Integral of [C_WB f] IC, m: what a bias of the rate adds to S, by the angles that it has made.
     Eigen::Matrix3d IFC = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d rate = Eigen::Vector3d::Zero();
   };
-  /// Samples of [from_s, to_s], in steps of at least `step_s`. A sample counts for the interval before it.
+  enum class Integrate { motion, motion_and_biases };
+  /// Samples of [from_s, to_s], in steps of at least 0.02 s. A sample counts for the interval before it.
   Strapdown(const ImuSeries& imu, const ImuReading& reading, double from_s, double to_s,
-            double step_s = 0.02);
+            Integrate what = Integrate::motion);
   /// Interpolated. Precondition: covers(t_s).
   [[nodiscard]] State at(double t_s) const;
+  /// Interpolated. Precondition: covers(t_s), and biases were integrated.
+  [[nodiscard]] OfBias of_bias_at(double t_s) const;
   [[nodiscard]] bool covers(double t_s) const {
     return t_s_.size() > 1 && t_s >= t_s_.front() && t_s <= t_s_.back();
   }
 
  private:
+  struct Place {
+    std::size_t next = 1;  // of the two states about an instant, the later one
+    double share = 0.0;    // of the way to it
+  };
+  [[nodiscard]] Place place_of(double t_s) const;
+
   std::vector<double> t_s_;
   std::vector<State> states_;
+  std::vector<OfBias> of_bias_;  // empty where only motion was asked for
 };
 
 /// Mean turn rate from 0.1 s before to 0.1 s behind an instant, read right, rad/s.

@@ -27,7 +27,9 @@ TEST(Strapdown, ItsIntegralsTellWhatABiasDoes) {
   const ImuSeries imu = shaken();
   ImuReading reading;
   reading.rate << 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.02;
-  const Strapdown::State state = Strapdown(imu, reading, 0.0, 30.0).at(24.37);
+  const Strapdown strapdown(imu, reading, 0.0, 30.0, Strapdown::Integrate::motion_and_biases);
+  const Strapdown::State state = strapdown.at(24.37);
+  const Strapdown::OfBias of_bias = strapdown.of_bias_at(24.37);
   constexpr double kStep = 1e-6;
   Matrix3d of_velocity;
   Matrix3d of_angle;
@@ -39,8 +41,8 @@ TEST(Strapdown, ItsIntegralsTellWhatABiasDoes) {
     const Matrix3d turn = (biased.C_WB * state.C_WB.transpose() - Matrix3d::Identity()) / kStep;
     of_angle.col(axis) = Vector3d(turn(2, 1), turn(0, 2), turn(1, 0));
   }
-  const Matrix3d velocity = state.IFC * reading.rate;
-  const Matrix3d angle = -state.IC * reading.rate;
+  const Matrix3d velocity = of_bias.IFC * reading.rate;
+  const Matrix3d angle = -of_bias.IC * reading.rate;
   EXPECT_LT((of_velocity - velocity).norm(), 1e-3 * velocity.norm());
   EXPECT_LT((of_angle - angle).norm(), 1e-3 * angle.norm());
 }
