@@ -23,44 +23,44 @@ Strapdown::Strapdown(const ImuSeries& imu, const ImuReading& reading, double fro
   const double span_s = std::min(to_s, imu.t_s.back()) - imu.t_s[i];
   const auto most = static_cast<std::size_t>(std::clamp(span_s / kStep_s, 0.0, 1e6)) + 2;
   t_s_.reserve(most);
-  states_.reserve(most);
+  steps_.reserve(most);
   if (with_biases) of_bias_.reserve(most);
-  State state;
+  Step now;
   OfBias of_bias;
-  geo::Quaternion q;
   t_s_.push_back(imu.t_s[i]);
-  states_.push_back(state);
+  steps_.push_back(now);
   if (with_biases) of_bias_.push_back(of_bias);
-  Vector3d angle = Vector3d::Zero();
-  Vector3d velocity = Vector3d::Zero();
+  // As recorded: they are read right once a step.
+  Vector3d sum_of_rate = Vector3d::Zero();
+  Vector3d sum_of_force = Vector3d::Zero();
   double span = 0.0;
   for (++i; i < imu.size() && imu.t_s[i] <= to_s; ++i) {
     const double dt = imu.t_s[i] - imu.t_s[i - 1];
     if (dt > 0.5) break;
-    angle += reading.rate * (imu.rate[i] - reading.rate_bias) * dt;
-    velocity += reading.force * imu.force[i] * dt;
+    sum_of_rate += imu.rate[i] * dt;
+    sum_of_force += imu.force[i] * dt;
     span += dt;
     if (span < kStep_s - 1e-6) continue;
+    const Vector3d angle = reading.rate * (sum_of_rate - reading.rate_bias * span);
+    const Vector3d velocity = reading.force * sum_of_force;
     const geo::Quaternion half = geo::exp(0.5 * angle);
-    const geo::Quaternion middle = q * half;
-    q = geo::normalized(middle * half);
+    const geo::Quaternion middle = now.q_WB * half;
+    now.q_WB = geo::normalized(middle * half);
     const Eigen::Matrix3d C_middle = geo::to_matrix(middle);
     const Vector3d velocity_W = C_middle * velocity;
-    state.S += velocity_W;
-    state.C_WB = geo::to_matrix(q);
-    state.rate = angle / span;
+    now.S += velocity_W;
+    now.rate = angle / span;
     t_s_.push_back(imu.t_s[i]);
-    states_.push_back(state);
+    steps_.push_back(now);
     if (with_biases) {
       of_bias.IFC += geo::skew(velocity_W) * (of_bias.IC + 0.5 * span * C_middle);
       of_bias.IC += C_middle * span;
       of_bias_.push_back(of_bias);
     }
-    angle.setZero();
-    velocity.setZero();
+    sum_of_rate.setZero();
+    sum_of_force.setZero();
     span = 0.0;
   }
-  if (states_.size() > 1) states_.front().rate = states_[1].rate;
 }
 
 Strapdown::Place Strapdown::place_of(double t_s) const {
@@ -71,14 +71,12 @@ Strapdown::Place Strapdown::place_of(double t_s) const {
 
 Strapdown::State Strapdown::at(double t_s) const {
   const auto [next, share] = place_of(t_s);
-  const State& a = states_[next - 1];
-  const State& b = states_[next];
+  const Step& a = steps_[next - 1];
+  const Step& b = steps_[next];
   State out;
   out.S = a.S + share * (b.S - a.S);
   out.rate = b.rate;
-  // The turn within one step is small.
-  const Vector3d turn = geo::log(geo::from_matrix(a.C_WB.transpose() * b.C_WB));
-  out.C_WB = a.C_WB * geo::to_matrix(geo::exp(share * turn));
+  out.C_WB = geo::to_matrix(a.q_WB * geo::exp(share * (t_s_[next] - t_s_[next - 1]) * b.rate));
   return out;
 }
 

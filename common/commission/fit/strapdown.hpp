@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "commission/fit/series.hpp"
+#include "geo/so3.hpp"
 
 namespace fathom::commission {
 
@@ -43,14 +44,20 @@ class Strapdown {
   }
 
  private:
+  // The end of a step.
+  struct Step {
+    geo::Quaternion q_WB;
+    Eigen::Vector3d S = Eigen::Vector3d::Zero();     // as that of State
+    Eigen::Vector3d rate = Eigen::Vector3d::Zero();  // within the step, rad/s
+  };
   struct Place {
-    std::size_t next = 1;  // of the two states about an instant, the later one
-    double share = 0.0;    // of the way to it
+    std::size_t next = 1;  // of the step that an instant is in
+    double share = 0.0;    // of the step that has passed
   };
   [[nodiscard]] Place place_of(double t_s) const;
 
   std::vector<double> t_s_;
-  std::vector<State> states_;
+  std::vector<Step> steps_;
   std::vector<OfBias> of_bias_;  // empty where only motion was asked for
 };
 
