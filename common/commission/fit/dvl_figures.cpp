@@ -20,6 +20,7 @@ using Eigen::VectorXd;
 
 constexpr double kLeastDvlStep_s = 0.15;
 constexpr double kTimeStep_s = 0.02;
+constexpr double kSettled = 1e-3;  // of a sigma: a step that changes nothing
 // Unknowns: turn of the mounting, log of the scale, lever, latency, bias of the rate, bias of the force.
 constexpr int kTurn = 0, kScale = 3, kLever = 4, kLatency = 7, kRateBias = 8, kForceBias = 11, kCommon = 14;
 
@@ -179,6 +180,7 @@ DvlFigures fit_dvl(const Series& series, const std::vector<Span>& windows, const
     out.residual_m_s = std::sqrt(solution.squares / solution.freedom) / unit;
     out.windows = solution.windows;
     out.done = solution.step.allFinite() && solution.windows >= 3;
+    if (iteration > 1 && (solution.step.array().abs() < kSettled * sigmas.array()).all()) break;
   }
   return out;
 }
