@@ -75,7 +75,7 @@ std::vector<Sample> acoustic(const SurveyRun& survey, Kind kind) {
   return out;
 }
 
-struct Outcome {
+struct UsblOutcome {
   double horizontal_end_m = 0.0;
   double horizontal_max_m = 0.0;
   double sigma_end_m = 0.0;
@@ -84,7 +84,7 @@ struct Outcome {
   NavMode mode = NavMode::none;
 };
 
-Outcome run(Kind kind) {
+UsblOutcome run(Kind kind) {
   const SurveyRun survey({.duration_s = 240.0, .dive_s = kDive_s, .seed = 3, .usbl = false});
   std::vector<Sample> samples = survey.samples;
   const std::vector<Sample> fixes = acoustic(survey, kind);
@@ -101,7 +101,7 @@ Outcome run(Kind kind) {
   config.states.usbl_bias_sigma_m = 0.3;
   config.states.usbl_misalignment_sigma_rad = 0.002;
   FusionEngine engine(config);
-  Outcome out;
+  UsblOutcome out;
   std::size_t index = 0;
   Verdict verdict;
   for (const Sample& sample : samples) {
@@ -129,14 +129,14 @@ Outcome run(Kind kind) {
 }
 
 TEST(RelativeUsbl, WithoutItTheVehicleDriftsOnceTheDopplerLogIsGone) {
-  const Outcome out = run(Kind::none);
+  const UsblOutcome out = run(Kind::none);
   EXPECT_GT(out.horizontal_max_m, 15.0);
   EXPECT_GT(out.sigma_end_m, 25.0);
 }
 
 TEST(RelativeUsbl, AMovingShipBoundsTheDrift) {
   for (const Kind kind : {Kind::vessel_vector, Kind::vessel_polar}) {
-    Outcome out = run(kind);
+    UsblOutcome out = run(kind);
     EXPECT_LT(out.horizontal_max_m, 3.5) << static_cast<int>(kind);
     EXPECT_LT(out.worst_sigmas, 4.5) << static_cast<int>(kind);
     EXPECT_GT(out.usbl[VerdictKind::used], 55) << static_cast<int>(kind);
@@ -146,7 +146,7 @@ TEST(RelativeUsbl, AMovingShipBoundsTheDrift) {
 
 TEST(RelativeUsbl, ABeaconSeenFromTheVehicleBoundsTheDrift) {
   for (const Kind kind : {Kind::inverted_polar, Kind::inverted_vector}) {
-    Outcome out = run(kind);
+    UsblOutcome out = run(kind);
     EXPECT_LT(out.horizontal_max_m, 3.5) << static_cast<int>(kind);
     EXPECT_LT(out.worst_sigmas, 4.5) << static_cast<int>(kind);
     EXPECT_GT(out.usbl[VerdictKind::used], 55) << static_cast<int>(kind);
@@ -155,7 +155,7 @@ TEST(RelativeUsbl, ABeaconSeenFromTheVehicleBoundsTheDrift) {
 
 TEST(RelativeUsbl, RangeAloneBoundsWhatLiesAlongThePath) {
   // Across it there is drift as long as the bearing to the ship stays what it is, and the filter knows.
-  Outcome out = run(Kind::range_only);
+  UsblOutcome out = run(Kind::range_only);
   EXPECT_LT(out.sigma_end_m, 0.7 * run(Kind::none).sigma_end_m);
   EXPECT_LT(out.worst_sigmas, 4.5);
   EXPECT_GT(out.usbl[VerdictKind::used], 55);
