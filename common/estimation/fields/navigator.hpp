@@ -41,6 +41,9 @@ void fields(Archive& archive, Self& self) {
   archive("since_ns", self.since_ns, fathom::archive::kInstant);
   archive("count", self.count, fathom::archive::kCount);
   archive("innovation", self.innovation, fathom::archive::finite());
+  if (!archive.since(13)) return;
+  archive("accepted", self.accepted, fathom::archive::kCount);
+  archive("believed", self.believed);
 }
 
 template <class Archive, class Self>
@@ -138,6 +141,7 @@ void Reacquisition::fields(Archive& archive, Self& self) {
   archive("stepped_ns", self.stepped_ns_, fathom::archive::kInstant);
   archive("stepped_m", self.stepped_m_, fathom::archive::at_least_zero());
   archive("stepped_m_s", self.stepped_m_s_, fathom::archive::at_least_zero());
+  if (archive.since(13)) archive("levelled_ns", self.levelled_ns_, fathom::archive::kInstant);
 }
 
 template <class Archive, class Self>
@@ -247,6 +251,8 @@ void Navigator::fields(Archive& archive, Self& self) {
   if (archive.since(9)) archive("stride", self.estimate_.stride);
   if (archive.since(10)) archive("gap_ns", self.usage_.gap_ns, fathom::archive::kInstant);
   if (archive.since(12)) archive("start_heading", self.estimate_.start_heading);
+  if (archive.since(13))
+    archive("bottom_refused_ns", self.usage_.bottom_refused_ns, fathom::archive::kInstant);
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

@@ -25,6 +25,8 @@ struct Instrument {
   struct Rejections {
     TimeNs since_ns = 0;
     int count = 0;
+    int accepted = 0;       ///< in between
+    bool believed = false;  ///< the last of them
     std::array<double, Observation::kMaxRows> innovation{};
   };
   /// Of each row where rows are judged alone, else all of them in the first.

@@ -99,6 +99,7 @@ Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
   } else {
     doubt_start(trial);
   }
+  if (trial.gated.refused != 0) usage_.note_refusal(trial.policy, estimate_.now_ns);
   return trial.judgement;
 }
 
@@ -224,7 +225,8 @@ void Navigator::reacquire(Trial& trial) {
     Reacquisition::renew_compass(*setup_, estimate_, trial.whole);
   for (double room = 1.0; (believed & gated.refused) != 0 && room < kMostRoom; room *= 4.0) {
     // (GATE-3): the estimate, not the instrument, is wrong; give the estimate the room to follow.
-    Reacquisition::make_room(trial.policy, trial.instrument, estimate_, trial.whole, believed, room);
+    reacquisition_.make_room(*setup_, trial.policy, usage_.agrees_with_ground(setup_->config, estimate_),
+                             trial.instrument, estimate_, trial.whole, believed, room);
     gate(trial);
   }
   if (believed != 0) trial.instrument.agrees_since_ns = 0;

@@ -7,12 +7,23 @@
 
 #include <Eigen/Cholesky>
 
+#include "base/units.hpp"
+
 namespace fathom::estimation {
 namespace {
 
 constexpr int kRejectionsToBelieve = 3;
+/// Rejections that agree with each other for each measurement that is accepted in between.
+constexpr int kMajority = 3;
 constexpr double kGravity_m_s2 = 9.81;
 constexpr double kLeastUnheard_s = 1.0;
+/// A level that goes wrong twice within it goes wrong by biases of the inertial unit.
+constexpr double kLevelledLately_s = 120.0;
+/// Sooner it is the same time.
+constexpr double kLeastLevelled_s = 2.0;
+/// Of a bias, by which no inertial unit that is at all calibrated is off.
+constexpr double kMostAccelBias_m_s2 = 0.05 * kGravity_m_s2;
+constexpr double kMostGyroBias_rad_s = 1.0 * kRadPerDeg;
 constexpr double kLeastDispute_s = 5.0;
 constexpr double kDeviations = 4.0;
 /// However sure of its velocity the filter is.
@@ -37,7 +48,13 @@ double drift_needed_s(const SensorConfig& config, double squared_sigmas) {
   return std::min(config.reacquire_s * std::max(1.0, squared_sigmas / (kConceivable * kConceivable)), most_s);
 }
 
-/// Refusals of these rows have agreed with each other for long enough.
+/// A measurement was accepted: rejections are forgotten, but where they are by far the most.
+void accepted(Instrument::Rejections& past) {
+  ++past.accepted;
+  if (past.believed || past.count < kMajority * past.accepted) past = {};
+}
+
+/// Refusals of these rows have agreed with each other for long enough, and were by far the most.
 bool believe(Instrument::Rejections& past, double needed_s, const Estimate& estimate,
              const Observation& observation, int first, int end) {
   double size = 0.0;
@@ -53,12 +70,15 @@ bool believe(Instrument::Rejections& past, double needed_s, const Estimate& esti
   const bool agrees = past.count > 0 && std::sqrt(change) < 0.5 * std::sqrt(size) + 4.0 * std::sqrt(noise);
   if (!agrees) {
     past.count = 1;
+    past.accepted = 0;
+    past.believed = false;
     past.since_ns = estimate.now_ns;
     return false;
   }
   ++past.count;
-  return needed_s > 0.0 && past.count >= kRejectionsToBelieve &&
-         to_seconds(estimate.now_ns - past.since_ns) >= needed_s;
+  past.believed = needed_s > 0.0 && past.count >= kRejectionsToBelieve &&
+                  to_seconds(estimate.now_ns - past.since_ns) >= needed_s;
+  return past.believed;
 }
 
 /// Of the rows outside `left_out`, each by itself, those whose refusal is not to be believed.
@@ -69,7 +89,7 @@ unsigned believe_each(Instrument& instrument, double needed_s, const Estimate& e
     if ((left_out & 1U << row) != 0) continue;
     Instrument::Rejections& past = instrument.rejections[static_cast<std::size_t>(row)];
     if ((refused & 1U << row) == 0) {
-      past = {};
+      accepted(past);
     } else if (believe(past, needed_s, estimate, observation, row, row + 1)) {
       believed |= 1U << row;
     }
@@ -93,7 +113,7 @@ unsigned Reacquisition::believed_rows(Instrument& instrument, const SensorConfig
   if (config.gate_mode == GateMode::whole) {
     const bool believed = refused != 0 && believe(instrument.rejections[0], needed_s, estimate, observation,
                                                   0, observation.rows);
-    if (refused == 0) instrument.rejections[0] = {};
+    if (refused == 0) accepted(instrument.rejections[0]);
     return believed ? refused : 0U;
   }
   return believe_each(instrument, needed_s, estimate, observation, refused, 0);
@@ -267,14 +287,19 @@ bool Reacquisition::bound_step(const SensorConfig& config, const Estimate& estim
   return bounded;
 }
 
-void Reacquisition::make_room(const AidingPolicy& policy, const Instrument& instrument, Estimate& estimate,
+void Reacquisition::make_room(const Setup& setup, const AidingPolicy& policy, bool agrees_with_ground,
+                              const Instrument& instrument, Estimate& estimate,
                               const Observation& observation, unsigned rows, double factor) {
   // (GATE-3)
   if (policy.heading_alone) {
     estimate.widen_heading(factor * observation.innovation[0] * observation.innovation[0]);
     return;
   }
+  const int current = setup.index.of(Group::current);
+  const bool of_current =
+      policy.velocity == VelocityOver::medium && current >= 0 && current < setup.index.estimated();
   std::array<double, kNavStates> variance{};
+  double wrong_m2_s2 = 0.0;  // of velocities that show the level
   const double unheard_s = std::max(
       instrument.used_ns == 0 ? kLeastUnheard_s : estimate.since(instrument.used_ns), kLeastUnheard_s);
   for (int row = 0; row < observation.rows; ++row) {
@@ -292,16 +317,41 @@ void Reacquisition::make_room(const AidingPolicy& policy, const Instrument& inst
     double weight = 0.0;
     for (int i = 0; i < 3; ++i) weight += weights[i] * weights[i];
     if (weight == 0.0) continue;
-    for (int i = 0; i < 3; ++i)
-      variance[static_cast<std::size_t>(first + i)] += squared * weights[i] * weights[i] / (weight * weight);
+    const auto share = [&](int i) { return squared * weights[i] * weights[i] / (weight * weight); };
+    if (of_current && first == 3)
+      for (int i = 0; i < 2; ++i) estimate.filter.widen(current + i, share(i));
+    // With the velocity over ground right the current has changed, which has no vertical component.
+    const bool current_alone = of_current && first == 3 && agrees_with_ground;
+    for (int i = current_alone ? 2 : 0; i < 3; ++i) variance[static_cast<std::size_t>(first + i)] += share(i);
+    if (current_alone) continue;
     // A velocity goes wrong by a level that is wrong: left as sure as it was, that would lead astray again.
     if (first == 3 && policy.shows_level && factor == 1.0) {
       const double tilt = observation.innovation[r] / (kGravity_m_s2 * unheard_s);
       variance[6] += tilt * tilt;
       variance[7] += tilt * tilt;
+      wrong_m2_s2 += squared;
     }
   }
   estimate.filter.widen_drifted(variance);
+  if (wrong_m2_s2 > 0.0) doubt_biases(setup, estimate, wrong_m2_s2);
+}
+
+void Reacquisition::doubt_biases(const Setup& setup, Estimate& estimate, double wrong_m2_s2) {
+  // (GATE-3)
+  const double since_s =
+      levelled_ns_ == 0 ? std::numeric_limits<double>::infinity() : estimate.since(levelled_ns_);
+  if (since_s < kLeastLevelled_s) return;
+  levelled_ns_ = estimate.now_ns;
+  if (since_s > kLevelledLately_s) return;
+  const auto widen = [&](Group group, double sigma) {
+    const int first = setup.index.of(group);
+    if (first < 0 || first >= setup.index.estimated()) return;
+    for (int i = first; i < first + group_size(group); ++i) estimate.filter.widen(i, sigma * sigma);
+  };
+  const double wrong_m_s = std::sqrt(wrong_m2_s2);
+  widen(Group::accel_bias, std::min(wrong_m_s / since_s, kMostAccelBias_m_s2));
+  widen(Group::gyro_bias,
+        std::min(wrong_m_s / (0.5 * kGravity_m_s2 * since_s * since_s), kMostGyroBias_rad_s));
 }
 
 }  // namespace fathom::estimation

@@ -35,9 +35,11 @@ class Reacquisition {
   /// Weighs the fix down until the position moves no further than allowed; whether it had to.
   [[nodiscard]] static bool bound_step(const SensorConfig& config, const Estimate& estimate,
                                        Observation& observation, InnovationStatistics& statistics);
-  /// Gives the estimate the variance that these rows ask for, `factor` times.
-  static void make_room(const AidingPolicy& policy, const Instrument& instrument, Estimate& estimate,
-                        const Observation& observation, unsigned rows, double factor);
+  /// Gives the estimate the variance that these rows ask for, `factor` times. `agrees_with_ground`: with a
+  /// velocity over ground, which is measured as well.
+  void make_room(const Setup& setup, const AidingPolicy& policy, bool agrees_with_ground,
+                 const Instrument& instrument, Estimate& estimate, const Observation& observation,
+                 unsigned rows, double factor);
   /// The position steps, from before to after; by a fix, or null.
   void note_step(const Eigen::Vector3d& step_N_m, const Observation* fix, const Estimate& estimate);
 
@@ -47,6 +49,7 @@ class Reacquisition {
   template <class Self, class Visit>
   static void for_each_instant(Self& self, Visit&& visit) {
     visit(self.stepped_ns_);
+    visit(self.levelled_ns_);
   }
 
   /// For archives: see fields/navigator.hpp.
@@ -64,11 +67,15 @@ class Reacquisition {
   /// For so long fixes have to agree with each other and with the motion; infinite: a person has to decide.
   [[nodiscard]] double agreement_needed_s(const SensorConfig& config, const Estimate& estimate,
                                           const Observation& observation) const;
+  /// A velocity that shows the level is wrong by so much. Where that happens again soon after level and
+  /// velocity got room, biases of the inertial unit are wrong.
+  void doubt_biases(const Setup& setup, Estimate& estimate, double wrong_m2_s2);
   /// The estimate was put where it is by a step, and so may have to go back.
   [[nodiscard]] bool stepped_lately(const SensorConfig& config, const Estimate& estimate) const;
 
   std::uint32_t reset_counter_ = 0;
   Eigen::Vector3d last_reset_N_m_ = Eigen::Vector3d::Zero();
+  TimeNs levelled_ns_ = 0;    ///< last time that the level got room, 0: never
   TimeNs stepped_ns_ = 0;     ///< last step of the position, 0: none
   double stepped_m_ = 0.0;    ///< how far it and those shortly before went, horizontally
   double stepped_m_s_ = 0.0;  ///< and by how much the velocity of the fix differed, at most

@@ -14,16 +14,25 @@ struct Usage {
   TimeNs usbl_used_ns = 0;
   TimeNs dvl_used_ns = 0;
   TimeNs bottom_used_ns = 0;  ///< of its velocities those over ground
+  TimeNs bottom_refused_ns = 0;
   TimeNs velocity_used_ns = 0;
   TimeNs gap_ns = 0;  ///< the last end of a time without inertial samples
 
   /// A measurement was used; `with_position`: its first row is one of a position.
   void note(const AidingPolicy& brought, bool with_position, TimeNs now_ns);
+  /// A measurement was refused, or components of it.
+  void note_refusal(const AidingPolicy& brought, TimeNs now_ns) {
+    if (brought.doppler && brought.velocity == VelocityOver::ground) bottom_refused_ns = now_ns;
+  }
   /// While it navigates.
   [[nodiscard]] NavMode mode(const EngineConfig& config, const Estimate& estimate) const;
   /// A velocity over ground was used lately: what is measured along the vehicle is then over ground as well.
   [[nodiscard]] bool knows_ground(const EngineConfig& config, const Estimate& estimate) const {
     return estimate.since(bottom_used_ns) <= config.velocity_timeout_s;
+  }
+  /// And the estimate agrees with the last one.
+  [[nodiscard]] bool agrees_with_ground(const EngineConfig& config, const Estimate& estimate) const {
+    return knows_ground(config, estimate) && bottom_used_ns > bottom_refused_ns;
   }
 
   template <class Self, class Visit>
@@ -32,6 +41,7 @@ struct Usage {
     visit(self.usbl_used_ns);
     visit(self.dvl_used_ns);
     visit(self.bottom_used_ns);
+    visit(self.bottom_refused_ns);
     visit(self.velocity_used_ns);
     visit(self.gap_ns);
   }

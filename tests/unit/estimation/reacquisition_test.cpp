@@ -1,6 +1,8 @@
 // What was refused is believed, and the estimate gets room.
 #include "estimation/navigator/reacquisition.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "unit/estimation/navigating.hpp"
@@ -39,6 +41,33 @@ TEST(Reacquisition, RefusedRowsAreBelievedOnceTheyAgreeForLongEnough) {
   // One that is accepted in between begins the count anew.
   (void)reacquisition.believed_rows(instrument, sensor, estimate, off, 0U, false, sensor.reacquire_s);
   EXPECT_EQ(believed(6.0), 0U);
+}
+
+TEST(Reacquisition, AMinorityThatIsAcceptedDoesNotSaveAnEstimateThatIsWrong) {
+  const EngineConfig config;
+  const estimation::Setup setup(config);
+  Estimate estimate = navigating(setup, 1.0);
+  SensorConfig sensor;
+  sensor.reacquire_s = 5.0;
+  const Reacquisition reacquisition;
+  const Observation off = fix_off_by(30.0, -40.0);
+  /// When rows are first believed; one measurement in so many is accepted, the last of each lot.
+  const auto believed_after_s = [&](int one_in) {
+    Instrument instrument;
+    for (int ping = 0; ping < 200; ++ping) {
+      estimate.now_ns = kNow_ns + from_seconds(0.2 * ping);
+      const unsigned refused = ping % one_in == one_in - 1 ? 0U : 3U;
+      if (reacquisition.believed_rows(instrument, sensor, estimate, off, refused, false,
+                                      sensor.reacquire_s) != 0)
+        return 0.2 * ping;
+    }
+    return kUnknown;
+  };
+  EXPECT_NEAR(believed_after_s(1000), 5.0, 1e-9);
+  EXPECT_NEAR(believed_after_s(7), 5.0, 0.3);
+  EXPECT_NEAR(believed_after_s(4), 5.0, 0.3);
+  EXPECT_FALSE(known(believed_after_s(3)));
+  EXPECT_FALSE(known(believed_after_s(2)));
 }
 
 TEST(Reacquisition, AFixHasToAgreeWithTheMotion) {
@@ -99,7 +128,8 @@ TEST(Reacquisition, RoomGoesWhereTheRowsLook) {
   Estimate estimate = navigating(setup, 1.0);
   const Instrument instrument;
   const ErrorFilter before = estimate.filter;
-  Reacquisition::make_room({}, instrument, estimate, fix_off_by(3.0, 0.0), 3U, 1.0);
+  Reacquisition reacquisition;
+  reacquisition.make_room(setup, {}, false, instrument, estimate, fix_off_by(3.0, 0.0), 3U, 1.0);
   EXPECT_DOUBLE_EQ(estimate.filter(0, 0), before(0, 0) + 9.0);
   for (int i = 1; i < kNavStates; ++i) EXPECT_EQ(estimate.filter(i, i), before(i, i)) << i;
   Observation heading;
@@ -113,13 +143,79 @@ TEST(Reacquisition, RoomGoesWhereTheRowsLook) {
   // The velocity shares half of the heading's error per radian, and so does the place.
   estimate.filter.set(3, 8, 0.5 * before(8, 8));
   estimate.filter.set(1, 8, 0.5 * before(8, 8));
-  Reacquisition::make_room(policy, instrument, estimate, heading, 1U, 1.0);
+  reacquisition.make_room(setup, policy, false, instrument, estimate, heading, 1U, 1.0);
   EXPECT_DOUBLE_EQ(estimate.filter(8, 8), before(8, 8) + 0.2 * 0.2);
   EXPECT_EQ(estimate.filter(6, 6), before(6, 6));
   EXPECT_DOUBLE_EQ(estimate.filter(3, 3), before(3, 3) + 0.25 * 0.2 * 0.2);
   EXPECT_DOUBLE_EQ(estimate.filter(3, 8), 0.5 * before(8, 8) + 0.5 * 0.2 * 0.2);
   EXPECT_DOUBLE_EQ(estimate.filter(1, 1), before(1, 1) + 0.25 * 0.2 * 0.2);
   EXPECT_EQ(estimate.filter(1, 8), 0.5 * before(8, 8));
+}
+
+/// A velocity along east through the medium is off by so much.
+Observation through_the_medium(const estimation::Setup& setup, double off_m_s) {
+  Observation out;
+  out.rows = 1;
+  out.innovation[0] = off_m_s;
+  out.sigma[0] = 0.01;
+  out.h[0][4] = 1.0;
+  out.h[0][static_cast<std::size_t>(setup.index.of(Group::current)) + 1] = 1.0;
+  out.list_columns(setup.index.size());
+  return out;
+}
+
+TEST(Reacquisition, ThroughTheMediumRoomIsTheCurrentsWhereTheVelocityOverGroundIsRight) {
+  const estimation::Setup setup(EngineConfig{});
+  const int current = setup.index.of(Group::current);
+  ASSERT_GE(current, 0);
+  AidingPolicy policy;
+  policy.velocity = VelocityOver::medium;
+  policy.shows_level = true;
+  for (const bool right : {true, false}) {
+    Estimate estimate = navigating(setup, 1.0);
+    const ErrorFilter before = estimate.filter;
+    Reacquisition reacquisition;
+    reacquisition.make_room(setup, policy, right, Instrument{}, estimate, through_the_medium(setup, 0.6), 1U,
+                            1.0);
+    EXPECT_DOUBLE_EQ(estimate.filter(current + 1, current + 1), before(current + 1, current + 1) + 0.36);
+    EXPECT_EQ(estimate.filter(current, current), before(current, current));
+    EXPECT_DOUBLE_EQ(estimate.filter(4, 4), before(4, 4) + (right ? 0.0 : 0.36));
+    EXPECT_EQ(estimate.filter(6, 6) > before(6, 6), !right);
+  }
+}
+
+TEST(Reacquisition, ALevelThatGoesWrongAgainIsTheBiases) {
+  const estimation::Setup setup(EngineConfig{});
+  const int gyro = setup.index.of(Group::gyro_bias);
+  const int accel = setup.index.of(Group::accel_bias);
+  AidingPolicy policy;
+  policy.velocity = VelocityOver::ground;
+  policy.shows_level = true;
+  Observation off;
+  off.rows = 1;
+  off.sigma[0] = 0.01;
+  off.h[0][3] = 1.0;
+  off.list_columns(kNavStates);
+  /// Sigmas that are added, of the accelerometer and of the gyro, when 0.5 m/s are wrong again after so long.
+  const auto added = [&](double after_s, double off_m_s) {
+    Estimate estimate = navigating(setup, 1.0);
+    Reacquisition reacquisition;
+    off.innovation[0] = off_m_s;
+    const ErrorFilter before = estimate.filter;
+    reacquisition.make_room(setup, policy, false, Instrument{}, estimate, off, 1U, 1.0);
+    EXPECT_EQ(estimate.filter(gyro, gyro), before(gyro, gyro));
+    estimate.now_ns += from_seconds(after_s);
+    reacquisition.make_room(setup, policy, false, Instrument{}, estimate, off, 1U, 1.0);
+    const auto of = [&](int state) {
+      return std::sqrt(estimate.filter(state, state) - before(state, state));
+    };
+    return Eigen::Vector2d(of(accel + 1), of(gyro + 1));
+  };
+  EXPECT_TRUE(added(20.0, 0.5).isApprox(Eigen::Vector2d(0.025, 0.5 / (0.5 * 9.81 * 400.0)), 1e-6));
+  EXPECT_TRUE(added(1.0, 0.5).isZero());
+  EXPECT_TRUE(added(130.0, 0.5).isZero());
+  // No unit is that bad.
+  EXPECT_TRUE(added(2.0, 5.0).isApprox(Eigen::Vector2d(0.05 * 9.81, kRadPerDeg), 1e-6));
 }
 
 }  // namespace
