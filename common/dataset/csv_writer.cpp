@@ -60,6 +60,7 @@ char* quick_fixed(double value, int decimals, char* end) {
   if (decimals < 1 || decimals >= static_cast<int>(kPowersOfTen.size())) return end;
   const double scaled = std::abs(value) * kPowersOfTen[static_cast<std::size_t>(decimals)];
   if (!(scaled < kMostScaled)) return end;
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): what is in doubt is sent back below
   const auto whole = static_cast<std::int64_t>(scaled + 0.5);
   const double off = std::abs(scaled - static_cast<double>(whole));
   if (off > 0.5 - kDoubtful) return end;

@@ -21,7 +21,7 @@ std::filesystem::path find_fusion_file(const std::filesystem::path& directory,
                                        const std::filesystem::path& config) {
   for (auto folder = std::filesystem::absolute(directory).lexically_normal(); folder.has_relative_path();
        folder = folder.parent_path()) {
-    const auto file = config / "solve" / (folder.filename().string() + ".json");
+    auto file = config / "solve" / (folder.filename().string() + ".json");
     if (!folder.filename().empty() && std::filesystem::exists(file)) return file;
   }
   return config / "fusion.json";

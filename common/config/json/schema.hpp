@@ -151,6 +151,7 @@ template <class T>
 class Schema {
  public:
   template <class M, class Base>
+  // NOLINTNEXTLINE(performance-unnecessary-value-param): both are moved on
   FieldRef<M> field(std::string key, M Base::*member, std::string description) {
     auto rules = std::make_shared<Rules<Leaf<M>>>();
     FieldInfo& info =

@@ -317,7 +317,7 @@ Vector3d DropAlignment::finish_window() {
   }
   const Vector3d rpy = geo::to_rpy(q_NB_);
   const geo::Quaternion corrected = geo::from_rpy({rpy.x() - error.x(), rpy.y() - error.y(), rpy.z()});
-  const Vector3d turned = geo::log(corrected * geo::conjugate(q_NB_));
+  Vector3d turned = geo::log(corrected * geo::conjugate(q_NB_));
   q_NB_ = corrected;
   heading_slip(turned);  // the heading of now is kept, not that of the release
   // Heading errors do not mix with those of roll and pitch in a level run.

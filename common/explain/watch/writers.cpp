@@ -95,7 +95,7 @@ void restarts(const History& history, Findings& out) {
   for (const LifeSign& sign : history.life_signs()) {
     const LifeSign* before = std::exchange(last[sign.service], &sign);
     if (before == nullptr || (before->started_ns == sign.started_ns && before->pid == sign.pid)) continue;
-    const std::string service = history.name(sign.service);
+    const std::string& service = history.name(sign.service);
     const bool fusion = fusions.contains(service);
     const TimeNs begin_ns = sign.before_ns > 0 ? sign.before_ns : sign.log_ns;
     Finding found{
@@ -124,7 +124,7 @@ void restarts(const History& history, Findings& out) {
 void stalls(const History& history, Findings& out) {
   const std::set<std::string> fusions = fusions_of(history);
   const auto say = [&](std::uint32_t service, TimeNs begin_ns, TimeNs end_ns, bool to_end) {
-    const std::string name = history.name(service);
+    const std::string& name = history.name(service);
     const bool fusion = fusions.contains(name);
     out.push_back({.kind = Kind::stalled,
                    .weight = fusion ? Weight::bad : Weight::caution,

@@ -17,7 +17,6 @@ namespace fathom::cli {
 namespace {
 
 using status::Condition;
-using status::Heard;
 using status::Judgement;
 using status::StatusView;
 using status::VerdictCounts;
