@@ -10,12 +10,12 @@
 
 namespace fathom::commission {
 
-/// Sum of squares that an inertial unit so read leaves against the velocity of GPS, m^2/s^2: each window may
-/// turn freely. `latency_s` is subtracted from the stamps of GPS.
+/// Sums of squares that an inertial unit leaves against the velocity of GPS, m^2/s^2.
 struct GpsSquares {
   double as_read = 0.0;
   double force_negated = 0.0;  ///< were every specific force the negative of what was read
 };
+/// Of a unit so read: each window may turn freely. `latency_s` is subtracted from the stamps of GPS.
 [[nodiscard]] GpsSquares gps_squares(const Series& series, const VectorSeries& velocity_N,
                                      const std::vector<Span>& windows, const ImuReading& reading,
                                      double latency_s);
