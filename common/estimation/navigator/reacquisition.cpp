@@ -54,7 +54,7 @@ void accepted(Instrument::Rejections& past) {
   if (past.believed || past.count < kMajority * past.accepted) past = {};
 }
 
-/// Refusals of these rows have agreed with each other for long enough, and were by far the most.
+/// Refusals of these rows have agreed with each other for long enough.
 bool believe(Instrument::Rejections& past, double needed_s, const Estimate& estimate,
              const Observation& observation, int first, int end) {
   double size = 0.0;
@@ -318,10 +318,11 @@ void Reacquisition::make_room(const Setup& setup, const AidingPolicy& policy, bo
     for (int i = 0; i < 3; ++i) weight += weights[i] * weights[i];
     if (weight == 0.0) continue;
     const auto share = [&](int i) { return squared * weights[i] * weights[i] / (weight * weight); };
-    if (of_current && first == 3)
+    const bool through_medium = of_current && first == 3;
+    if (through_medium)
       for (int i = 0; i < 2; ++i) estimate.filter.widen(current + i, share(i));
     // With the velocity over ground right the current has changed, which has no vertical component.
-    const bool current_alone = of_current && first == 3 && agrees_with_ground;
+    const bool current_alone = through_medium && agrees_with_ground;
     for (int i = current_alone ? 2 : 0; i < 3; ++i) variance[static_cast<std::size_t>(first + i)] += share(i);
     if (current_alone) continue;
     // A velocity goes wrong by a level that is wrong: left as sure as it was, that would lead astray again.
@@ -338,11 +339,10 @@ void Reacquisition::make_room(const Setup& setup, const AidingPolicy& policy, bo
 
 void Reacquisition::doubt_biases(const Setup& setup, Estimate& estimate, double wrong_m2_s2) {
   // (GATE-3)
-  const double since_s =
-      levelled_ns_ == 0 ? std::numeric_limits<double>::infinity() : estimate.since(levelled_ns_);
+  const double since_s = estimate.since(levelled_ns_);
   if (since_s < kLeastLevelled_s) return;
   levelled_ns_ = estimate.now_ns;
-  if (since_s > kLevelledLately_s) return;
+  if (!(since_s <= kLevelledLately_s)) return;  // or never
   const auto widen = [&](Group group, double sigma) {
     const int first = setup.index.of(group);
     if (first < 0 || first >= setup.index.estimated()) return;

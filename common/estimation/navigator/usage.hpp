@@ -13,8 +13,8 @@ struct Usage {
   TimeNs gps_used_ns = 0;
   TimeNs usbl_used_ns = 0;
   TimeNs dvl_used_ns = 0;
-  TimeNs bottom_used_ns = 0;  ///< of its velocities those over ground
-  TimeNs bottom_refused_ns = 0;
+  TimeNs bottom_used_ns = 0;     ///< of its velocities those over ground
+  TimeNs bottom_refused_ns = 0;  ///< or a component of it
   TimeNs velocity_used_ns = 0;
   TimeNs gap_ns = 0;  ///< the last end of a time without inertial samples
 

@@ -44,26 +44,26 @@ SurveyRun with_water_layer(const SurveyRun& run, const Current& current_N_m_s) {
   return out;
 }
 
-TEST(Blame, AChangedCurrentIsNotTakenForTheVelocity) {
-  const auto current = [](double t_s) {
-    const double share = std::clamp((t_s - 90.0) / 5.0, 0.0, 1.0);
+/// 0.9 m/s that set in within five seconds.
+auto sets_in_at(double from_s) {
+  return [=](double t_s) {
+    const double share = std::clamp((t_s - from_s) / 5.0, 0.0, 1.0);
     return Vector3d(0.6 * share, -0.7 * share, 0.0);
   };
+}
+
+TEST(Blame, AChangedCurrentIsNotTakenForTheVelocity) {
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const SurveyRun run({.duration_s = 140.0, .seed = seed, .usbl = false});
-    const SpoiltSurvey got = survey(with_water_layer(run, current), 60.0, [](Sample&, double) {});
+    const SpoiltSurvey got = survey(with_water_layer(run, sets_in_at(90.0)), 60.0, [](Sample&, double) {});
     EXPECT_LT(got.worst_h_sigmas, 3.7) << seed;
   }
 }
 
 TEST(Blame, WithoutTheBottomAChangedCurrentIsAsLikelyAsTheVelocity) {
-  const auto current = [](double t_s) {
-    const double share = std::clamp((t_s - 75.0) / 5.0, 0.0, 1.0);
-    return Vector3d(0.6 * share, -0.7 * share, 0.0);
-  };
   for (const std::uint64_t seed : {1U, 2U, 3U}) {
     const SurveyRun run({.duration_s = 120.0, .seed = seed, .usbl = false});
-    SurveyRun with_water = with_water_layer(run, current);
+    SurveyRun with_water = with_water_layer(run, sets_in_at(75.0));
     std::erase_if(with_water.samples, [](const Sample& sample) {
       const auto* dvl = std::get_if<DvlSample>(&sample);
       return dvl != nullptr && dvl->mode == DvlMode::bottom && seconds_of(sample) > 65.0;
