@@ -156,6 +156,7 @@ struct SensorConfig {
   std::array<double, 3> sigma{1.0, 1.0, 1.0};
   std::array<double, 3> velocity_sigma_m_s{0.1, 0.1, 0.1};
   double proportional_sigma = 0.0;
+  double max_noise_factor = 30.0;
   bool use_sample_sigma = true;
   bool use_position = true;
   bool use_velocity = true;

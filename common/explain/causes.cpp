@@ -122,6 +122,7 @@ Findings findings(const History& history) {
   watch_alignment(history, all);
   watch_receivers(history, all);
   watch_refusals(history, track, all);
+  watch_noise(history, all);
   watch_course(history, track, all);
   watch_lever(history, track, all);
   watch_losses(history, track, all);

@@ -60,6 +60,7 @@ void History::forget() {
   cut(fixes_, [](const FixRow& row) { return row.stamp_ns; });
   cut(dvl_, [](const DvlRow& row) { return row.stamp_ns; });
   cut(alarms_, by_arrival);
+  cut(noise_, by_arrival);
   cut(orders_, by_arrival);
   for (Stream& stream : streams_) cut(stream.seconds, [](const Second& row) { return row.at_ns; });
   // What holds until something new is said stays, whatever its age: the last of each.
@@ -219,8 +220,21 @@ void History::add(const Verdict& verdict, const Arrival& arrival) {
   if (verdict.revision > 0 && verdict.is_final) open_.erase(open);
 }
 
+void History::noisy(const NoiseFactor& found, TimeNs log_ns) {
+  constexpr DurationNs kSame_ns = 30 * kNsPerSecond;
+  const auto row = std::find_if(noise_.rbegin(), noise_.rend(),
+                                [&](const NoiseRow& one) { return one.sensor == found.sensor; });
+  if (row == noise_.rend() || log_ns - row->log_ns > kSame_ns) {
+    noise_.push_back({std::string(found.sensor), log_ns, log_ns, found.factor});
+    return;
+  }
+  row->log_ns = log_ns;
+  row->most = std::max(row->most, found.factor);
+}
+
 void History::add(const AlignmentStatus& status, const Arrival& arrival) {
   if (!begin(status.header, arrival)) return;
+  for (const NoiseFactor& one : noise_factors(status)) noisy(one, arrival.log_ns);
   AlignmentRow row;
   row.log_ns = arrival.log_ns;
   row.phase = status.phase;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "samples/alignment/help.hpp"
 #include "samples/alignment_status.hpp"
 #include "samples/command.hpp"
 #include "samples/kinds.hpp"
@@ -137,6 +138,14 @@ struct AlignmentRow {
   std::string advice;
 };
 
+/// While a sensor scattered more than is said of it.
+struct NoiseRow {
+  std::string sensor;  ///< as far as its name had room
+  TimeNs begin_ns = 0;
+  TimeNs log_ns = 0;  ///< the last time that it was said
+  double most = 1.0;  ///< the largest factor of its sigma
+};
+
 struct OrderRow {
   TimeNs log_ns = 0;
   Command order;
@@ -189,6 +198,7 @@ class History {
   [[nodiscard]] const std::map<std::uint32_t, TimeNs>& last_life_ns() const { return life_last_ns_; }
   [[nodiscard]] const std::deque<AlarmRow>& alarms() const { return alarms_; }
   [[nodiscard]] const std::deque<AlignmentRow>& alignment() const { return alignment_; }
+  [[nodiscard]] const std::deque<NoiseRow>& noise() const { return noise_; }
   [[nodiscard]] const std::deque<OrderRow>& orders() const { return orders_; }
   [[nodiscard]] const std::deque<RunRow>& runs() const { return runs_; }
 
@@ -213,6 +223,7 @@ class History {
   void heard(SourceKind kind, const SampleHeader& header, const Arrival& arrival);
   void fix(const GpsSample& sample);
   void dvl(const DvlSample& sample);
+  void noisy(const NoiseFactor& found, TimeNs log_ns);
   std::optional<std::uint32_t> stream_of(SourceKind kind, const Name& sensor);
   std::uint32_t number_of(const std::string& name);
   std::uint32_t writer_of(const Arrival& arrival);
@@ -238,6 +249,7 @@ class History {
   std::map<std::uint32_t, TimeNs> life_last_ns_;
   std::deque<AlarmRow> alarms_;
   std::deque<AlignmentRow> alignment_;
+  std::deque<NoiseRow> noise_;
   std::deque<OrderRow> orders_;
   std::deque<RunRow> runs_;
   std::deque<std::string> names_;

@@ -241,6 +241,9 @@ std::string sentence(const Finding& f) {
              " measurements lay beyond the gate, up to " + in_unit(f, f.figure("most")) +
              ", among good ones; " + brief(f.figure("refused")) +
              " of them were refused, the others had little weight.";
+    case Kind::noisy:
+      return f.subject + " scattered for " + lasting(f.figure("for_s")) + " up to " +
+             brief(f.figure("factor")) + " times as much as its sigmas say; navigation counted with that.";
     case Kind::wrong_lever:
       return wrong_lever(f);
     case Kind::lost:
@@ -291,6 +294,8 @@ std::string advice(const Finding& f) {
     case Kind::outliers:
       return f.word == "usbl" ? "Multipath: look at the geometry, at noise and at the transponder's depth."
                               : "Look at the instrument and at what lies in its way.";
+    case Kind::noisy:
+      return "Look at the instrument and at what disturbs it, or at its sigma in the configuration.";
     case Kind::interference:
       return "Do not believe the receiver; look at transmitters near its antenna.";
     case Kind::lost:

@@ -42,6 +42,7 @@ class Judge {
     // Causes before what follows from them.
     inertial();
     for (const Source& source : m_.sources) measurement(source);
+    noise();
     consistency();
     outages();
     resets();
@@ -178,6 +179,15 @@ class Judge {
     }
     // Rejections are told already.
     if (rejected <= kManyRejected) spread(source);
+  }
+
+  void noise() {
+    for (const auto& [sensor, factor] : m_.noise_factors)
+      say(Weight::caution,
+          "The noise of " + sensor + " was up to " + brief(factor) +
+              " times what is configured. Navigation " +
+              "counted with that. Look at the instrument, or at its sigma in the configuration.",
+          "innovations");
   }
 
   void spread(const Source& source) {

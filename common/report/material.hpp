@@ -124,8 +124,11 @@ struct Material {
   std::vector<Outage> outages;
   std::vector<PhaseChange> phases;
   double start_heading_error_rad = 0.0;  ///< found and corrected; 0: nothing
-  std::vector<ServiceRow> services;      ///< of a recording, by name
-  std::vector<Told> told;                ///< of a recording, the likeliest cause first
+  /// By sensor, how many times as much it scattered at most as is said of it; those that did as is said are
+  /// left out.
+  std::map<std::string, double> noise_factors;
+  std::vector<ServiceRow> services;  ///< of a recording, by name
+  std::vector<Told> told;            ///< of a recording, the likeliest cause first
   /// Rows of each sensor in the data.
   std::map<std::string, std::uint64_t> samples;
 };

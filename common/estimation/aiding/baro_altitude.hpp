@@ -11,6 +11,7 @@ class BaroAltitude {
  public:
   using Sample = AirspeedSample;
   static constexpr const char* kName = "baro_altitude";
+  static constexpr int kFirstComponent = 3;
 
   [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
     const Usable can = usable(in.sensor, sample);

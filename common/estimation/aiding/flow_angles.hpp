@@ -11,6 +11,7 @@ class FlowAngles {
  public:
   using Sample = AirspeedSample;
   static constexpr const char* kName = "flow_angles";
+  static constexpr int kFirstComponent = 1;
 
   [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
     if (!has_flow_angles(in.sensor)) return Usable::not_estimated;

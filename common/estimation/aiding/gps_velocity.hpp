@@ -13,6 +13,7 @@ class GpsVelocity {
  public:
   using Sample = GpsSample;
   static constexpr const char* kName = "gps_velocity";
+  static constexpr int kFirstComponent = 3;
 
   [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
     if (!in.sensor.use_velocity) return Usable::not_estimated;

@@ -126,6 +126,8 @@ struct AidingInput {
 ///   Vector3 measured() const, predicted() const, noise() const    (noise: sigmas; longer vectors likewise)
 ///   void jacobian(Jacobian&) const                                 d(predicted - measured)/dx
 ///   double wrapped(double) const      only where the innovation is an angle
+///   static constexpr int kFirstComponent                          where another model of its source has
+///   those before
 /// and to the registry
 ///   using Sample
 ///   static Usable append_rows(const AidingInput&, const Sample&, Observation&)
@@ -138,6 +140,8 @@ void observe(const Model& model, const StateIndex& index, Observation& out) {
   const auto measured = model.measured();
   const auto predicted = model.predicted();
   const auto sigma = model.noise();
+  int first_component = 0;
+  if constexpr (requires { Model::kFirstComponent; }) first_component = Model::kFirstComponent;
   for (int i = 0; i < model.dimension(); ++i) {
     double z = predicted(i) - measured(i);
     if constexpr (requires { model.wrapped(z); }) z = model.wrapped(z);
@@ -153,6 +157,7 @@ void observe(const Model& model, const StateIndex& index, Observation& out) {
     }
     out.innovation[to] = z;
     out.sigma[to] = sigma(i);
+    out.component[to] = static_cast<std::uint8_t>(first_component + i);
     ++out.rows;
   }
 }

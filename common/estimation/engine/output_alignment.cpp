@@ -221,6 +221,21 @@ void fill_waiting(const Navigator& navigator, const AlignmentConfig& config, con
         std::max(navigator.unheard_s(), std::max(0.0, config.averaging_s - held) + config.aligned_hold_s);
 }
 
+/// Returns the sensor whose noise is the largest multiple of what is said of it; -1: all do as is said.
+int add_noise_factors(const EngineConfig& config, const Navigator& navigator, AlignmentStatus& out) {
+  int worst = -1;
+  for (int i = 0; i < static_cast<int>(config.sensors.size()); ++i) {
+    const double factor = navigator.noise_factor(i);
+    if (!(factor > 1.0)) continue;
+    const SensorConfig& sensor = config.sensors[static_cast<std::size_t>(i)];
+    char name[32];
+    std::snprintf(name, sizeof name, "%s%s", kNoiseFactorPrefix.data(), sensor.sensor.c_str());
+    add_condition(out, name, factor, sensor.max_noise_factor, true);
+    if (worst < 0 || factor > navigator.noise_factor(worst)) worst = i;
+  }
+  return worst;
+}
+
 }  // namespace
 
 void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) {
@@ -243,6 +258,7 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
   }
   const double start_rad = navigator.navigating() ? navigator.estimate().start_heading.found_rad() : 0.0;
   if (start_rad != 0.0) add_condition(out, kStartHeadingError.data(), start_rad, kUnknown, true);
+  const int noisy = navigator.navigating() ? add_noise_factors(setup.config, navigator, out) : -1;
   if (const PlausibilityFinding& finding = navigator.implausible()) {
     char name[32];
     std::snprintf(name, sizeof name, "%s%s", kImplausiblePrefix.data(), to_string(finding.kind).data());
@@ -256,6 +272,11 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
           "The heading of the start was wrong by %.0f deg and was corrected: check the compass, or what was "
           "given.",
           start_rad * kDegPerRad);
+  if (out.advice[0] == '\0' && noisy >= 0)
+    write(out.advice,
+          "The noise of %.31s is %.1f times what is configured and counts as that: check it or its sigma.",
+          setup.config.sensors[static_cast<std::size_t>(noisy)].sensor.c_str(),
+          navigator.noise_factor(noisy));
 }
 
 }  // namespace fathom::estimation

@@ -59,6 +59,31 @@ void fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+void AdaptiveNoise::Left::fields(Archive& archive, Self& self) {
+  archive("residual", self.residual, fathom::archive::any_number());  // unknown without a measurement
+  archive("state_variance", self.state_variance, fathom::archive::at_least_zero());
+  archive("said_variance", self.said_variance, fathom::archive::at_least_zero());
+}
+
+template <class Archive, class Self>
+void AdaptiveNoise::Component::fields(Archive& archive, Self& self) {
+  archive("last", self.last);
+  archive("used", self.used);
+  archive("trend", self.trend, fathom::archive::finite());
+  archive("log_square", self.log_square, fathom::archive::within(0.0, 10.0));
+  archive("count", self.count, fathom::archive::kCount);
+  archive("recent", self.recent, fathom::archive::within(0.0, 1.0));
+  archive("noisy", self.noisy);
+}
+
+template <class Archive, class Self>
+void AdaptiveNoise::fields(Archive& archive, Self& self) {
+  archive("last_ns", self.last_ns_, fathom::archive::kInstant);
+  archive("used_ns", self.used_ns_, fathom::archive::kInstant);
+  archive("components", self.components_);
+}
+
+template <class Archive, class Self>
 requires std::is_same_v<std::remove_const_t<Self>, Instrument>
 void fields(Archive& archive, Self& self) {
   archive("enabled", self.enabled);
@@ -74,6 +99,7 @@ void fields(Archive& archive, Self& self) {
   archive("agrees_since_ns", self.agrees_since_ns, fathom::archive::kInstant);
   archive("first_travelled_N_m", self.first_travelled_N_m, fathom::archive::finite());
   archive("normalised_square", self.normalised_square, fathom::archive::at_least_zero());
+  if (archive.since(14)) archive("noise", self.noise);
 }
 
 template <class Archive, class Self>

@@ -31,6 +31,7 @@ void drop_row(Observation& observation, int row) {
     const auto to = static_cast<std::size_t>(i);
     observation.innovation[to] = observation.innovation[to + 1];
     observation.sigma[to] = observation.sigma[to + 1];
+    observation.component[to] = observation.component[to + 1];
     observation.h[to] = observation.h[to + 1];
   }
   --observation.rows;

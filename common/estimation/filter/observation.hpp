@@ -16,6 +16,8 @@ struct Observation {
   bool each_alone = false;  ///< rows are gated one by one whatever the configuration says
   std::array<double, kMaxRows> innovation{};
   std::array<double, kMaxRows> sigma{};
+  /// Which component of what its instrument measures each row is; rows that are unknown are left out.
+  std::array<std::uint8_t, kMaxRows> component{};
   std::array<std::array<double, kMaxStates>, kMaxRows> h{};
   int column_count = 0;
   std::array<std::uint8_t, kMaxStates> columns{};

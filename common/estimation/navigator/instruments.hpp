@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "estimation/navigator/adaptive_noise.hpp"
 #include "estimation/navigator/measurement.hpp"
 #include "estimation/navigator/setup.hpp"
 
@@ -43,6 +44,7 @@ struct Instrument {
     Eigen::Vector2d last_N_m = Eigen::Vector2d::Zero();
   };
   Candidate candidate;
+  AdaptiveNoise noise;
 
   /// The reading has stood still to the last bit while `prediction` moved by more than `limit`, or the
   /// vehicle by more than `way_m`; infinite: that says nothing. Notes a new reading.
@@ -60,6 +62,7 @@ struct Instrument {
     visit(self.candidate.refused_since_ns);
     visit(self.candidate.since_ns);
     visit(self.candidate.last_ns);
+    AdaptiveNoise::for_each_instant(self.noise, visit);
   }
 };
 

@@ -100,6 +100,7 @@ Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
     doubt_start(trial);
   }
   if (trial.gated.refused != 0) usage_.note_refusal(trial.policy, estimate_.now_ns);
+  note_noise(trial);
   return trial.judgement;
 }
 
@@ -187,6 +188,7 @@ bool Navigator::observe(Trial& trial) {
   trial.with_position = trial.policy.position && measures(trial.whole, 0, 0);
   trial.fix = trial.policy.follows_motion && trial.with_position;
   trial.whole.list_columns(setup_->index.size());
+  if (adapts_noise(trial)) trial.instrument.noise.widen(trial.whole);
   if (trial.then != nullptr && !trial.then->look_back(trial.whole, trial.statistics))
     return trial.end(VerdictKind::late);
   return true;
@@ -290,6 +292,27 @@ void Navigator::account(Trial& trial) {
   if (trial.instrument.agrees_since_ns == 0) trial.instrument.agrees_since_ns = estimate_.now_ns;
   trial.instrument.candidate = {};
   usage_.note(trial.policy, trial.with_position, estimate_.now_ns);
+}
+
+bool Navigator::adapts_noise(const Trial& trial) const {
+  return trial.config.max_noise_factor > 1.0 && !trial.modelled && !trial.policy.told;
+}
+
+double Navigator::noise_factor(int number) const {
+  const Instrument* layer = water_layer(number);
+  return std::max(sensor(number).noise.largest_factor(),
+                  layer == nullptr ? 1.0 : layer->noise.largest_factor());
+}
+
+void Navigator::note_noise(Trial& trial) const {
+  // (GATE-10): what comes late or repeats itself has no neighbour to be compared with.
+  if (!adapts_noise(trial) || trial.then != nullptr || trial.instrument.repeats) return;
+  trial.instrument.noise.note({.now_ns = estimate_.now_ns,
+                               .used = trial.judgement.kind == VerdictKind::used,
+                               .rows = trial.whole,
+                               .innovation_sigma = trial.gated.innovation_sigma,
+                               .moved = trial.x,
+                               .most = trial.config.max_noise_factor});
 }
 
 bool Navigator::is_frozen(Trial& trial) const {

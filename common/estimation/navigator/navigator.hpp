@@ -96,6 +96,8 @@ class Navigator {
     const int layer = setup_->water_layer[static_cast<std::size_t>(number)];
     return layer < 0 ? nullptr : &instruments_.water_layers[static_cast<std::size_t>(layer)];
   }
+  /// How many times as much a sensor scatters as is said of it, of its worst component (GATE-10).
+  [[nodiscard]] double noise_factor(int number) const;
   [[nodiscard]] const hydro::WaterVelocity& water_velocity() const { return model_.water_velocity(); }
 
   /// For archives: see fields/navigator.hpp.
@@ -123,6 +125,9 @@ class Navigator {
   void doubt_start(Trial& trial);
   /// Notes what a used measurement means for mode, outages and steps.
   void account(Trial& trial);
+  /// (GATE-10)
+  [[nodiscard]] bool adapts_noise(const Trial& trial) const;
+  void note_noise(Trial& trial) const;
   [[nodiscard]] bool is_frozen(Trial& trial) const;
   /// For so long refusals have to agree with each other until they are believed.
   [[nodiscard]] double agreement_needed_s(const Trial& trial) const;

@@ -20,6 +20,8 @@ void watch_alignment(const History& history, Findings& out);
 void watch_receivers(const History& history, Findings& out);
 /// frozen, jump, drag, outliers, wrong_heading of a compass, refused.
 void watch_refusals(const History& history, const Track& track, Findings& out);
+/// noisy. `out` holds the findings of refusals: noise is not told as outliers as well.
+void watch_noise(const History& history, Findings& out);
 /// wrong_heading, by what GPS and a DVL tell of the course over ground.
 void watch_course(const History& history, const Track& track, Findings& out);
 /// wrong_lever. `out` holds the findings of all before.

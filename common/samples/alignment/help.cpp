@@ -82,6 +82,17 @@ double start_heading_error_rad(const AlignmentStatus& status) {
   return found == nullptr ? 0.0 : found->value;
 }
 
+std::vector<NoiseFactor> noise_factors(const AlignmentStatus& status) {
+  std::vector<NoiseFactor> out;
+  const auto count = std::min<std::size_t>(status.condition_count, AlignmentStatus::kMaxConditions);
+  for (std::size_t i = 0; i < count; ++i) {
+    const AlignmentCondition& one = status.conditions[i];
+    if (one.name.view().starts_with(kNoiseFactorPrefix))
+      out.push_back({one.name.view().substr(kNoiseFactorPrefix.size()), one.value});
+  }
+  return out;
+}
+
 Blame blame_of(const AlignmentCondition& condition) {
   if (!is_implausible(condition)) return {};
   const std::string_view name = condition.name.view().substr(kImplausiblePrefix.size());

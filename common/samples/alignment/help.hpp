@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "samples/alignment_status.hpp"
 #include "samples/kinds.hpp"
@@ -19,6 +20,17 @@ inline constexpr std::string_view kImplausiblePrefix = "implausible_";
 inline constexpr std::string_view kStartHeadingError = "start_heading_error_rad";
 /// 0 where nothing was found.
 [[nodiscard]] double start_heading_error_rad(const AlignmentStatus& status);
+
+/// A condition of this kind says how many times as much an instrument scatters as is said of it, which
+/// navigation counts with; its name goes on with the sensor's, as far as there is room. Always met, and
+/// absent where it does as is said.
+inline constexpr std::string_view kNoiseFactorPrefix = "noise_of_";
+struct NoiseFactor {
+  std::string_view sensor;
+  double factor = 1.0;
+};
+/// All of a status. The names are its own.
+[[nodiscard]] std::vector<NoiseFactor> noise_factors(const AlignmentStatus& status);
 
 /// Which instrument is meant and in what it is wrong: "unit", "sign", "axes", "rate" or "mounting", as
 /// findings of commissioning are named.

@@ -192,6 +192,7 @@ Material gather(const SolveRun& solve_run, TimeNs epoch_ns) {
   const SolveResult result = run(own);
   Material out = gatherer.finish();
   out.start_heading_error_rad = start_heading_error_rad(result.alignment);
+  out.noise_factors = result.noise_factors;
   return out;
 }
 

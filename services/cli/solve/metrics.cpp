@@ -210,6 +210,7 @@ std::string to_json(const SolveReport& report) {
   }
   if (!report.smoothed)
     out["start_heading_error_deg"] = start_heading_error_rad(report.result.alignment) * kDegPerRad;
+  if (!report.smoothed) out["noise_factors"] = report.result.noise_factors;
   out["wall_time_s"] = report.result.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.result));
   out["verdicts"] = verdicts(report.result.verdicts);
@@ -278,6 +279,9 @@ std::string to_text(const SolveReport& report) {
     if (one.components() > 0)
       out += line("innovations of %s: mean square %.2f sigma^2 (1 where sigmas hold), %.1f %% within 95 %%",
                   text_of(name).c_str(), one.mean_square(), 100.0 * one.share_within_95());
+  for (const auto& [sensor, factor] : report.result.noise_factors)
+    out += line("the noise of %s was up to %.1f times what is configured, and counted as that",
+                sensor.c_str(), factor);
   if (known(report.heading.aligned_after_s))
     out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
   if (const double start_rad = start_heading_error_rad(report.result.alignment); start_rad != 0.0)

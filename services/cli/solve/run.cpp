@@ -92,6 +92,10 @@ static std::string sensor_of(const estimation::EngineConfig& config, SourceKind 
 }
 
 void SolveResult::note(const AlignmentStatus& status, const estimation::EngineConfig& config, double at_s) {
+  for (const NoiseFactor& one : fathom::noise_factors(status)) {
+    double& largest = noise_factors[std::string(one.sensor)];
+    largest = std::max(largest, one.factor);
+  }
   const AlignmentCondition* found = implausible(status);
   if (found == nullptr) return;
   auto known = std::find_if(implausibles.begin(), implausibles.end(),

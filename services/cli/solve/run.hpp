@@ -121,8 +121,10 @@ struct SolveResult {
 
   bool ever_aligned = false;
   std::vector<ImplausibleSpan> implausibles;
+  /// By sensor, the largest of the run: see samples/alignment/help.hpp.
+  std::map<std::string, double> noise_factors;
 
-  /// Keeps what a status finds implausible.
+  /// Keeps what a status finds implausible or noisy.
   void note(const AlignmentStatus& status, const estimation::EngineConfig& config, double at_s);
   /// Counts a final verdict; others change nothing.
   void add(const Verdict& verdict);

@@ -37,8 +37,9 @@ inline double seconds_of(const Sample& sample) {
 /// `spoil(sample, t_s)` changes each sample before the engine has it; the truth is looked at from `from_s`
 /// on.
 template <class Spoil>
-SpoiltSurvey survey(const SurveyRun& run, double from_s, const Spoil& spoil) {
-  estimation::FusionEngine engine(SurveyRun::config());
+SpoiltSurvey survey(const SurveyRun& run, double from_s, const Spoil& spoil,
+                    const estimation::EngineConfig& config = SurveyRun::config()) {
+  estimation::FusionEngine engine(config);
   SpoiltSurvey out;
   std::size_t row = 0;
   for (Sample sample : run.samples) {

@@ -12,6 +12,7 @@
 #include "explain/explain.hpp"
 #include "explain/sentence.hpp"
 #include "geo/wgs84.hpp"
+#include "sim/random.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/explain/stage.hpp"
 
@@ -142,6 +143,16 @@ std::vector<Case> cases() {
                    return one;
                  },
                  [](Stage&) {}});
+  out.push_back({"noisy_dvl", Kind::noisy, "dvl", 200, surface, [](Stage& stage) {
+                   stage.spoil = spoil<DvlSample>(
+                       [random = sim::Random(1, "spoilt")](DvlSample& one, double t) mutable {
+                         // Beams go with the velocity: without them it is what is left.
+                         if (t < kFault_s) return true;
+                         one.beam_velocity_m_s.fill(kUnknown);
+                         for (double& v : one.velocity_D_m_s) v += random.normal(0.1);
+                         return true;
+                       });
+                 }});
   out.push_back({"late_imu", Kind::imu_late, "imu", 240, surface, [](Stage& stage) {
                    stage.spoil = spoil<ImuSample>([last_ns = TimeNs{0}](ImuSample& one, double t) mutable {
                      // A queue: nothing overtakes.
