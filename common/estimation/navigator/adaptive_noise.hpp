@@ -141,7 +141,8 @@ inline void AdaptiveNoise::Component::compare(double innovation, double state_va
   // An error of the state that stays is in both; so much of it does not, as the vehicle turns.
   constexpr double kStateShare = 0.05;
   constexpr double kTrendGain = 0.1;
-  // Nearly four times what chance makes of the last twenty or so: the noise is another one, and is learned anew.
+  // Nearly four times what chance makes of the last twenty or so: the noise is another one, and is learned
+  // anew.
   constexpr double kRecentGain = 0.05;
   constexpr double kMore = 0.8;
   constexpr double kLess = 0.2;
