@@ -152,8 +152,8 @@ inline void AdaptiveNoise::Component::compare(double innovation, double state_va
   const double noise = std::exp(log_square) * (kShared * with.said_variance + said_variance);
   const double expected = noise + std::abs(state_variance - with.state_variance) +
                           kStateShare * (state_variance + with.state_variance);
-  const double difference = innovation - with.residual;
-  const double beside = difference - trend;
+  if (!std::isfinite(expected)) return;
+  const double beside = innovation - with.residual - trend;
   trend += kTrendGain * std::clamp(beside, -3.0 * std::sqrt(expected), 3.0 * std::sqrt(expected));
   const double clipped = std::min(beside * beside / expected, 1.0);
   recent += kRecentGain * (clipped - recent);

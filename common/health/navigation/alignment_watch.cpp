@@ -7,10 +7,20 @@
 #include "samples/alignment/help.hpp"
 
 namespace fathom::health {
+namespace {
+
+/// Names come from the network.
+constexpr std::size_t kMostNoisy = 64;
+
+}  // namespace
 
 void AlignmentWatch::add(const AlignmentStatus& status, const Instant& now) {
   last_ = status;
   last_known_ = true;
+  for (const NoiseFactor& one : noise_factors(status))
+    if (noisy_.size() < kMostNoisy &&
+        std::find(noisy_.begin(), noisy_.end(), Name(one.sensor)) == noisy_.end())
+      noisy_.emplace_back(one.sensor);
   const bool nav_speaks = nav_heard_ && now.monotonic_ns - nav_heard_ns_ < kNsPerSecond;
   if (!nav_speaks) phase(status.phase, now);
 }
@@ -70,6 +80,7 @@ void AlignmentWatch::report(AlarmBook& book, const Instant& now) const {
             .text = std::string(last_.advice.data(), strnlen(last_.advice.data(), last_.advice.size())),
             .value = wrong != nullptr ? wrong->value : 0.0},
            now);
+  report_noise(book, now);
   const double lost_s = ever_aligned_ && !aligned ? to_seconds(now.monotonic_ns - lost_since_ns_) : 0.0;
   book.set(ever_aligned_ && !aligned,
            {.key = "alignment_lost",
@@ -80,6 +91,23 @@ void AlignmentWatch::report(AlarmBook& book, const Instant& now) const {
             .began_ago_s = lost_s,
             .clear_hold_s = config_.regain_hold_s},
            now);
+}
+
+void AlignmentWatch::report_noise(AlarmBook& book, const Instant& now) const {
+  const std::vector<NoiseFactor> factors = noise_factors(last_);
+  for (const Name& sensor : noisy_) {
+    const auto found = std::find_if(factors.begin(), factors.end(),
+                                    [&](const NoiseFactor& one) { return one.sensor == sensor.view(); });
+    const double factor = found == factors.end() ? 1.0 : found->factor;
+    book.set(
+        factor > 1.0,
+        {.key = alarm_key("noisy", sensor.view()),
+         .severity = Severity::notice,
+         .text = sentence("%s scatters %.1f times as much as its sigmas say. Navigation counts with that.",
+                          sensor.c_str(), factor),
+         .value = factor},
+        now);
+  }
 }
 
 }  // namespace fathom::health

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "health/alarm_book.hpp"
 #include "health/instant.hpp"
 #include "samples/alignment_status.hpp"
@@ -22,7 +24,8 @@ class AlignmentWatch {
   /// order, and a slightly older status must not look like a lost alignment.
   void add(const NavState& state, const Instant& now);
   /// Alarms "not_aligned" (for too long, or timed out), "alignment_lost" (after it was aligned),
-  /// "implausible" (an instrument cannot be right: what the advice says).
+  /// "implausible" (an instrument cannot be right: what the advice says), "noisy:<sensor>" (it scatters more
+  /// than its sigmas say).
   void report(AlarmBook& book, const Instant& now) const;
 
   [[nodiscard]] AlignmentPhase phase() const { return phase_; }
@@ -30,6 +33,7 @@ class AlignmentWatch {
  private:
   void phase(AlignmentPhase phase, const Instant& now);
   [[nodiscard]] std::string unmet() const;
+  void report_noise(AlarmBook& book, const Instant& now) const;
 
   AlignmentWatchConfig config_;
   bool heard_ = false;
@@ -38,6 +42,7 @@ class AlignmentWatch {
   bool ever_aligned_ = false;
   TimeNs lost_since_ns_ = 0;
   AlignmentStatus last_;
+  std::vector<Name> noisy_;  ///< sensors that were, once
   bool last_known_ = false;
   bool nav_heard_ = false;
   TimeNs nav_heard_ns_ = 0;

@@ -305,6 +305,28 @@ TEST(AlignmentWatch, WhatCannotBeRightIsAnAlarmWithTheAdviceUntilItIsPutRight) {
   EXPECT_FALSE(alarmed(book, "implausible"));
 }
 
+TEST(AlignmentWatch, WhatScattersMoreThanIsSaidIsANoticeUntilItDoesNot) {
+  AlignmentWatch watch{AlignmentWatchConfig{}};
+  AlarmBook book;
+  AlignmentStatus status;
+  status.phase = AlignmentPhase::aligned;
+  status.condition_count = 1;
+  status.conditions[0].name = "noise_of_dvl0";
+  status.conditions[0].value = 6.5;
+  status.conditions[0].met = true;
+  watch.add(status, at(1.0));
+  watch.report(book, at(1.0));
+  ASSERT_TRUE(alarmed(book, "noisy:dvl0"));
+  EXPECT_EQ(book.find("noisy:dvl0")->severity, Severity::notice);
+  EXPECT_EQ(book.find("noisy:dvl0")->text,
+            "dvl0 scatters 6.5 times as much as its sigmas say. Navigation counts with that.");
+  EXPECT_EQ(book.find("noisy:dvl0")->value, 6.5);
+  status.condition_count = 0;
+  watch.add(status, at(2.0));
+  for (double t = 2.0; t < 60.0; t += 1.0) watch.report(book, at(t));
+  EXPECT_FALSE(alarmed(book, "noisy:dvl0"));
+}
+
 TEST(AlignmentWatch, WhatIsWaitedForIsNamedWithWhatHelps) {
   AlignmentWatch watch{AlignmentWatchConfig{}};
   AlarmBook book;
