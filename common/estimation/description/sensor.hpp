@@ -75,7 +75,7 @@ void describe(Walk<SensorConfig>& s) {
   s.field("max_noise_factor", &C::max_noise_factor,
           "where it scatters more than is said of it, its sigmas count up to so many times; 1: as said")
       .range(1, 100)
-      .only_for(kinds_but(propulsion, fins, fix));
+      .only_for(kinds_but(fins, fix));
   s.field("use_sample_sigma", &C::use_sample_sigma, "a larger noise in the sample counts")
       .only_for(kinds_but(propulsion, fins));
   s.field("use_position", &C::use_position, "its position aids").only_for(kinds(gps));

@@ -250,15 +250,20 @@ TEST_F(NavWatchTest, SlowState) {
   EXPECT_TRUE(alarmed(book, "nav_state_slow"));
 }
 
+/// With one condition.
+AlignmentStatus alignment(AlignmentPhase phase, const char* name, double value, double limit,
+                          bool met = false) {
+  AlignmentStatus status;
+  status.phase = phase;
+  status.condition_count = 1;
+  status.conditions[0] = {.name = name, .value = value, .limit = limit, .met = met};
+  return status;
+}
+
 TEST(AlignmentWatch, TooLongTimedOutLostAndRegained) {
   AlignmentWatch watch{AlignmentWatchConfig{}};
   AlarmBook book;
-  AlignmentStatus status;
-  status.phase = AlignmentPhase::waiting;
-  status.condition_count = 1;
-  status.conditions[0].name = "pitch_rad";
-  status.conditions[0].value = 0.4;
-  status.conditions[0].limit = 0.1;
+  AlignmentStatus status = alignment(AlignmentPhase::waiting, "pitch_rad", 0.4, 0.1);
   for (double t = 0.0; t < 180.0; t += 1.0) watch.add(status, at(t)), watch.report(book, at(t));
   EXPECT_EQ(book.all().size(), 0u);
   for (double t = 180.0; t < 190.0; t += 1.0) watch.add(status, at(t)), watch.report(book, at(t));
@@ -308,12 +313,7 @@ TEST(AlignmentWatch, WhatCannotBeRightIsAnAlarmWithTheAdviceUntilItIsPutRight) {
 TEST(AlignmentWatch, WhatScattersMoreThanIsSaidIsANoticeUntilItDoesNot) {
   AlignmentWatch watch{AlignmentWatchConfig{}};
   AlarmBook book;
-  AlignmentStatus status;
-  status.phase = AlignmentPhase::aligned;
-  status.condition_count = 1;
-  status.conditions[0].name = "noise_of_dvl0";
-  status.conditions[0].value = 6.5;
-  status.conditions[0].met = true;
+  AlignmentStatus status = alignment(AlignmentPhase::aligned, "noise_of_dvl0", 6.5, 30.0, true);
   watch.add(status, at(1.0));
   watch.report(book, at(1.0));
   ASSERT_TRUE(alarmed(book, "noisy:dvl0"));
@@ -330,12 +330,7 @@ TEST(AlignmentWatch, WhatScattersMoreThanIsSaidIsANoticeUntilItDoesNot) {
 TEST(AlignmentWatch, WhatIsWaitedForIsNamedWithWhatHelps) {
   AlignmentWatch watch{AlignmentWatchConfig{}};
   AlarmBook book;
-  AlignmentStatus status;
-  status.phase = AlignmentPhase::waiting;
-  status.condition_count = 1;
-  status.conditions[0].name = "yaw_sigma_rad";
-  status.conditions[0].value = 0.2;
-  status.conditions[0].limit = 0.1;
+  AlignmentStatus status = alignment(AlignmentPhase::waiting, "yaw_sigma_rad", 0.2, 0.1);
   watch.add(status, at(0.0));
   status.phase = AlignmentPhase::timed_out;
   watch.add(status, at(1.0));
