@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 
 namespace fathom {
@@ -57,13 +58,17 @@ constexpr std::array kBlames{
     std::pair{std::string_view("gps_place_unit"), Blame{SourceKind::gps, "unit"}},
 };
 
+std::span<const AlignmentCondition> conditions(const AlignmentStatus& status) {
+  return std::span(status.conditions)
+      .first(std::min<std::size_t>(status.condition_count, AlignmentStatus::kMaxConditions));
+}
+
 /// nullptr where there is none.
 template <class Is>
 const AlignmentCondition* find_condition(const AlignmentStatus& status, const Is& is) {
-  const auto end = status.conditions.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
-                                                   status.condition_count, AlignmentStatus::kMaxConditions));
-  const auto found = std::find_if(status.conditions.begin(), end, is);
-  return found == end ? nullptr : &*found;
+  const auto all = conditions(status);
+  const auto found = std::find_if(all.begin(), all.end(), is);
+  return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -84,12 +89,9 @@ double start_heading_error_rad(const AlignmentStatus& status) {
 
 std::vector<NoiseFactor> noise_factors(const AlignmentStatus& status) {
   std::vector<NoiseFactor> out;
-  const auto count = std::min<std::size_t>(status.condition_count, AlignmentStatus::kMaxConditions);
-  for (std::size_t i = 0; i < count; ++i) {
-    const AlignmentCondition& one = status.conditions[i];
+  for (const AlignmentCondition& one : conditions(status))
     if (one.name.view().starts_with(kNoiseFactorPrefix))
       out.push_back({one.name.view().substr(kNoiseFactorPrefix.size()), one.value});
-  }
   return out;
 }
 
