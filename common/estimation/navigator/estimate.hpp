@@ -6,10 +6,10 @@
 #include "base/unknown.hpp"
 #include "estimation/aiding/model.hpp"
 #include "estimation/aiding/policy.hpp"
+#include "estimation/doubt/start_heading.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/navigator/inertial_step.hpp"
 #include "estimation/navigator/setup.hpp"
-#include "estimation/navigator/start_heading.hpp"
 
 namespace fathom::estimation {
 

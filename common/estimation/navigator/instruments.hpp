@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "estimation/navigator/adaptive_noise.hpp"
+#include "estimation/doubt/adaptive_noise.hpp"
 #include "estimation/navigator/measurement.hpp"
 #include "estimation/navigator/setup.hpp"
 

@@ -1,5 +1,5 @@
 // Noise by innovations (GATE-10).
-#include "estimation/navigator/adaptive_noise.hpp"
+#include "estimation/doubt/adaptive_noise.hpp"
 
 #include <cmath>
 #include <string>

@@ -1,5 +1,5 @@
 // The heading of the start as something that may have been wrong (GATE-8, GATE-9).
-#include "estimation/navigator/start_heading.hpp"
+#include "estimation/doubt/start_heading.hpp"
 
 #include <cmath>
 #include <string>

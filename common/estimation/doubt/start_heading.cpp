@@ -1,4 +1,4 @@
-#include "estimation/navigator/start_heading.hpp"
+#include "estimation/doubt/start_heading.hpp"
 
 #include <algorithm>
 #include <cmath>
