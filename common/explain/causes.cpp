@@ -123,6 +123,7 @@ Findings findings(const History& history) {
   watch_receivers(history, all);
   watch_refusals(history, track, all);
   watch_noise(history, all);
+  watch_biases(history, all);
   watch_course(history, track, all);
   watch_lever(history, track, all);
   watch_losses(history, track, all);

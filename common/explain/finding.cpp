@@ -6,10 +6,10 @@ namespace fathom::explain {
 
 std::string_view to_string(Kind kind) {
   static constexpr std::array<std::string_view, kKinds> kWords{
-      "clock_set", "clock_jump",     "second_writer", "takeover",      "restart",      "stalled",
-      "imu_late",  "imu_gap",        "not_aligned",   "wrong_heading", "interference", "frozen",
-      "jump",      "drag",           "outliers",      "noisy",         "wrong_lever",  "lost",
-      "refused",   "alignment_lost", "state_gap",     "reset",         "growth"};
+      "clock_set", "clock_jump", "second_writer",  "takeover",      "restart",      "stalled",
+      "imu_late",  "imu_gap",    "not_aligned",    "wrong_heading", "interference", "frozen",
+      "jump",      "drag",       "outliers",       "noisy",         "biased",       "wrong_lever",
+      "lost",      "refused",    "alignment_lost", "state_gap",     "reset",        "growth"};
   const auto number = static_cast<std::size_t>(kind);
   return number < kWords.size() ? kWords[number] : "?";
 }

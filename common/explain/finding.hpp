@@ -31,6 +31,7 @@ enum class Kind : std::uint8_t {
   drag,            ///< a source walks away from navigation
   outliers,        ///< single values far off among good ones
   noisy,           ///< a source scatters more than is said of it
+  biased,          ///< a bias of the inertial unit is larger than is said of it
   wrong_lever,     ///< innovations turn with the vehicle
   lost,            ///< a source that had been used gave nothing that could be used
   refused,         ///< many measurements not used for a reason of their own: late, twice, frame
@@ -39,7 +40,7 @@ enum class Kind : std::uint8_t {
   reset,           ///< the position stepped
   growth,          ///< the uncertainty grew
 };
-inline constexpr std::size_t kKinds = 23;
+inline constexpr std::size_t kKinds = 24;
 [[nodiscard]] std::string_view to_string(Kind kind);
 
 enum class Weight : std::uint8_t {

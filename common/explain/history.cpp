@@ -10,6 +10,8 @@ namespace {
 
 constexpr DurationNs kStateStep_ns = kNsPerSecond / 10;
 constexpr DurationNs kCutStep_ns = 5 * kNsPerSecond;
+/// What is said again within it is the same.
+constexpr DurationNs kSame_ns = 30 * kNsPerSecond;
 constexpr std::size_t kMostOpen = 65'536;
 
 template <class List>
@@ -61,6 +63,7 @@ void History::forget() {
   cut(dvl_, [](const DvlRow& row) { return row.stamp_ns; });
   cut(alarms_, by_arrival);
   cut(noise_, by_arrival);
+  cut(biases_, by_arrival);
   cut(orders_, by_arrival);
   for (Stream& stream : streams_) cut(stream.seconds, [](const Second& row) { return row.at_ns; });
   // What holds until something new is said stays, whatever its age: the last of each.
@@ -221,7 +224,6 @@ void History::add(const Verdict& verdict, const Arrival& arrival) {
 }
 
 void History::noisy(const NoiseFactor& found, TimeNs log_ns) {
-  constexpr DurationNs kSame_ns = 30 * kNsPerSecond;
   const auto row = std::find_if(noise_.rbegin(), noise_.rend(),
                                 [&](const NoiseRow& one) { return one.sensor == found.sensor; });
   if (row == noise_.rend() || log_ns - row->log_ns > kSame_ns) {
@@ -232,9 +234,21 @@ void History::noisy(const NoiseFactor& found, TimeNs log_ns) {
   row->most = std::max(row->most, found.factor);
 }
 
+void History::biased(const FoundBias& found, TimeNs log_ns) {
+  const auto row = std::find_if(biases_.rbegin(), biases_.rend(),
+                                [&](const BiasRow& one) { return one.last.axis == found.axis; });
+  if (row == biases_.rend() || log_ns - row->log_ns > kSame_ns) {
+    biases_.push_back({found, log_ns, log_ns});
+    return;
+  }
+  row->log_ns = log_ns;
+  row->last = found;
+}
+
 void History::add(const AlignmentStatus& status, const Arrival& arrival) {
   if (!begin(status.header, arrival)) return;
   for (const NoiseFactor& one : noise_factors(status)) noisy(one, arrival.log_ns);
+  for (const FoundBias& one : found_biases(status)) biased(one, arrival.log_ns);
   AlignmentRow row;
   row.log_ns = arrival.log_ns;
   row.phase = status.phase;

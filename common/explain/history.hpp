@@ -146,6 +146,13 @@ struct NoiseRow {
   double most = 1.0;  ///< the largest factor of its sigma
 };
 
+/// A bias of the inertial unit that is larger than is said of it.
+struct BiasRow {
+  FoundBias last;
+  TimeNs begin_ns = 0;
+  TimeNs log_ns = 0;  ///< the last time that it was said
+};
+
 struct OrderRow {
   TimeNs log_ns = 0;
   Command order;
@@ -199,6 +206,7 @@ class History {
   [[nodiscard]] const std::deque<AlarmRow>& alarms() const { return alarms_; }
   [[nodiscard]] const std::deque<AlignmentRow>& alignment() const { return alignment_; }
   [[nodiscard]] const std::deque<NoiseRow>& noise() const { return noise_; }
+  [[nodiscard]] const std::deque<BiasRow>& biases() const { return biases_; }
   [[nodiscard]] const std::deque<OrderRow>& orders() const { return orders_; }
   [[nodiscard]] const std::deque<RunRow>& runs() const { return runs_; }
 
@@ -224,6 +232,7 @@ class History {
   void fix(const GpsSample& sample);
   void dvl(const DvlSample& sample);
   void noisy(const NoiseFactor& found, TimeNs log_ns);
+  void biased(const FoundBias& found, TimeNs log_ns);
   std::optional<std::uint32_t> stream_of(SourceKind kind, const Name& sensor);
   std::uint32_t number_of(const std::string& name);
   std::uint32_t writer_of(const Arrival& arrival);
@@ -250,6 +259,7 @@ class History {
   std::deque<AlarmRow> alarms_;
   std::deque<AlignmentRow> alignment_;
   std::deque<NoiseRow> noise_;
+  std::deque<BiasRow> biases_;
   std::deque<OrderRow> orders_;
   std::deque<RunRow> runs_;
   std::deque<std::string> names_;

@@ -244,6 +244,10 @@ std::string sentence(const Finding& f) {
     case Kind::noisy:
       return f.subject + " scattered for " + lasting(f.figure("for_s")) + " up to " +
              brief(f.figure("factor")) + " times as much as its sigmas say; navigation counted with that.";
+    case Kind::biased:
+      return "The bias of " + f.subject + " is " + brief(f.figure("bias")) + " " + f.word +
+             ", and a sigma of " + brief(f.figure("configured_sigma")) + " " + f.word +
+             " is configured; navigation counted with the bias.";
     case Kind::wrong_lever:
       return wrong_lever(f);
     case Kind::lost:
@@ -296,6 +300,8 @@ std::string advice(const Finding& f) {
                               : "Look at the instrument and at what lies in its way.";
     case Kind::noisy:
       return "Look at the instrument and at what disturbs it, or at its sigma in the configuration.";
+    case Kind::biased:
+      return "Look at the inertial unit, or at the sigma of its bias in the configuration.";
     case Kind::interference:
       return "Do not believe the receiver; look at transmitters near its antenna.";
     case Kind::lost:

@@ -42,6 +42,7 @@ class Judge {
     // Causes before what follows from them.
     inertial();
     for (const Source& source : m_.sources) measurement(source);
+    biases();
     noise();
     consistency();
     outages();
@@ -179,6 +180,15 @@ class Judge {
     }
     // Rejections are told already.
     if (rejected <= kManyRejected) spread(source);
+  }
+
+  void biases() {
+    for (const FoundBias& one : m_.biases)
+      say(Weight::caution,
+          std::string("The ") + one.text().data() +
+              ". Navigation counts with the bias. Look at the inertial unit, or at its sigma in the "
+              "configuration.",
+          "innovations");
   }
 
   void noise() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dataset/score.hpp"
+#include "samples/alignment/help.hpp"
 #include "samples/innovation_tally.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/verdict.hpp"
@@ -127,6 +128,7 @@ struct Material {
   /// By sensor, how many times as much it scattered at most as is said of it; those that did as is said are
   /// left out.
   std::map<std::string, double> noise_factors;
+  std::vector<FoundBias> biases;     ///< of the inertial unit, that are larger than is said of them
   std::vector<ServiceRow> services;  ///< of a recording, by name
   std::vector<Told> told;            ///< of a recording, the likeliest cause first
   /// Rows of each sensor in the data.

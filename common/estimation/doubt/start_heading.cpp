@@ -5,13 +5,12 @@
 
 #include <Eigen/Cholesky>
 
+#include "estimation/doubt/certainty.hpp"
 #include "estimation/filter/adjoint.hpp"
 
 namespace fathom::estimation {
 namespace {
 
-/// So many sigmas leave no doubt.
-constexpr double kCertain = 5.0;
 /// And what they say of the start has to be known as well as this.
 constexpr double kWellKnown_rad = 0.06;
 /// Measurements of so long a time count as one, and so many of these have to agree: what is wrong with an
@@ -27,8 +26,6 @@ constexpr double kMemory_s = 60.0;
 /// A refused measurement speaks of the start where a wrong heading explains this share of its squared
 /// innovation.
 constexpr double kExplained = 0.5;
-/// A large error is found in steps. One that is never found is another one.
-constexpr std::uint32_t kMostCorrections = 3;
 /// Less than this share of an error of the start is left: it does not matter any more.
 constexpr double kNegligible = 0.3;
 
@@ -133,11 +130,22 @@ void StartHeading::refused(const Observation& observation, const InnovationStati
 void StartHeading::corrected() {
   // (KF-4): an error about down is that of the heading turned round.
   found_rad_ -= error_rad();
+  forget_evidence();
+  if (++corrections_ == kMostCorrections) end();
+}
+
+void StartHeading::forget_evidence() {
   gradient_ = curvature_ = 0.0;
   scatter_ = {};
   together_ = {};
   together_s_ = 0.0;
-  if (++corrections_ == kMostCorrections) end();
+}
+
+void StartHeading::shifted(const Column& column, double share, std::size_t state) {
+  if (!open_) return;
+  const double by = share * column_[state];
+  for (std::size_t i = 0; i < column_.size(); ++i) column_[i] += by * column[i];
+  forget_evidence();
 }
 
 void StartHeading::carried(const Carry& carry) {

@@ -37,6 +37,9 @@ class StartHeading {
   /// A measurement was not taken in. `statistics` with the noise that it says it has.
   void refused(const Observation& observation, const InnovationStatistics& statistics, double turn_rad_s);
   void carried(const Carry& carry);
+  /// P has grown by `share` times the square of `column`, that of a state whose prior was wrong (GATE-11):
+  /// what was seen until now was seen with that.
+  void shifted(const Column& column, double share, std::size_t state);
   void forgot(std::size_t state) { column_[state] = 0.0; }
 
   [[nodiscard]] bool is_open() const { return open_; }
@@ -55,6 +58,7 @@ class StartHeading {
 
  private:
   struct Evidence;
+  void forget_evidence();
   void add(const Evidence& evidence, double turn_rad_s);
 
   bool open_ = false;

@@ -236,6 +236,25 @@ int add_noise_factors(const EngineConfig& config, const Navigator& navigator, Al
   return worst;
 }
 
+/// Returns the bias that is the largest multiple of what is said of it; without an axis: none is larger.
+FoundBias add_found_biases(const Setup& setup, const Estimate& estimate, AlignmentStatus& out) {
+  const ImuConfig& imu = setup.config.imu;
+  FoundBias worst;
+  for (std::size_t i = 0; i < kBiasAxes.size(); ++i) {
+    if (!estimate.bias_prior.is_found(i)) continue;
+    const bool gyro = i < 3;
+    const int state = setup.index.of(gyro ? Group::gyro_bias : Group::accel_bias) + static_cast<int>(i % 3);
+    const FoundBias one{kBiasAxes[i], estimate.state.x[static_cast<std::size_t>(state)],
+                        gyro ? imu.gyro_bias_sigma_rad_s : imu.accel_bias_sigma_m_s2};
+    char name[32];
+    std::snprintf(name, sizeof name, "%s%s", kBiasPrefix.data(), one.axis.data());
+    add_condition(out, name, one.value, one.said_sigma, true);
+    if (worst.axis.empty() || std::abs(one.value) * worst.said_sigma > std::abs(worst.value) * one.said_sigma)
+      worst = one;
+  }
+  return worst;
+}
+
 }  // namespace
 
 void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) {
@@ -258,20 +277,24 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
   }
   const double start_rad = navigator.navigating() ? navigator.estimate().start_heading.found_rad() : 0.0;
   if (start_rad != 0.0) add_condition(out, kStartHeadingError.data(), start_rad, kUnknown, true);
-  const int noisy = navigator.navigating() ? add_noise_factors(setup.config, navigator, out) : -1;
-  if (const PlausibilityFinding& finding = navigator.implausible()) {
+  const PlausibilityFinding& implausible = navigator.implausible();
+  if (implausible) {
     char name[32];
-    std::snprintf(name, sizeof name, "%s%s", kImplausiblePrefix.data(), to_string(finding.kind).data());
-    add_condition(out, name, finding.value, kUnknown, false);
-    write_sentence(finding, setup.config.imu.nominal_rate_hz, out.advice);
-    return;
+    std::snprintf(name, sizeof name, "%s%s", kImplausiblePrefix.data(), to_string(implausible.kind).data());
+    add_condition(out, name, implausible.value, kUnknown, false);
   }
+  const FoundBias biased =
+      navigator.navigating() ? add_found_biases(setup, navigator.estimate(), out) : FoundBias{};
+  const int noisy = navigator.navigating() ? add_noise_factors(setup.config, navigator, out) : -1;
+  if (implausible) return write_sentence(implausible, setup.config.imu.nominal_rate_hz, out.advice);
   write(out.advice, "%s", advice(c, navigator, config, sigma));
   if (out.advice[0] == '\0' && start_rad != 0.0)
     write(out.advice,
           "The heading of the start was wrong by %.0f deg and was corrected: check the compass, or what was "
           "given.",
           start_rad * kDegPerRad);
+  if (out.advice[0] == '\0' && !biased.axis.empty())
+    write(out.advice, "The %s: check the unit or its sigma.", biased.text().data());
   if (out.advice[0] == '\0' && noisy >= 0)
     write(out.advice,
           "The noise of %.31s is %.1f times what is configured and counts as that: check it or its sigma.",

@@ -156,6 +156,30 @@ void StartHeading::fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+void BiasPrior::Blocks::fields(Archive& archive, Self& self) {
+  archive("gradient_before", self.before.gradient, fathom::archive::finite());
+  archive("curvature_before", self.before.curvature, fathom::archive::finite());
+  archive("curvature", self.curvature, fathom::archive::finite());
+  archive("scatter", self.scatter, fathom::archive::finite());
+}
+
+template <class Archive, class Self>
+void BiasPrior::Bias::fields(Archive& archive, Self& self) {
+  archive.left_out(self.state);
+  archive("mean", self.mean, fathom::archive::finite());
+  archive("variance", self.variance, fathom::archive::at_least_zero());
+  archive("corrections", self.corrections, fathom::archive::kCount);
+  archive("blocks", self.blocks);
+}
+
+template <class Archive, class Self>
+void BiasPrior::fields(Archive& archive, Self& self) {
+  archive("biases", self.biases_);
+  archive("open", self.open_);
+  archive("block_s", self.block_s_, fathom::archive::at_least_zero());
+}
+
+template <class Archive, class Self>
 void Estimate::later_fields(Archive& archive, Self& self) {
   archive("usual_force_B", self.usual_force_B_m_s2, fathom::archive::finite());
 }
@@ -279,6 +303,11 @@ void Navigator::fields(Archive& archive, Self& self) {
   if (archive.since(12)) archive("start_heading", self.estimate_.start_heading);
   if (archive.since(13))
     archive("bottom_refused_ns", self.usage_.bottom_refused_ns, fathom::archive::kInstant);
+  if (archive.since(15)) {
+    archive("bias_prior", self.estimate_.bias_prior);
+  } else if constexpr (Archive::kReads) {
+    self.estimate_.bias_prior.begin(self.estimate_.state, self.estimate_.filter);
+  }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

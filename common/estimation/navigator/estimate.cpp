@@ -29,6 +29,17 @@ std::array<double, kMaxStates> short_of_tangent(const std::array<double, kMaxSta
   return out;
 }
 
+/// Gives `target`, a covariance or what is said of the biases, this share of what they settle by (NOISE-2).
+template <class Target>
+void settle(const Setup& setup, double share, Target& target) {
+  const auto widen_group = [&](Group group, double sigma) {
+    const int first = setup.index.of(group);
+    for (int i = 0; i < 3; ++i) target.widen(first + i, share * sigma * sigma);
+  };
+  widen_group(Group::gyro_bias, setup.config.imu.gyro_bias_settling_rad_s);
+  widen_group(Group::accel_bias, setup.config.imu.accel_bias_settling_m_s2);
+}
+
 }  // namespace
 
 void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns) {
@@ -74,7 +85,11 @@ void Estimate::follow(const Setup& setup) {
   const NavTransition step(setup.index, rates, c, stride.rate_B_rad_s(), stride.force_B_m_s2(), dt);
   filter.propagate(step, noise);
   start_heading.propagated(step, noise);
-  settle_biases(setup, filter, -dt, dt);
+  bias_prior.propagated(setup.drift, dt, state, filter);
+  if (const double share = settling_share(setup, -dt, dt); share > 0.0) {
+    settle(setup, share, filter);
+    settle(setup, share, bias_prior);
+  }
   for (const std::uint8_t one : setup.drift.decaying()) state.x[one] *= setup.drift.kept(one, dt);
   stride = {};
 }
@@ -110,19 +125,18 @@ void Estimate::add_g_sensitivity(const Setup& setup, ProcessNoise& noise) {
   usual_force_B_m_s2 += (1.0 - std::exp(-stride.dt_s() / kDriftMemory_s)) * fresh;
 }
 
-void Estimate::settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {
+double Estimate::settling_share(const Setup& setup, double ahead_s, double dt_s) const {
   // (NOISE-2)
   const ImuConfig& imu = setup.config.imu;
-  if (imu.gyro_bias_settling_rad_s <= 0.0 && imu.accel_bias_settling_m_s2 <= 0.0) return;
+  if (imu.gyro_bias_settling_rad_s <= 0.0 && imu.accel_bias_settling_m_s2 <= 0.0) return 0.0;
   const double age_s = std::max(to_seconds(now_ns - began_ns) + ahead_s, 0.0);
   const double rate = 2.0 / imu.bias_settling_time_s;
-  const double share = std::exp(-rate * age_s) - std::exp(-rate * (age_s + dt_s));
-  const auto widen_group = [&](Group group, double sigma) {
-    const int first = setup.index.of(group);
-    for (int i = 0; i < 3; ++i) covariance.widen(first + i, share * sigma * sigma);
-  };
-  widen_group(Group::gyro_bias, imu.gyro_bias_settling_rad_s);
-  widen_group(Group::accel_bias, imu.accel_bias_settling_m_s2);
+  return std::exp(-rate * age_s) - std::exp(-rate * (age_s + dt_s));
+}
+
+void Estimate::settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {
+  if (const double share = settling_share(setup, ahead_s, dt_s); share > 0.0)
+    settle(setup, share, covariance);
 }
 
 bool Estimate::is_sound() const {
@@ -192,7 +206,28 @@ void Estimate::correct_start(const Setup& setup, VelocityOver along, std::array<
     x[i] += moved[i];
   }
   start_heading.corrected();
+  bias_prior.interrupt();
   move(setup, moved, before, along);
+}
+
+bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x) {
+  // (GATE-11)
+  const std::optional<BiasPrior::Wrong> wrong = bias_prior.wrong(state, filter);
+  if (!wrong) return false;
+  const Vector3d before = velocity_N_m_s(setup, along);
+  const double by = wrong->share * wrong->beyond;
+  std::array<double, kMaxStates> column{};
+  for (int i = 0; i < filter.size(); ++i) column[static_cast<std::size_t>(i)] = filter(i, wrong->state);
+  std::array<double, kMaxStates> moved{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i) {
+    moved[i] = by * column[i];
+    x[i] += moved[i];
+  }
+  filter.shift(column, by, wrong->share);
+  start_heading.shifted(column, wrong->share, static_cast<std::size_t>(wrong->state));
+  bias_prior.corrected(*wrong);
+  move(setup, moved, before, along);
+  return true;
 }
 
 double Estimate::turn_rad_s() const {
@@ -214,12 +249,14 @@ void Estimate::replace(const Setup& setup, const FilterState& other, const Error
   state = other;
   filter = covariance;
   start_heading.end();
+  bias_prior.interrupt();
   stride = {};
 }
 
 void Estimate::forget_covariance(const std::array<double, kMaxStates>& sigma) {
   filter.reset(sigma);
   start_heading.end();
+  bias_prior.begin(state, filter);
   stride = {};
 }
 

@@ -6,6 +6,7 @@
 #include "base/unknown.hpp"
 #include "estimation/aiding/model.hpp"
 #include "estimation/aiding/policy.hpp"
+#include "estimation/doubt/bias_prior.hpp"
 #include "estimation/doubt/start_heading.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/navigator/inertial_step.hpp"
@@ -16,7 +17,7 @@ namespace fathom::estimation {
 /// What is believed of the vehicle at an instant: state, covariance, rate and specific force. Every part of
 /// the navigator acts on it; what only one part needs is kept there.
 struct Estimate {
-  explicit Estimate(const Setup& setup) : filter(setup.index) {}
+  explicit Estimate(const Setup& setup) : filter(setup.index), bias_prior(setup.index) {}
 
   TimeNs now_ns = 0;
   bool navigating = false;  ///< state and filter are an estimate
@@ -30,6 +31,7 @@ struct Estimate {
   Eigen::Vector3d usual_force_B_m_s2{0.0, 0.0, -kStandardGravity_m_s2};
   Eigen::Vector3d travelled_N_m = Eigen::Vector3d::Zero();  ///< integral of the velocity
   StartHeading start_heading;
+  BiasPrior bias_prior;
   Stride stride;  ///< by which the filter is behind the state
 
   /// Seconds since an instant; unknown when it is 0, which stands for never.
@@ -56,6 +58,9 @@ struct Estimate {
   /// The heading of the start was wrong (GATE-9): takes out what that has done since. Adds to `x` what the
   /// state is moved by.
   void correct_start(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x);
+  /// A bias of the inertial unit is larger than is said of it (GATE-11): takes back what was concluded from
+  /// what is said. Adds to `x` what the state is moved by. False, with nothing changed, if none is.
+  bool correct_bias(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x);
   /// Another estimate for the same instant, as the smoother has it.
   void replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance);
   /// What is considered is as uncertain as at the start and shares nothing with the states.
@@ -85,6 +90,9 @@ struct Estimate {
   static void later_fields(Archive& archive, Self& self);
 
  private:
+  /// Of the variance by which the settling biases move altogether (NOISE-2), what is due in `dt_s` from
+  /// `ahead_s` after now on; 0 where none settles.
+  [[nodiscard]] double settling_share(const Setup& setup, double ahead_s, double dt_s) const;
   /// Moves the state by the estimated error `x` (KF-4, KF-5). `before_N_m_s`: velocity_N_m_s(), not yet
   /// moved.
   void move(const Setup& setup, const std::array<double, kMaxStates>& x, const Eigen::Vector3d& before_N_m_s,

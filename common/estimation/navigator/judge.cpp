@@ -252,10 +252,10 @@ bool Navigator::update(Trial& trial) {
   }
   if (!estimate_.update(*setup_, *trial.kept, trial.statistics, velocity_along(trial.policy), trial.x))
     return trial.end(VerdictKind::rejected);
-  if (start_was_wrong(trial)) {
-    estimate_.correct_start(*setup_, velocity_along(trial.policy), trial.x);
-    trial.stepped = trial.stepped || std::hypot(trial.x[0], trial.x[1]) > kNoticed_m;
-  }
+  bool corrected = start_was_wrong(trial);
+  if (corrected) estimate_.correct_start(*setup_, velocity_along(trial.policy), trial.x);
+  corrected = estimate_.correct_bias(*setup_, velocity_along(trial.policy), trial.x) || corrected;
+  if (corrected) trial.stepped = trial.stepped || std::hypot(trial.x[0], trial.x[1]) > kNoticed_m;
   return true;
 }
 

@@ -21,9 +21,6 @@ constexpr double kLeastUnheard_s = 1.0;
 constexpr double kLevelledLately_s = 120.0;
 /// Sooner it is the same time.
 constexpr double kLeastLevelled_s = 2.0;
-/// Of a bias, by which no inertial unit that is at all calibrated is off.
-constexpr double kMostAccelBias_m_s2 = 0.05 * kGravity_m_s2;
-constexpr double kMostGyroBias_rad_s = 1.0 * kRadPerDeg;
 constexpr double kLeastDispute_s = 5.0;
 constexpr double kDeviations = 4.0;
 /// However sure of its velocity the filter is.
@@ -346,12 +343,16 @@ void Reacquisition::doubt_biases(const Setup& setup, Estimate& estimate, double 
   const auto widen = [&](Group group, double sigma) {
     const int first = setup.index.of(group);
     if (first < 0 || first >= setup.index.estimated()) return;
-    for (int i = first; i < first + group_size(group); ++i) estimate.filter.widen(i, sigma * sigma);
+    for (int i = first; i < first + group_size(group); ++i) {
+      estimate.filter.widen(i, sigma * sigma);
+      estimate.bias_prior.widen(i, sigma * sigma);
+    }
   };
   const double wrong_m_s = std::sqrt(wrong_m2_s2);
   widen(Group::accel_bias, std::min(wrong_m_s / since_s, kMostAccelBias_m_s2));
   widen(Group::gyro_bias,
         std::min(wrong_m_s / (0.5 * kGravity_m_s2 * since_s * since_s), kMostGyroBias_rad_s));
+  estimate.bias_prior.interrupt();
 }
 
 }  // namespace fathom::estimation

@@ -22,6 +22,8 @@ void watch_receivers(const History& history, Findings& out);
 void watch_refusals(const History& history, const Track& track, Findings& out);
 /// noisy. `out` holds the findings of refusals: noise is not told as outliers as well.
 void watch_noise(const History& history, Findings& out);
+/// biased.
+void watch_biases(const History& history, Findings& out);
 /// wrong_heading, by what GPS and a DVL tell of the course over ground.
 void watch_course(const History& history, const Track& track, Findings& out);
 /// wrong_lever. `out` holds the findings of all before.

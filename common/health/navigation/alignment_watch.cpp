@@ -21,6 +21,8 @@ void AlignmentWatch::add(const AlignmentStatus& status, const Instant& now) {
     if (noisy_.size() < kMostNoisy &&
         std::find(noisy_.begin(), noisy_.end(), Name(one.sensor)) == noisy_.end())
       noisy_.emplace_back(one.sensor);
+  for (const FoundBias& one : found_biases(status))
+    if (std::find(biased_.begin(), biased_.end(), one.axis) == biased_.end()) biased_.push_back(one.axis);
   const bool nav_speaks = nav_heard_ && now.monotonic_ns - nav_heard_ns_ < kNsPerSecond;
   if (!nav_speaks) phase(status.phase, now);
 }
@@ -81,6 +83,7 @@ void AlignmentWatch::report(AlarmBook& book, const Instant& now) const {
             .value = wrong != nullptr ? wrong->value : 0.0},
            now);
   report_noise(book, now);
+  report_biases(book, now);
   const double lost_s = ever_aligned_ && !aligned ? to_seconds(now.monotonic_ns - lost_since_ns_) : 0.0;
   book.set(ever_aligned_ && !aligned,
            {.key = "alignment_lost",
@@ -107,6 +110,21 @@ void AlignmentWatch::report_noise(AlarmBook& book, const Instant& now) const {
                           sensor.c_str(), factor),
          .value = factor},
         now);
+  }
+}
+
+void AlignmentWatch::report_biases(AlarmBook& book, const Instant& now) const {
+  const std::vector<FoundBias> biases = found_biases(last_);
+  for (const std::string_view axis : biased_) {
+    const auto found =
+        std::find_if(biases.begin(), biases.end(), [&](const FoundBias& one) { return one.axis == axis; });
+    const FoundBias one = found == biases.end() ? FoundBias{axis} : *found;
+    book.set(found != biases.end(),
+             {.key = alarm_key("biased", axis),
+              .severity = Severity::notice,
+              .text = sentence("The %s. Navigation counts with the bias.", one.text().data()),
+              .value = one.in_unit(one.value)},
+             now);
   }
 }
 

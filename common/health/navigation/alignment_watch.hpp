@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "health/alarm_book.hpp"
@@ -25,7 +26,7 @@ class AlignmentWatch {
   void add(const NavState& state, const Instant& now);
   /// Alarms "not_aligned" (for too long, or timed out), "alignment_lost" (after it was aligned),
   /// "implausible" (an instrument cannot be right: what the advice says), "noisy:<sensor>" (it scatters more
-  /// than its sigmas say).
+  /// than its sigmas say), "biased:<axis>" (of the inertial unit, by more than its sigma says).
   void report(AlarmBook& book, const Instant& now) const;
 
   [[nodiscard]] AlignmentPhase phase() const { return phase_; }
@@ -34,6 +35,7 @@ class AlignmentWatch {
   void phase(AlignmentPhase phase, const Instant& now);
   [[nodiscard]] std::string unmet() const;
   void report_noise(AlarmBook& book, const Instant& now) const;
+  void report_biases(AlarmBook& book, const Instant& now) const;
 
   AlignmentWatchConfig config_;
   bool heard_ = false;
@@ -42,7 +44,8 @@ class AlignmentWatch {
   bool ever_aligned_ = false;
   TimeNs lost_since_ns_ = 0;
   AlignmentStatus last_;
-  std::vector<Name> noisy_;  ///< sensors that were, once
+  std::vector<Name> noisy_;               ///< sensors that were, once
+  std::vector<std::string_view> biased_;  ///< axes that were, once
   bool last_known_ = false;
   bool nav_heard_ = false;
   TimeNs nav_heard_ns_ = 0;

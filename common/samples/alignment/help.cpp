@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <span>
 #include <utility>
+
+#include "base/units.hpp"
 
 namespace fathom {
 namespace {
@@ -92,6 +95,37 @@ std::vector<NoiseFactor> noise_factors(const AlignmentStatus& status) {
   for (const AlignmentCondition& one : conditions(status))
     if (one.name.view().starts_with(kNoiseFactorPrefix))
       out.push_back({one.name.view().substr(kNoiseFactorPrefix.size()), one.value});
+  return out;
+}
+
+std::string_view FoundBias::unit() const {
+  return axis.starts_with("gyro") ? "deg/h" : "mg";
+}
+
+double FoundBias::in_unit(double si) const {
+  constexpr double kSecondsPerHour = 3600.0;
+  constexpr double kMilli = 1e-3;
+  return axis.starts_with("gyro") ? si * kDegPerRad * kSecondsPerHour : si / (kMilli * kStandardGravity_m_s2);
+}
+
+std::array<char, 96> FoundBias::text() const {
+  std::array<char, 96> out{};
+  const std::size_t split = std::min(axis.find('_'), axis.size());
+  const std::string_view number = axis.substr(std::min(split + 1, axis.size()));
+  std::snprintf(out.data(), out.size(), "bias of %.*s %.*s is %.1f %s, and a sigma of %.4g %s is configured",
+                static_cast<int>(split), axis.data(), static_cast<int>(number.size()), number.data(),
+                in_unit(value), unit().data(), in_unit(said_sigma), unit().data());
+  return out;
+}
+
+std::vector<FoundBias> found_biases(const AlignmentStatus& status) {
+  std::vector<FoundBias> out;
+  for (const AlignmentCondition& one : conditions(status)) {
+    const std::string_view name = one.name.view();
+    if (!name.starts_with(kBiasPrefix)) continue;
+    const auto* const axis = std::find(kBiasAxes.begin(), kBiasAxes.end(), name.substr(kBiasPrefix.size()));
+    if (axis != kBiasAxes.end()) out.push_back({*axis, one.value, one.limit});
+  }
   return out;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +32,26 @@ struct NoiseFactor {
 };
 /// All of a status. The names are its own.
 [[nodiscard]] std::vector<NoiseFactor> noise_factors(const AlignmentStatus& status);
+
+/// A condition of this kind says that a bias of the inertial unit is larger than is said of it, and that
+/// navigation counts with that: `value` the bias and `limit` the sigma that is configured, rad/s or m/s^2.
+/// Its name goes on with the axis. Always met, and absent where a bias is as is said.
+inline constexpr std::string_view kBiasPrefix = "bias_of_";
+/// Of B, in the order of the filter.
+inline constexpr std::array<std::string_view, 6> kBiasAxes{
+    "gyro_x", "gyro_y", "gyro_z", "accelerometer_x", "accelerometer_y", "accelerometer_z"};
+struct FoundBias {
+  std::string_view axis;  ///< one of kBiasAxes
+  double value = 0.0;
+  double said_sigma = 0.0;
+
+  [[nodiscard]] std::string_view unit() const;  ///< "deg/h" or "mg", as data sheets have it
+  [[nodiscard]] double in_unit(double si) const;
+  /// "bias of gyro x is 21.3 deg/h, and a sigma of 1 deg/h is configured", zero-terminated.
+  [[nodiscard]] std::array<char, 96> text() const;
+};
+/// All of a status.
+[[nodiscard]] std::vector<FoundBias> found_biases(const AlignmentStatus& status);
 
 /// Which instrument is meant and in what it is wrong: "unit", "sign", "axes", "rate" or "mounting", as
 /// findings of commissioning are named.

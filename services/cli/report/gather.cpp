@@ -193,6 +193,7 @@ Material gather(const SolveRun& solve_run, TimeNs epoch_ns) {
   Material out = gatherer.finish();
   out.start_heading_error_rad = start_heading_error_rad(result.alignment);
   out.noise_factors = result.noise_factors;
+  for (const auto& [axis, one] : result.biases) out.biases.push_back(one);
   return out;
 }
 

@@ -210,7 +210,14 @@ std::string to_json(const SolveReport& report) {
   }
   if (!report.smoothed)
     out["start_heading_error_deg"] = start_heading_error_rad(report.result.alignment) * kDegPerRad;
-  if (!report.smoothed) out["noise_factors"] = report.result.noise_factors;
+  if (!report.smoothed) {
+    out["noise_factors"] = report.result.noise_factors;
+    out["biases"] = json::object();
+    for (const auto& [axis, one] : report.result.biases)
+      out["biases"][std::string(axis)] = {{"value", number(one.in_unit(one.value))},
+                                          {"configured_sigma", number(one.in_unit(one.said_sigma))},
+                                          {"unit", one.unit()}};
+  }
   out["wall_time_s"] = report.result.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.result));
   out["verdicts"] = verdicts(report.result.verdicts);
@@ -282,6 +289,8 @@ std::string to_text(const SolveReport& report) {
   for (const auto& [sensor, factor] : report.result.noise_factors)
     out += line("the noise of %s was up to %.1f times what is configured, and counted as that",
                 sensor.c_str(), factor);
+  for (const auto& [axis, one] : report.result.biases)
+    out += line("the %s; navigation counts with the bias", one.text().data());
   if (known(report.heading.aligned_after_s))
     out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
   if (const double start_rad = start_heading_error_rad(report.result.alignment); start_rad != 0.0)

@@ -96,6 +96,7 @@ void SolveResult::note(const AlignmentStatus& status, const estimation::EngineCo
     double& largest = noise_factors[std::string(one.sensor)];
     largest = std::max(largest, one.factor);
   }
+  for (const FoundBias& one : found_biases(status)) biases[one.axis] = one;
   const AlignmentCondition* found = implausible(status);
   if (found == nullptr) return;
   auto known = std::find_if(implausibles.begin(), implausibles.end(),

@@ -124,7 +124,10 @@ struct SolveResult {
   /// By sensor, the largest of the run: see samples/alignment/help.hpp.
   std::map<std::string, double> noise_factors;
 
-  /// Keeps what a status finds implausible or noisy.
+  /// By axis, what they are at the end: see samples/alignment/help.hpp.
+  std::map<std::string_view, FoundBias> biases;
+
+  /// Keeps what a status finds implausible, noisy or biased.
   void note(const AlignmentStatus& status, const estimation::EngineConfig& config, double at_s);
   /// Counts a final verdict; others change nothing.
   void add(const Verdict& verdict);

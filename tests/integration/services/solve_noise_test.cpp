@@ -1,4 +1,5 @@
-// What `fathom solve` and `fathom report` say of an instrument that is noisier than its sigmas.
+// What `fathom solve` and `fathom report` say of an instrument that is worse than its sigmas.
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,7 @@
 namespace fathom::test {
 namespace {
 
-class NoisyInstrument : public SolveTest {
+class WorseThanSaid : public SolveTest {
  protected:
   void simulate(const std::vector<std::string>& set) {
     std::vector<std::string> arguments{"simulate", "survey", "--out", path("data"), "--duration", "150"};
@@ -26,7 +27,7 @@ class NoisyInstrument : public SolveTest {
   }
 };
 
-TEST_F(NoisyInstrument, IsNamedWithItsFactor) {
+TEST_F(WorseThanSaid, NoiseIsNamedWithItsFactor) {
   simulate({"--set", "sensors.dvl.beam_sigma_m_s=0.05"});
   const auto metrics = nlohmann::json::parse(told("solve", {"--json", "--out", path("nav.csv")}));
   ASSERT_EQ(metrics["noise_factors"].size(), 1U) << metrics["noise_factors"];
@@ -37,10 +38,27 @@ TEST_F(NoisyInstrument, IsNamedWithItsFactor) {
   EXPECT_NE(content("report.html").find("The noise of dvl was up to "), std::string::npos);
 }
 
-TEST_F(NoisyInstrument, IsNoneOfASoundVehicle) {
+TEST_F(WorseThanSaid, ABiasIsNamedWithItsAxis) {
+  simulate({"--set", "sensors.imu.gyro.bias_sigma_deg_h=100"});
+  const auto metrics = nlohmann::json::parse(told("solve", {"--json", "--out", path("nav.csv")}));
+  ASSERT_GE(metrics["biases"].size(), 2U) << metrics["biases"];
+  for (const auto& [axis, bias] : metrics["biases"].items()) {
+    EXPECT_EQ(axis.substr(0, 5), "gyro_");
+    EXPECT_EQ(bias["unit"], "deg/h");
+    EXPECT_NEAR(bias["configured_sigma"].get<double>(), 1.0, 1e-9);
+    EXPECT_GT(std::abs(bias["value"].get<double>()), 5.0) << axis;
+    EXPECT_LT(std::abs(bias["value"].get<double>()), 300.0) << axis;
+  }
+  EXPECT_NE(told("solve", {"--out", path("nav.csv")}).find("the bias of gyro "), std::string::npos);
+  told("report", {"--out", path("report.html")});
+  EXPECT_NE(content("report.html").find("The bias of gyro "), std::string::npos);
+}
+
+TEST_F(WorseThanSaid, NothingIsOfASoundVehicle) {
   simulate({});
   const auto metrics = nlohmann::json::parse(told("solve", {"--json", "--out", path("nav.csv")}));
   EXPECT_TRUE(metrics["noise_factors"].empty()) << metrics["noise_factors"];
+  EXPECT_TRUE(metrics["biases"].empty()) << metrics["biases"];
 }
 
 }  // namespace

@@ -14,22 +14,22 @@ using Eigen::Vector3d;
 
 constexpr double kSensitivity = 0.005 * kRadPerDeg / kStandardGravity_m_s2;  // rad/s per m/s^2
 constexpr double kMemory_s = 30.0;
-constexpr double kRate_hz = 20.0;
-constexpr double kLatitude_rad = 0.7;
+constexpr double kSampled_hz = 20.0;
+constexpr double kRestLatitude_rad = 0.7;
 
 /// Variance of the attitude error about down that a vehicle at rest collects, pitched up or down by turns of
 /// `period_s`; the pitch jumps, and the gyros say so.
 double heading_variance(double pitch_rad, double period_s, double duration_s, double sensitivity) {
   EngineConfig config;
   config.alignment.mode = StartMode::given;
-  config.imu.nominal_rate_hz = kRate_hz;
+  config.imu.nominal_rate_hz = kSampled_hz;
   config.imu.angle_random_walk_rad_sqrt_s = 1e-7;
   config.imu.gyro_bias_sigma_rad_s = config.imu.gyro_bias_instability_rad_s = 1e-11;
   config.imu.gyro_scale_sigma = config.imu.gyro_misalignment_sigma_rad = 0.0;
   config.imu.gyro_g_sensitivity_rad_s_per_m_s2 = sensitivity;
   FusionEngine engine(config);
   InitialState start;
-  start.latitude_rad = kLatitude_rad;
+  start.latitude_rad = kRestLatitude_rad;
   start.longitude_rad = start.altitude_m = 0.0;
   start.velocity_N_m_s = {0.0, 0.0, 0.0};
   start.rpy_rad = {0.0, pitch_rad, 0.0};
@@ -38,8 +38,8 @@ double heading_variance(double pitch_rad, double period_s, double duration_s, do
   start.attitude_sigma_rad = {1e-4, 1e-4, 1e-4};
   engine.start_from(start);
   double pitch = pitch_rad;
-  for (int i = 0; i <= static_cast<int>(duration_s * kRate_hz); ++i) {
-    const double t = i / kRate_hz;
+  for (int i = 0; i <= static_cast<int>(duration_s * kSampled_hz); ++i) {
+    const double t = i / kSampled_hz;
     const double sign = static_cast<int>(t / period_s) % 2 == 0 ? 1.0 : -1.0;
     const double turned = sign * pitch_rad - pitch;
     pitch = sign * pitch_rad;
@@ -48,8 +48,8 @@ double heading_variance(double pitch_rad, double period_s, double duration_s, do
     sample.header.stamp_ns = sample.header.received_ns = 1'700'000'000 * kNsPerSecond + from_seconds(t);
     sample.header.sequence = static_cast<std::uint64_t>(i);
     sample.angular_rate_B_rad_s =
-        geo::arr(c_BN * geo::earth_rate_N(kLatitude_rad) + Vector3d(0.0, turned * kRate_hz, 0.0));
-    sample.specific_force_B_m_s2 = geo::arr(c_BN * Vector3d(0.0, 0.0, -geo::gravity(kLatitude_rad, 0.0)));
+        geo::arr(c_BN * geo::earth_rate_N(kRestLatitude_rad) + Vector3d(0.0, turned * kSampled_hz, 0.0));
+    sample.specific_force_B_m_s2 = geo::arr(c_BN * Vector3d(0.0, 0.0, -geo::gravity(kRestLatitude_rad, 0.0)));
     engine.add(sample);
   }
   return engine.navigation_covariance()(8, 8);

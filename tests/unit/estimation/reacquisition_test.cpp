@@ -215,7 +215,7 @@ TEST(Reacquisition, ALevelThatGoesWrongAgainIsTheBiases) {
   EXPECT_TRUE(added(1.0, 0.5).isZero());
   EXPECT_TRUE(added(130.0, 0.5).isZero());
   // No unit is that bad.
-  EXPECT_TRUE(added(2.0, 5.0).isApprox(Eigen::Vector2d(0.05 * 9.81, kRadPerDeg), 1e-6));
+  EXPECT_TRUE(added(2.0, 5.0).isApprox(Eigen::Vector2d(0.05 * kStandardGravity_m_s2, kRadPerDeg), 1e-6));
 }
 
 }  // namespace

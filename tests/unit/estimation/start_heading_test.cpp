@@ -11,6 +11,7 @@
 #include "geo/so3.hpp"
 #include "support/vehicles/analytic_vehicle.hpp"
 #include "support/vehicles/spoilt_survey.hpp"
+#include "unit/estimation/linear_loop.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -21,30 +22,6 @@ using test::SurveyRun;
 
 constexpr int kStates = 17;
 constexpr int kBias = 15;  ///< of a compass
-
-/// A filter whose estimated errors are taken out of what is really wrong, as a navigator does.
-struct Loop {
-  explicit Loop(const ErrorFilter& at_start) : filter(at_start) {}
-
-  ErrorFilter filter;
-  Eigen::Matrix<double, kStates, 1> error =
-      Eigen::Matrix<double, kStates, 1>::Zero();  ///< what is left of it
-
-  void take_in(Observation observation, const Eigen::Matrix<double, Observation::kMaxRows, 1>& noise,
-               StartHeading* start) {
-    for (std::size_t r = 0; r < static_cast<std::size_t>(observation.rows); ++r) {
-      observation.innovation[r] = noise(static_cast<Eigen::Index>(r));
-      for (std::size_t i = 0; i < kStates; ++i)
-        observation.innovation[r] += observation.h[r][i] * error(static_cast<Eigen::Index>(i));
-    }
-    InnovationStatistics statistics;
-    filter.statistics(observation, 1.0, statistics);
-    std::array<double, kMaxStates> x{};
-    ASSERT_TRUE(filter.update(observation, statistics, x));
-    if (start != nullptr) start->updated(observation, statistics, kStates, 0.0);
-    for (std::size_t i = 0; i < kStates; ++i) error(static_cast<Eigen::Index>(i)) -= x[i];
-  }
-};
 
 StartHeading::Column by_compass() {
   StartHeading::Column column{};
@@ -64,7 +41,7 @@ ErrorFilter known_to(double heading_rad) {
 
 /// Eight seconds of a compass, a speed log along the vehicle and fixes, while it speeds up: both loops see
 /// the same, `start` what the first one does.
-void run(double wrong_rad, std::uint64_t seed, Loop& believing, Loop& open, StartHeading& start) {
+void run(double wrong_rad, std::uint64_t seed, LinearLoop& believing, LinearLoop& open, StartHeading& start) {
   Normal normal(seed);
   NavSolution nav;
   nav.position = {0.6, 0.2, 10.0};
@@ -73,7 +50,7 @@ void run(double wrong_rad, std::uint64_t seed, Loop& believing, Loop& open, Star
   ProcessNoise noise;
   noise.velocity = 1e-4 * Eigen::Matrix3d::Identity();
   noise.attitude = 1e-10 * Eigen::Matrix3d::Identity();
-  for (Loop* loop : {&believing, &open}) {
+  for (LinearLoop* loop : {&believing, &open}) {
     loop->error(8) = wrong_rad;
     loop->error(kBias) = -wrong_rad;
   }
@@ -81,10 +58,9 @@ void run(double wrong_rad, std::uint64_t seed, Loop& believing, Loop& open, Star
   for (int k = 0; k < 80; ++k) {
     nav.v_N_m_s = 0.05 * k * Vector3d(1.0, 0.3, 0.0);
     const NavTransition step(index, nav, Vector3d(0.0, 0.0, 0.02), Vector3d(0.2, 0.0, -9.8), 0.1);
-    for (Loop* loop : {&believing, &open}) {
+    for (LinearLoop* loop : {&believing, &open}) {
       loop->filter.propagate(step, noise);
-      const NavTransition::Rows rows = step.rows(kStates - 2);
-      loop->error.head<kNavStates>() = (rows * loop->error.head<kStates - 2>()).eval();
+      loop->propagate_error(step, kStates - 2);
     }
     start.propagated(step, noise);
     Observation seen;
@@ -101,22 +77,23 @@ void run(double wrong_rad, std::uint64_t seed, Loop& believing, Loop& open, Star
       seen.sigma[3] = seen.sigma[4] = 0.5;
     }
     seen.list_columns(kStates);
-    Eigen::Matrix<double, Observation::kMaxRows, 1> drawn =
-        Eigen::Matrix<double, Observation::kMaxRows, 1>::Zero();
+    LinearLoop::Noise drawn = LinearLoop::Noise::Zero();
     for (int r = 0; r < seen.rows; ++r) drawn(r) = normal(seen.sigma[static_cast<std::size_t>(r)]);
-    believing.take_in(seen, drawn, &start);
-    open.take_in(seen, drawn, nullptr);
+    believing.take_in(seen, drawn, [&](const Observation& taken, const InnovationStatistics& statistics) {
+      start.updated(taken, statistics, kStates, 0.0);
+    });
+    open.take_in(seen, drawn);
   }
 }
 
 // What it finds is what a filter finds that knew nothing of the heading: its error and its covariance.
 TEST(StartHeading, FindsWhatAFilterFindsThatWasToldNothingOfTheHeading) {
   for (const double wrong_deg : {-20.0, 8.0}) {
-    Loop believing(known_to(1.0 * kRadPerDeg));
+    LinearLoop believing(known_to(1.0 * kRadPerDeg));
     ErrorFilter unknown = believing.filter;
     constexpr double kNothing_rad = 30.0;
     unknown.shift(by_compass(), 0.0, kNothing_rad * kNothing_rad);
-    Loop open(unknown);
+    LinearLoop open(unknown);
     StartHeading start;
     run(wrong_deg * kRadPerDeg, 3, believing, open, start);
     ASSERT_TRUE(start.is_wrong());
@@ -140,8 +117,8 @@ TEST(StartHeading, IsNotDoubtedForWhatItsSigmaAllows) {
   int doubted = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Normal normal(1000 + seed);
-    Loop believing(known_to(1.0 * kRadPerDeg));
-    Loop open(believing.filter);
+    LinearLoop believing(known_to(1.0 * kRadPerDeg));
+    LinearLoop open(believing.filter);
     StartHeading start;
     // Heading and compass are wrong by the same: what is drawn lies along that.
     run(normal(0.7 * kRadPerDeg), seed, believing, open, start);
@@ -152,8 +129,8 @@ TEST(StartHeading, IsNotDoubtedForWhatItsSigmaAllows) {
 
 // A single reading that is far off says much of itself and next to nothing of the start.
 TEST(StartHeading, NoSingleReadingDecides) {
-  Loop believing(known_to(1.0 * kRadPerDeg));
-  Loop open(believing.filter);
+  LinearLoop believing(known_to(1.0 * kRadPerDeg));
+  LinearLoop open(believing.filter);
   StartHeading start;
   run(0.0, 5, believing, open, start);
   Observation heading;
@@ -162,10 +139,11 @@ TEST(StartHeading, NoSingleReadingDecides) {
   heading.h[0][kBias] = -1.0;
   heading.sigma[0] = 0.01;
   heading.list_columns(kStates);
-  Eigen::Matrix<double, Observation::kMaxRows, 1> far =
-      Eigen::Matrix<double, Observation::kMaxRows, 1>::Zero();
+  LinearLoop::Noise far = LinearLoop::Noise::Zero();
   far(0) = 1.0;
-  believing.take_in(heading, far, &start);
+  believing.take_in(heading, far, [&](const Observation& taken, const InnovationStatistics& statistics) {
+    start.updated(taken, statistics, kStates, 0.0);
+  });
   EXPECT_FALSE(start.is_wrong());
 }
 

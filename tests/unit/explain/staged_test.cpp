@@ -153,6 +153,14 @@ std::vector<Case> cases() {
                          return true;
                        });
                  }});
+  out.push_back({"biased_gyro_always", Kind::biased, "gyro y", 200, surface, [](Stage& stage) {
+                   stage.spoil = spoil<ImuSample>([](ImuSample& one, double) {
+                     constexpr double kBias_rad_s = 5e-4;
+                     one.angular_rate_B_rad_s[1] += kBias_rad_s;
+                     one.delta_angle_B_rad[1] += kBias_rad_s * one.delta_time_s;
+                     return true;
+                   });
+                 }});
   out.push_back({"late_imu", Kind::imu_late, "imu", 240, surface, [](Stage& stage) {
                    stage.spoil = spoil<ImuSample>([last_ns = TimeNs{0}](ImuSample& one, double t) mutable {
                      // A queue: nothing overtakes.

@@ -327,6 +327,39 @@ TEST(AlignmentWatch, WhatScattersMoreThanIsSaidIsANoticeUntilItDoesNot) {
   EXPECT_FALSE(alarmed(book, "noisy:dvl0"));
 }
 
+TEST(AlignmentWatch, ABiasBeyondItsSigmaIsANoticeOfItsAxis) {
+  AlignmentWatch watch{AlignmentWatchConfig{}};
+  AlarmBook book;
+  AlignmentStatus status;
+  status.phase = AlignmentPhase::aligned;
+  status.condition_count = 3;
+  status.conditions[0].name = "bias_of_gyro_x";
+  status.conditions[0].value = 1.0e-4;
+  status.conditions[0].limit = 4.85e-6;
+  status.conditions[1].name = "bias_of_accelerometer_z";
+  status.conditions[1].value = -0.0980665;
+  status.conditions[1].limit = 9.80665e-3;
+  status.conditions[2].name = "bias_of_anything";
+  for (AlignmentCondition& one : status.conditions) one.met = true;
+  watch.add(status, at(1.0));
+  watch.report(book, at(1.0));
+  ASSERT_TRUE(alarmed(book, "biased:gyro_x"));
+  EXPECT_EQ(book.find("biased:gyro_x")->severity, Severity::notice);
+  EXPECT_EQ(book.find("biased:gyro_x")->text,
+            "The bias of gyro x is 20.6 deg/h, and a sigma of 1 deg/h is configured. Navigation counts with "
+            "the bias.");
+  ASSERT_TRUE(alarmed(book, "biased:accelerometer_z"));
+  EXPECT_EQ(
+      book.find("biased:accelerometer_z")->text,
+      "The bias of accelerometer z is -10.0 mg, and a sigma of 1 mg is configured. Navigation counts with "
+      "the bias.");
+  EXPECT_FALSE(alarmed(book, "biased:anything"));
+  status.condition_count = 0;
+  watch.add(status, at(2.0));
+  for (double t = 2.0; t < 60.0; t += 1.0) watch.report(book, at(t));
+  EXPECT_FALSE(alarmed(book, "biased:gyro_x"));
+}
+
 TEST(AlignmentWatch, WhatIsWaitedForIsNamedWithWhatHelps) {
   AlignmentWatch watch{AlignmentWatchConfig{}};
   AlarmBook book;
