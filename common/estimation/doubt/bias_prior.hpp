@@ -16,11 +16,11 @@ inline constexpr double kMostGyroBias_rad_s = 1.0 * kRadPerDeg;
 
 /// What would be known of the biases of gyro and accelerometer without a measurement since the start. The
 /// filter has learned the rest; where that puts a bias far outside of what is said of it, what is said is
-/// wrong, and can be taken back (GATE-11). Otherwise the bias that nothing may explain goes into tilt,
-/// heading and velocity, which the filter is then far too sure of.
+/// wrong, and can be taken back (GATE-11). Else what is missing of the bias goes into tilt, heading and
+/// velocity, of which the filter is then far too sure.
 class BiasPrior {
  public:
-  /// Gyro x, y, z, then accelerometer x, y, z, of B.
+  /// Gyro x, y, z, then accelerometer x, y, z, of B: as kBiasAxes of samples/alignment/help.hpp.
   static constexpr std::size_t kBiases = 6;
 
   /// A bias that is larger than is said of it.

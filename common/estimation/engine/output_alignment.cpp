@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <string_view>
 
 #include "base/units.hpp"
 #include "estimation/engine/output.hpp"
@@ -156,6 +157,14 @@ void add_condition(AlignmentStatus& out, const char* name, double value, double 
   one.needed_s = needed_s;
 }
 
+/// The name of a condition of which there is one for each kind of finding, sensor or axis.
+std::array<char, 32> name_of(std::string_view prefix, std::string_view which) {
+  std::array<char, 32> out{};
+  std::snprintf(out.data(), out.size(), "%.*s%.*s", static_cast<int>(prefix.size()), prefix.data(),
+                static_cast<int>(which.size()), which.data());
+  return out;
+}
+
 /// Each condition of the run, then how far the averages and the fine solution are.
 void fill_drop(const DropAlignment& drop, AlignmentStatus& out) {
   for (std::size_t i = 0; i < kStabilityConditions; ++i) {
@@ -228,9 +237,8 @@ int add_noise_factors(const EngineConfig& config, const Navigator& navigator, Al
     const double factor = navigator.noise_factor(i);
     if (!(factor > 1.0)) continue;
     const SensorConfig& sensor = config.sensors[static_cast<std::size_t>(i)];
-    char name[32];
-    std::snprintf(name, sizeof name, "%s%s", kNoiseFactorPrefix.data(), sensor.sensor.c_str());
-    add_condition(out, name, factor, sensor.max_noise_factor, true);
+    add_condition(out, name_of(kNoiseFactorPrefix, sensor.sensor).data(), factor, sensor.max_noise_factor,
+                  true);
     if (worst < 0 || factor > navigator.noise_factor(worst)) worst = i;
   }
   return worst;
@@ -246,9 +254,7 @@ FoundBias add_found_biases(const Setup& setup, const Estimate& estimate, Alignme
     const int state = setup.index.of(gyro ? Group::gyro_bias : Group::accel_bias) + static_cast<int>(i % 3);
     const FoundBias one{kBiasAxes[i], estimate.state.x[static_cast<std::size_t>(state)],
                         gyro ? imu.gyro_bias_sigma_rad_s : imu.accel_bias_sigma_m_s2};
-    char name[32];
-    std::snprintf(name, sizeof name, "%s%s", kBiasPrefix.data(), one.axis.data());
-    add_condition(out, name, one.value, one.said_sigma, true);
+    add_condition(out, name_of(kBiasPrefix, one.axis).data(), one.value, one.said_sigma, true);
     if (worst.axis.empty() || std::abs(one.value) * worst.said_sigma > std::abs(worst.value) * one.said_sigma)
       worst = one;
   }
@@ -278,11 +284,9 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
   const double start_rad = navigator.navigating() ? navigator.estimate().start_heading.found_rad() : 0.0;
   if (start_rad != 0.0) add_condition(out, kStartHeadingError.data(), start_rad, kUnknown, true);
   const PlausibilityFinding& implausible = navigator.implausible();
-  if (implausible) {
-    char name[32];
-    std::snprintf(name, sizeof name, "%s%s", kImplausiblePrefix.data(), to_string(implausible.kind).data());
-    add_condition(out, name, implausible.value, kUnknown, false);
-  }
+  if (implausible)
+    add_condition(out, name_of(kImplausiblePrefix, to_string(implausible.kind)).data(), implausible.value,
+                  kUnknown, false);
   const FoundBias biased =
       navigator.navigating() ? add_found_biases(setup, navigator.estimate(), out) : FoundBias{};
   const int noisy = navigator.navigating() ? add_noise_factors(setup.config, navigator, out) : -1;

@@ -37,7 +37,7 @@ struct NoiseFactor {
 /// navigation counts with that: `value` the bias and `limit` the sigma that is configured, rad/s or m/s^2.
 /// Its name goes on with the axis. Always met, and absent where a bias is as is said.
 inline constexpr std::string_view kBiasPrefix = "bias_of_";
-/// Of B, in the order of the filter.
+/// Of B.
 inline constexpr std::array<std::string_view, 6> kBiasAxes{
     "gyro_x", "gyro_y", "gyro_z", "accelerometer_x", "accelerometer_y", "accelerometer_z"};
 struct FoundBias {

@@ -330,17 +330,11 @@ TEST(AlignmentWatch, WhatScattersMoreThanIsSaidIsANoticeUntilItDoesNot) {
 TEST(AlignmentWatch, ABiasBeyondItsSigmaIsANoticeOfItsAxis) {
   AlignmentWatch watch{AlignmentWatchConfig{}};
   AlarmBook book;
-  AlignmentStatus status;
-  status.phase = AlignmentPhase::aligned;
+  AlignmentStatus status = alignment(AlignmentPhase::aligned, "bias_of_gyro_x", 1.0e-4, 4.85e-6, true);
   status.condition_count = 3;
-  status.conditions[0].name = "bias_of_gyro_x";
-  status.conditions[0].value = 1.0e-4;
-  status.conditions[0].limit = 4.85e-6;
-  status.conditions[1].name = "bias_of_accelerometer_z";
-  status.conditions[1].value = -0.0980665;
-  status.conditions[1].limit = 9.80665e-3;
-  status.conditions[2].name = "bias_of_anything";
-  for (AlignmentCondition& one : status.conditions) one.met = true;
+  status.conditions[1] = {
+      .name = "bias_of_accelerometer_z", .value = -0.0980665, .limit = 9.80665e-3, .met = true};
+  status.conditions[2] = {.name = "bias_of_anything", .value = 1.0, .limit = 0.1, .met = true};
   watch.add(status, at(1.0));
   watch.report(book, at(1.0));
   ASSERT_TRUE(alarmed(book, "biased:gyro_x"));
