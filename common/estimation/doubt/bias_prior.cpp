@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "estimation/doubt/certainty.hpp"
-
 namespace fathom::estimation {
 namespace {
 
@@ -12,8 +10,6 @@ namespace {
 constexpr double kLeastLearned = 1e-3;
 /// Smaller, in whatever unit, it is said to be none: nothing is learned.
 constexpr double kLeastVariance = 1e-30;
-/// So many blocks have to agree: what else is wrong shows in some manoeuvres and not in others.
-constexpr double kLeastBlocks = 3.0;
 
 constexpr std::size_t kGyros = 3;
 
@@ -58,19 +54,9 @@ void BiasPrior::Blocks::end(const Evidence& now, bool whole) {
     const double g = now.gradient - before.gradient;
     const double j = now.curvature - before.curvature;
     curvature += j;
-    scatter[0] += g * g;
-    scatter[1] += g * j;
-    scatter[2] += j * j;
+    scatter.add(g, j);
   }
   before = now;
-}
-
-bool BiasPrior::Blocks::are_enough() const {
-  return curvature * curvature > kLeastBlocks * scatter[2];
-}
-
-double BiasPrior::Blocks::scatters(double found) const {
-  return (scatter[0] - 2.0 * found * scatter[1] + found * found * scatter[2]) / curvature;
 }
 
 void BiasPrior::propagated(const StateDrift& drift, double dt_s, const FilterState& state,

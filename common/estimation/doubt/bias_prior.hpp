@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/units.hpp"
+#include "estimation/doubt/certainty.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/filter/state_drift.hpp"
 
@@ -47,6 +48,8 @@ class BiasPrior {
   [[nodiscard]] std::optional<Wrong> wrong(const FilterState& state, const ErrorFilter& filter) const;
   /// What was said of it has been taken back.
   void corrected(const Wrong& wrong);
+  /// Its index in the filter; -1 where it is not estimated.
+  [[nodiscard]] int state_of(std::size_t bias) const { return biases_[bias].state; }
   /// It was larger than is said of it, at least once since the start.
   [[nodiscard]] bool is_found(std::size_t bias) const { return biases_[bias].corrections > 0; }
 
@@ -64,13 +67,12 @@ class BiasPrior {
   struct Blocks {
     Evidence before{};  ///< as the last block began
     double curvature = 0.0;
-    std::array<double, 3> scatter{};  ///< sums of g^2, g J and J^2 of the blocks
+    Scatter scatter;
 
     void end(const Evidence& now, bool whole);
-    /// So many blocks have a say that they can be held against each other.
-    [[nodiscard]] bool are_enough() const;
+    [[nodiscard]] bool are_enough() const { return scatter.are_enough(curvature); }
     /// How many times as much they scatter about a mean of `found` as they would by chance.
-    [[nodiscard]] double scatters(double found) const;
+    [[nodiscard]] double scatters(double found) const { return scatter.about(found) / curvature; }
     template <class Archive, class Self>
     static void fields(Archive& archive, Self& self);
   };

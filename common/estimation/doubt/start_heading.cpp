@@ -5,7 +5,6 @@
 
 #include <Eigen/Cholesky>
 
-#include "estimation/doubt/certainty.hpp"
 #include "estimation/filter/adjoint.hpp"
 
 namespace fathom::estimation {
@@ -13,10 +12,9 @@ namespace {
 
 /// And what they say of the start has to be known as well as this.
 constexpr double kWellKnown_rad = 0.06;
-/// Measurements of so long a time count as one, and so many of these have to agree: what is wrong with an
-/// instrument lasts for longer than from one measurement to the next.
+/// Measurements of so long a time count as one: what is wrong with an instrument lasts for longer than from
+/// one measurement to the next.
 constexpr double kTogether_s = 2.0;
-constexpr double kLeastTimes = 3.0;
 /// In a turn levers and delays that are wrong look like a heading that is.
 constexpr double kStraight_rad_s = 0.05;
 /// What is linear about it ends here.
@@ -36,15 +34,13 @@ void StartHeading::propagated(const NavTransition& step, const ProcessNoise& noi
   const double kept = std::exp(-step.dt_s() / kMemory_s);
   gradient_ *= kept;
   curvature_ *= kept;
-  for (double& one : scatter_) one *= kept * kept;
+  for (double& one : scatter_.sums) one *= kept * kept;
   together_s_ += step.dt_s();
   if (together_s_ >= kTogether_s) {
     const auto [gradient, curvature] = together_;
     gradient_ += gradient;
     curvature_ += curvature;
-    scatter_[0] += gradient * gradient;
-    scatter_[1] += gradient * curvature;
-    scatter_[2] += curvature * curvature;
+    scatter_.add(gradient, curvature);
     together_ = {};
     together_s_ = 0.0;
   }
@@ -98,9 +94,7 @@ void StartHeading::add(const Evidence& evidence, double turn_rad_s) {
 
 double StartHeading::variance_rad2() const {
   // By how the measurements scatter about what they say together, too: they may be worse than their sigmas.
-  const double error = error_rad();
-  const double scatter = scatter_[0] - 2.0 * error * scatter_[1] + error * error * scatter_[2];
-  return std::max(1.0, scatter / curvature_) / curvature_;
+  return std::max(1.0, scatter_.about(error_rad()) / curvature_) / curvature_;
 }
 
 void StartHeading::updated(const Observation& observation, const InnovationStatistics& statistics,
@@ -156,7 +150,7 @@ void StartHeading::carried(const Carry& carry) {
 
 bool StartHeading::is_wrong() const {
   if (!open_ || !(curvature_ * kWellKnown_rad * kWellKnown_rad > 1.0)) return false;
-  if (!(curvature_ * curvature_ > kLeastTimes * scatter_[2])) return false;
+  if (!scatter_.are_enough(curvature_)) return false;
   const double error = error_rad();
   return std::abs(error) < kMost_rad && error * error > kCertain * kCertain * variance_rad2();
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 
+#include "estimation/doubt/certainty.hpp"
 #include "estimation/filter/error_filter.hpp"
 
 namespace fathom::estimation {
@@ -68,8 +69,7 @@ class StartHeading {
   double curvature_ = 0.0;            ///< and how fast that falls
   std::array<double, 2> together_{};  ///< gradient and curvature of the last measurements
   double together_s_ = 0.0;
-  /// Sums of g^2, g J and J^2 of the gradients g and curvatures J that were taken together.
-  std::array<double, 3> scatter_{};
+  Scatter scatter_;  ///< of those that were taken together
   Column column_{};
 };
 

@@ -251,8 +251,8 @@ FoundBias add_found_biases(const Setup& setup, const Estimate& estimate, Alignme
   for (std::size_t i = 0; i < kBiasAxes.size(); ++i) {
     if (!estimate.bias_prior.is_found(i)) continue;
     const bool gyro = i < 3;
-    const int state = setup.index.of(gyro ? Group::gyro_bias : Group::accel_bias) + static_cast<int>(i % 3);
-    const FoundBias one{kBiasAxes[i], estimate.state.x[static_cast<std::size_t>(state)],
+    const auto state = static_cast<std::size_t>(estimate.bias_prior.state_of(i));
+    const FoundBias one{kBiasAxes[i], estimate.state.x[state],
                         gyro ? imu.gyro_bias_sigma_rad_s : imu.accel_bias_sigma_m_s2};
     add_condition(out, name_of(kBiasPrefix, one.axis).data(), one.value, one.said_sigma, true);
     if (worst.axis.empty() || std::abs(one.value) * worst.said_sigma > std::abs(worst.value) * one.said_sigma)

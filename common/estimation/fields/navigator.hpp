@@ -151,7 +151,7 @@ void StartHeading::fields(Archive& archive, Self& self) {
   archive("curvature", self.curvature_, fathom::archive::within(0.0, kMost));
   archive("together", self.together_, fathom::archive::within(-kMost, kMost));
   archive("together_s", self.together_s_, fathom::archive::within(0.0, 10.0));
-  archive("scatter", self.scatter_, fathom::archive::within(-kMost * kMost, kMost * kMost));
+  archive("scatter", self.scatter_.sums, fathom::archive::within(-kMost * kMost, kMost * kMost));
   archive("column", self.column_, fathom::archive::within(-kMost, kMost));
 }
 
@@ -160,7 +160,7 @@ void BiasPrior::Blocks::fields(Archive& archive, Self& self) {
   archive("gradient_before", self.before.gradient, fathom::archive::finite());
   archive("curvature_before", self.before.curvature, fathom::archive::finite());
   archive("curvature", self.curvature, fathom::archive::finite());
-  archive("scatter", self.scatter, fathom::archive::finite());
+  archive("scatter", self.scatter.sums, fathom::archive::finite());
 }
 
 template <class Archive, class Self>

@@ -201,13 +201,11 @@ void Estimate::correct_start(const Setup& setup, VelocityOver along, std::array<
   filter.shift(linear, error_rad, start_heading.variance_rad2() + short_of * short_of);
   filter.shift(arc, short_of, short_of * short_of);
   std::array<double, kMaxStates> moved{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i)
     moved[i] = error_rad * linear[i] + short_of * arc[i];
-    x[i] += moved[i];
-  }
   start_heading.corrected();
   bias_prior.interrupt();
-  move(setup, moved, before, along);
+  move_further(setup, moved, before, along, x);
 }
 
 bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x) {
@@ -219,15 +217,19 @@ bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<d
   std::array<double, kMaxStates> column{};
   for (int i = 0; i < filter.size(); ++i) column[static_cast<std::size_t>(i)] = filter(i, wrong->state);
   std::array<double, kMaxStates> moved{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i) {
-    moved[i] = by * column[i];
-    x[i] += moved[i];
-  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i) moved[i] = by * column[i];
   filter.shift(column, by, wrong->share);
   start_heading.shifted(column, wrong->share, static_cast<std::size_t>(wrong->state));
   bias_prior.corrected(*wrong);
-  move(setup, moved, before, along);
+  move_further(setup, moved, before, along, x);
   return true;
+}
+
+void Estimate::move_further(const Setup& setup, const std::array<double, kMaxStates>& moved,
+                            const Vector3d& before_N_m_s, VelocityOver along,
+                            std::array<double, kMaxStates>& x) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i) x[i] += moved[i];
+  move(setup, moved, before_N_m_s, along);
 }
 
 double Estimate::turn_rad_s() const {

@@ -97,6 +97,10 @@ struct Estimate {
   /// moved.
   void move(const Setup& setup, const std::array<double, kMaxStates>& x, const Eigen::Vector3d& before_N_m_s,
             VelocityOver along);
+  /// The same by `moved`, beside the `x` by which a measurement has moved it: adds it to that.
+  void move_further(const Setup& setup, const std::array<double, kMaxStates>& moved,
+                    const Eigen::Vector3d& before_N_m_s, VelocityOver along,
+                    std::array<double, kMaxStates>& x);
   /// (NOISE-4) What the stride's force, where it is not usual, makes of the gyros' g-sensitivity.
   void add_g_sensitivity(const Setup& setup, ProcessNoise& noise);
   /// (NOISE-3) What the products of heading error, tilt and rate leave out of a linear step.
