@@ -3,31 +3,21 @@
 #include <cstdlib>
 #include <memory>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include "bus/writer.hpp"
 #include "samples/imu.hpp"
 #include "support.hpp"
+#include "support/free_port.hpp"
 
 namespace fathom::test {
 namespace {
 
 constexpr milliseconds kPatience(60'000);
 
-/// A UDP port of the loopback that nobody uses now.
+/// Where a discovery server may listen.
 std::string free_address() {
-  const int probe = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  sockaddr_in place{};
-  place.sin_family = AF_INET;
-  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof place;
-  EXPECT_EQ(bind(probe, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
-  getsockname(probe, reinterpret_cast<sockaddr*>(&place), &size);
-  close(probe);
-  return "127.0.0.1:" + std::to_string(ntohs(place.sin_port));
+  return "127.0.0.1:" + std::to_string(free_port(SOCK_DGRAM));
 }
 
 bus::ParticipantOptions client(std::uint32_t domain, const std::string& name, const std::string& server) {
