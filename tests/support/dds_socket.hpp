@@ -59,4 +59,16 @@ class DdsSocket final : public bus::detail::RoutedSocket {
   }
 };
 
+/// Sends by a socket that a transport has opened.
+inline bool send_by(bus::detail::RoutedSocket& socket, const DdsSocket::Bytes& bytes,
+                    DdsSocket::Locators* from, DdsSocket::Locators* to) {
+  const auto count = static_cast<std::uint32_t>(bytes.size());
+  const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+#if FATHOM_FASTDDS_MAJOR < 3
+  return socket.send(bytes.data(), count, from, to, until);
+#else
+  return socket.send({DdsSocket::Buffer(bytes.data(), count)}, count, from, to, until);
+#endif
+}
+
 }  // namespace fathom::test

@@ -13,6 +13,7 @@
 #include "bus/detail/network/low_priority_peers.hpp"
 #include "bus/detail/security/datagram_check.hpp"
 #include "support/dds_socket.hpp"
+#include "support/free_port.hpp"
 #include "support/rtps_datagram.hpp"
 
 namespace fathom::bus::detail {
@@ -214,6 +215,31 @@ TEST_F(Transports, SendToLowPriorityPeersLast) {
   EXPECT_THAT(ports(socket.at), ElementsAre(7411, 7415, 7413));
   socket.works = false;
   EXPECT_FALSE(socket.send_over(*transport, bytes, &from, &to));
+}
+
+TEST_F(Transports, SendToAPeerBeforeFastDdsHasOpenedAChannelToIt) {
+  const int peer = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+  const int port = test::free_port(SOCK_DGRAM);
+  const sockaddr_in place = test::loopback(port);
+  ASSERT_EQ(bind(peer, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+  ASSERT_TRUE(transport->init());
+  fastdds::SendResourceList sockets;
+  ASSERT_TRUE(transport->OpenOutputChannel(sockets, locator(7411)));
+  ASSERT_FALSE(sockets.empty());
+  const std::size_t opened = sockets.size();
+  const Bytes bytes = datagram({submessage(kHeartbeat, 20), submessage(kStatistics, 56)});
+  for (int round = 0; round < 2; ++round) {
+    rtps::LocatorList_t list;
+    list.push_back(locator(static_cast<std::uint32_t>(port)));
+    fastdds::Locators from(list.begin());
+    fastdds::Locators to(list.end());
+    ASSERT_TRUE(test::send_by(*sockets.front(), bytes, &from, &to));
+    Bytes arrived(1'000);
+    const ssize_t size = recv(peer, arrived.data(), arrived.size(), 0);
+    EXPECT_EQ(size, static_cast<ssize_t>(bytes.size()));
+  }
+  EXPECT_EQ(sockets.size(), opened);
+  close(peer);
 }
 
 TEST_F(Transports, LetInWhatIsHarmlessAndNameTheSenderOfTheRest) {

@@ -42,6 +42,7 @@ class Transport final : public RoutingTransport<Transport> {
     thread_local std::vector<rtps::Locator_t> destinations;  // keeps its memory from datagram to datagram
     destinations.clear();
     for (; *begin != *end; ++*begin) destinations.push_back(**begin);
+    for (const rtps::Locator_t& one : destinations) make_known(one);
     if (destinations.size() > 1) descriptor_.low_priority_peers->to_the_back(destinations);
     Walk from(destinations.data());
     Walk to(destinations.data() + destinations.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <vector>
@@ -41,15 +42,34 @@ class RoutingTransport : public eprosima::fastdds::rtps::ChainingTransport {
 
 #if FATHOM_FASTDDS_MAJOR < 3
   bool send(RoutedSocket* socket, const rtps::octet* bytes, std::uint32_t count, Locators* begin,
-            Locators* end, const Until& until) final{
+            Locators* end, const Until& until) final {
 #else
   bool send(RoutedSocket* socket, const std::vector<eprosima::fastdds::rtps::NetworkBuffer>& bytes,
             std::uint32_t count, Locators* begin, Locators* end, const Until& until) final {
 #endif
-      return static_cast<Derived*>(this)->route(begin, end, [&](Locators* from, Locators* to) {
-        return socket->send(bytes, count, from, to, until);
-      });
-}
-};  // namespace fathom::bus::detail
+    return static_cast<Derived*>(this)->route(begin, end, [&](Locators* from, Locators* to) {
+      return socket->send(bytes, count, from, to, until);
+    });
+  }
+
+ protected:
+  /// To be called before a datagram goes to `destination`. Fast DDS 2 counts what goes where, and ends the
+  /// process when it sends to a place for which it has opened no channel. A discovery server does that by
+  /// itself: it announces itself to a client while another of its threads is still taking that client in.
+  void make_known([[maybe_unused]] const rtps::Locator_t& destination) {
+#if FATHOM_FASTDDS_MAJOR < 3
+    if (std::find(known_.begin(), known_.end(), destination) != known_.end()) return;
+    low_level_transport_->OpenOutputChannel(no_more_sockets_, destination);
+    known_.push_back(destination);
+#endif
+  }
+
+ private:
+#if FATHOM_FASTDDS_MAJOR < 3
+  std::vector<rtps::Locator_t> known_;
+  eprosima::fastdds::rtps::SendResourceList
+      no_more_sockets_;  ///< they are made for interfaces, which Fast DDS has found itself
+#endif
+};
 
 }  // namespace fathom::bus::detail
