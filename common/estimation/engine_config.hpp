@@ -28,6 +28,7 @@ struct ImuConfig {
   RateConvention rate_convention = RateConvention::interval_mean;
   std::array<double, 3> mounting_rpy_rad{0, 0, 0};
   double nominal_rate_hz = 100.0;
+  double max_noise_factor = 30.0;
   double angle_random_walk_rad_sqrt_s = 2.9e-5;     ///< 0.1 deg/sqrt(h)
   double velocity_random_walk_m_s_sqrt_s = 5.0e-4;  ///< 50 ug/sqrt(Hz)
   double gyro_bias_sigma_rad_s = 4.85e-6;

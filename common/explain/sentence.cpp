@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "health/text.hpp"
+#include "samples/alignment/help.hpp"
 #include "samples/kinds.hpp"
 
 namespace fathom::explain {
@@ -242,6 +243,10 @@ std::string sentence(const Finding& f) {
              ", among good ones; " + brief(f.figure("refused")) +
              " of them were refused, the others had little weight.";
     case Kind::noisy:
+      if (is_inertial(f.subject))
+        return "For " + lasting(f.figure("for_s")) + " the motion strayed as if the noise of the " +
+               f.subject + " were up to " + brief(f.figure("factor")) +
+               " times what is configured; navigation counted with that.";
       return f.subject + " scattered for " + lasting(f.figure("for_s")) + " up to " +
              brief(f.figure("factor")) + " times as much as its sigmas say; navigation counted with that.";
     case Kind::biased:
@@ -299,6 +304,10 @@ std::string advice(const Finding& f) {
       return f.word == "usbl" ? "Multipath: look at the geometry, at noise and at the transponder's depth."
                               : "Look at the instrument and at what lies in its way.";
     case Kind::noisy:
+      if (is_inertial(f.subject))
+        return "Look at the inertial unit and at what shakes it, at the time stamps of what aids it, or at "
+               "its "
+               "noise in the configuration.";
       return "Look at the instrument and at what disturbs it, or at its sigma in the configuration.";
     case Kind::biased:
       return "Look at the inertial unit, or at the sigma of its bias in the configuration.";

@@ -21,6 +21,10 @@ void describe(Walk<ImuConfig>& s) {
           "expected rate: sizes the history and the output's deadline")
       .unit("Hz")
       .range(1, 2000);
+  s.field("max_noise_factor", &C::max_noise_factor,
+          "where the motion strays more than the white noise makes of it, that counts up to so many times; "
+          "1: as said")
+      .range(1, 100);
   s.field("angle_random_walk_deg_sqrt_h", &C::angle_random_walk_rad_sqrt_s, "gyro white noise")
       .unit("deg/sqrt(h)")
       .range(1e-6, 1000)

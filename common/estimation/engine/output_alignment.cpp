@@ -230,17 +230,20 @@ void fill_waiting(const Navigator& navigator, const AlignmentConfig& config, con
         std::max(navigator.unheard_s(), std::max(0.0, config.averaging_s - held) + config.aligned_hold_s);
 }
 
-/// Returns the sensor whose noise is the largest multiple of what is said of it; -1: all do as is said.
-int add_noise_factors(const EngineConfig& config, const Navigator& navigator, AlignmentStatus& out) {
-  int worst = -1;
+/// Returns whose noise is the largest multiple of what is said of it; a factor of 1: all do as is said.
+NoiseFactor add_noise_factors(const EngineConfig& config, const Navigator& navigator, AlignmentStatus& out) {
+  NoiseFactor worst;
+  const auto add = [&](std::string_view whose, double factor, double most) {
+    if (!(factor > 1.0)) return;
+    add_condition(out, name_of(kNoiseFactorPrefix, whose).data(), factor, most, true);
+    if (factor > worst.factor) worst = {whose, factor};
+  };
   for (int i = 0; i < static_cast<int>(config.sensors.size()); ++i) {
-    const double factor = navigator.noise_factor(i);
-    if (!(factor > 1.0)) continue;
     const SensorConfig& sensor = config.sensors[static_cast<std::size_t>(i)];
-    add_condition(out, name_of(kNoiseFactorPrefix, sensor.sensor).data(), factor, sensor.max_noise_factor,
-                  true);
-    if (worst < 0 || factor > navigator.noise_factor(worst)) worst = i;
+    add(sensor.sensor, navigator.noise_factor(i), sensor.max_noise_factor);
   }
+  for (std::size_t kind = 0; kind < MotionNoise::kKinds; ++kind)
+    add(kInertialNoise[kind], navigator.estimate().motion_noise.factor(kind), config.imu.max_noise_factor);
   return worst;
 }
 
@@ -289,7 +292,8 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
                   kUnknown, false);
   const FoundBias biased =
       navigator.navigating() ? add_found_biases(setup, navigator.estimate(), out) : FoundBias{};
-  const int noisy = navigator.navigating() ? add_noise_factors(setup.config, navigator, out) : -1;
+  const NoiseFactor noisy =
+      navigator.navigating() ? add_noise_factors(setup.config, navigator, out) : NoiseFactor{};
   if (implausible) return write_sentence(implausible, setup.config.imu.nominal_rate_hz, out.advice);
   write(out.advice, "%s", advice(c, navigator, config, sigma));
   if (out.advice[0] == '\0' && start_rad != 0.0)
@@ -299,11 +303,17 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
           start_rad * kDegPerRad);
   if (out.advice[0] == '\0' && !biased.axis.empty())
     write(out.advice, "The %s: check the unit or its sigma.", biased.text().data());
-  if (out.advice[0] == '\0' && noisy >= 0)
+  if (out.advice[0] != '\0' || !(noisy.factor > 1.0)) return;
+  const int length = static_cast<int>(noisy.sensor.size());
+  if (is_inertial(noisy.sensor))
     write(out.advice,
-          "The noise of %.31s is %.1f times what is configured and counts as that: check it or its sigma.",
-          setup.config.sensors[static_cast<std::size_t>(noisy)].sensor.c_str(),
-          navigator.noise_factor(noisy));
+          "The motion strays as if the noise of the %.*s were %.1f times what is configured, and counts as "
+          "that: check the unit, how it is mounted, and the times of what aids it.",
+          length, noisy.sensor.data(), noisy.factor);
+  else
+    write(out.advice,
+          "The noise of %.*s is %.1f times what is configured and counts as that: check it or its sigma.",
+          std::min(length, 31), noisy.sensor.data(), noisy.factor);
 }
 
 }  // namespace fathom::estimation

@@ -180,6 +180,29 @@ void BiasPrior::fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+void MotionNoise::Kind::fields(Archive& archive, Self& self) {
+  archive("square", self.square, fathom::archive::within(1.0, 1e4));
+  archive("log_ratio", self.log_ratio, fathom::archive::within(-1e3, 1e3));
+  archive("share", self.share, fathom::archive::at_least_zero());
+  archive("count", self.count, fathom::archive::kCount);
+}
+
+template <class Archive, class Self>
+void MotionNoise::Block::fields(Archive& archive, Self& self) {
+  archive("age_s", self.age_s, fathom::archive::at_least_zero());
+  archive("gradient", self.gradient, fathom::archive::finite());
+  archive("curvature", self.curvature, fathom::archive::at_least_zero());
+}
+
+template <class Archive, class Self>
+void MotionNoise::fields(Archive& archive, Self& self) {
+  archive.left_out(self.estimated_);
+  archive("now", self.now_, fathom::archive::finite());
+  archive("blocks", self.blocks_);
+  archive("kinds", self.kinds_);
+}
+
+template <class Archive, class Self>
 void Estimate::later_fields(Archive& archive, Self& self) {
   archive("usual_force_B", self.usual_force_B_m_s2, fathom::archive::finite());
 }
@@ -308,6 +331,7 @@ void Navigator::fields(Archive& archive, Self& self) {
   } else if constexpr (Archive::kReads) {
     self.estimate_.bias_prior.begin(self.estimate_.state, self.estimate_.filter);
   }
+  if (archive.since(16)) archive("motion_noise", self.estimate_.motion_noise);
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

@@ -82,10 +82,12 @@ void Estimate::follow(const Setup& setup) {
   ProcessNoise noise = setup.process_noise(c, stride.squares());
   add_second_order(setup, c, force_N_m_s2, noise);
   add_g_sensitivity(setup, noise);
+  motion_noise.widen(setup.imu_noise, noise);
   const NavTransition step(setup.index, rates, c, stride.rate_B_rad_s(), stride.force_B_m_s2(), dt);
   filter.propagate(step, noise);
   start_heading.propagated(step, noise);
   bias_prior.propagated(setup.drift, dt, state, filter);
+  motion_noise.propagated(step, noise, setup.imu_noise, setup.config.imu.max_noise_factor);
   if (const double share = settling_share(setup, -dt, dt); share > 0.0) {
     settle(setup, share, filter);
     settle(setup, share, bias_prior);
@@ -151,6 +153,7 @@ bool Estimate::is_sound() const {
 }
 
 void Estimate::widen(const GapSigma& sigma) {
+  motion_noise.interrupt();
   for (int i = 0; i < 3; ++i) {
     filter.widen(i, sigma.position_m * sigma.position_m);
     filter.widen(3 + i, sigma.velocity_m_s * sigma.velocity_m_s);
@@ -159,6 +162,7 @@ void Estimate::widen(const GapSigma& sigma) {
 }
 
 void Estimate::widen_heading(double variance_rad2) {
+  motion_noise.interrupt();
   constexpr int kHeading = 8;
   std::array<double, kMaxStates> with{};
   std::array<double, kMaxStates> place{};
@@ -178,6 +182,7 @@ bool Estimate::update(const Setup& setup, const Observation& observation,
   if (!filter.update(observation, statistics, x)) return false;
   if (start_heading.is_open())
     start_heading.updated(observation, statistics, filter.estimated(), turn_rad_s());
+  motion_noise.updated(observation, statistics);
   move(setup, x, before, along);
   return true;
 }
@@ -189,6 +194,7 @@ void Estimate::move(const Setup& setup, const std::array<double, kMaxStates>& x,
       carried(filter, x, geo::to_matrix(state.nav.q_NB), before_N_m_s, velocity_N_m_s(setup, along));
   filter.carry(carry);
   start_heading.carried(carry);
+  motion_noise.carried(carry);
 }
 
 void Estimate::correct_start(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x) {
@@ -205,6 +211,7 @@ void Estimate::correct_start(const Setup& setup, VelocityOver along, std::array<
     moved[i] = error_rad * linear[i] + short_of * arc[i];
   start_heading.corrected();
   bias_prior.interrupt();
+  motion_noise.interrupt();
   move_further(setup, moved, before, along, x);
 }
 
@@ -221,6 +228,7 @@ bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<d
   filter.shift(column, by, wrong->share);
   start_heading.shifted(column, wrong->share, static_cast<std::size_t>(wrong->state));
   bias_prior.corrected(*wrong);
+  motion_noise.interrupt();
   move_further(setup, moved, before, along, x);
   return true;
 }
@@ -252,6 +260,7 @@ void Estimate::replace(const Setup& setup, const FilterState& other, const Error
   filter = covariance;
   start_heading.end();
   bias_prior.interrupt();
+  motion_noise.interrupt();
   stride = {};
 }
 
@@ -259,6 +268,7 @@ void Estimate::forget_covariance(const std::array<double, kMaxStates>& sigma) {
   filter.reset(sigma);
   start_heading.end();
   bias_prior.begin(state, filter);
+  motion_noise.begin();
   stride = {};
 }
 

@@ -7,6 +7,7 @@
 #include "estimation/aiding/model.hpp"
 #include "estimation/aiding/policy.hpp"
 #include "estimation/doubt/bias_prior.hpp"
+#include "estimation/doubt/motion_noise.hpp"
 #include "estimation/doubt/start_heading.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/navigator/inertial_step.hpp"
@@ -17,7 +18,8 @@ namespace fathom::estimation {
 /// What is believed of the vehicle at an instant: state, covariance, rate and specific force. Every part of
 /// the navigator acts on it; what only one part needs is kept there.
 struct Estimate {
-  explicit Estimate(const Setup& setup) : filter(setup.index), bias_prior(setup.index) {}
+  explicit Estimate(const Setup& setup)
+      : filter(setup.index), bias_prior(setup.index), motion_noise(setup.index.estimated()) {}
 
   TimeNs now_ns = 0;
   bool navigating = false;  ///< state and filter are an estimate
@@ -32,6 +34,7 @@ struct Estimate {
   Eigen::Vector3d travelled_N_m = Eigen::Vector3d::Zero();  ///< integral of the velocity
   StartHeading start_heading;
   BiasPrior bias_prior;
+  MotionNoise motion_noise;
   Stride stride;  ///< by which the filter is behind the state
 
   /// Seconds since an instant; unknown when it is 0, which stands for never.

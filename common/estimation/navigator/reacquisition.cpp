@@ -353,6 +353,7 @@ void Reacquisition::doubt_biases(const Setup& setup, Estimate& estimate, double 
   widen(Group::gyro_bias,
         std::min(wrong_m_s / (0.5 * kGravity_m_s2 * since_s * since_s), kMostGyroBias_rad_s));
   estimate.bias_prior.interrupt();
+  estimate.motion_noise.interrupt();
 }
 
 }  // namespace fathom::estimation

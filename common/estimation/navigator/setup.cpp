@@ -49,6 +49,9 @@ Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considere
 
   const ImuConfig& imu = config.imu;
   const StateModelConfig& model = config.states;
+  imu_noise[MotionNoise::kAccelerometers] =
+      imu.velocity_random_walk_m_s_sqrt_s * imu.velocity_random_walk_m_s_sqrt_s;
+  imu_noise[MotionNoise::kGyros] = imu.angle_random_walk_rad_sqrt_s * imu.angle_random_walk_rad_sqrt_s;
   const auto sigma = [&](Group group, double value) { fill(initial_sigma, index, group, value); };
   sigma(Group::accel_bias, imu.accel_bias_sigma_m_s2);
   sigma(Group::gyro_bias, imu.gyro_bias_sigma_rad_s);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "estimation/alignment/drop_config.hpp"
+#include "estimation/doubt/motion_noise.hpp"
 #include "estimation/engine_config.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/filter/gate.hpp"
@@ -31,11 +32,12 @@ struct Setup {
   std::array<double, kMaxStates> initial_sigma{};  ///< of the states from index 9 on
   std::array<double, kMaxStates> walk{};
   std::array<double, kMaxStates> decay_per_s{};
-  StateDrift drift;                                    ///< of walk and decay_per_s
-  double stride_s = 0.0;                               ///< how long the covariance may stay behind (KF-1)
-  geo::Quaternion q_B_imu;                             ///< from the unit's own axes into B
-  geo::Quaternion q_B_wheels;                          ///< likewise from those of the wheels
-  std::optional<hydro::VelocityModel> velocity_model;  ///< where it is switched on
+  std::array<double, MotionNoise::kKinds> imu_noise{};  ///< that is said of it: m^2/s^3, rad^2/s
+  StateDrift drift;                                     ///< of walk and decay_per_s
+  double stride_s = 0.0;                                ///< how long the covariance may stay behind (KF-1)
+  geo::Quaternion q_B_imu;                              ///< from the unit's own axes into B
+  geo::Quaternion q_B_wheels;                           ///< likewise from those of the wheels
+  std::optional<hydro::VelocityModel> velocity_model;   ///< where it is switched on
   SensorConfig model_gate;  ///< for it: nothing is widened or believed in the end because it insists
   GateLimits model_limits;
 

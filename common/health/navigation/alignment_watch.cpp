@@ -102,14 +102,17 @@ void AlignmentWatch::report_noise(AlarmBook& book, const Instant& now) const {
     const auto found = std::find_if(factors.begin(), factors.end(),
                                     [&](const NoiseFactor& one) { return one.sensor == sensor.view(); });
     const double factor = found == factors.end() ? 1.0 : found->factor;
-    book.set(
-        factor > 1.0,
-        {.key = alarm_key("noisy", sensor.view()),
-         .severity = Severity::notice,
-         .text = sentence("%s scatters %.1f times as much as its sigmas say. Navigation counts with that.",
-                          sensor.c_str(), factor),
-         .value = factor},
-        now);
+    const char* const text =
+        is_inertial(sensor.view())
+            ? "The motion strays as if the noise of the %s were %.1f times what is configured. Navigation "
+              "counts with that."
+            : "%s scatters %.1f times as much as its sigmas say. Navigation counts with that.";
+    book.set(factor > 1.0,
+             {.key = alarm_key("noisy", sensor.view()),
+              .severity = Severity::notice,
+              .text = sentence(text, sensor.c_str(), factor),
+              .value = factor},
+             now);
   }
 }
 

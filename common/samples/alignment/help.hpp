@@ -26,8 +26,13 @@ inline constexpr std::string_view kStartHeadingError = "start_heading_error_rad"
 /// navigation counts with; its name goes on with the sensor's, as far as there is room. Always met, and
 /// absent where it does as is said.
 inline constexpr std::string_view kNoiseFactorPrefix = "noise_of_";
+/// Parts of the inertial unit whose noise is seen by how far the motion strays; instead of a sensor.
+inline constexpr std::array<std::string_view, 2> kInertialNoise{"accelerometers", "gyros"};
+[[nodiscard]] constexpr bool is_inertial(std::string_view sensor) {
+  return sensor == kInertialNoise[0] || sensor == kInertialNoise[1];
+}
 struct NoiseFactor {
-  std::string_view sensor;
+  std::string_view sensor;  ///< or one of kInertialNoise
   double factor = 1.0;
 };
 /// All of a status. The names are its own.

@@ -13,8 +13,8 @@ namespace {
 
 class WorseThanSaid : public SolveTest {
  protected:
-  void simulate(const std::vector<std::string>& set) {
-    std::vector<std::string> arguments{"simulate", "survey", "--out", path("data"), "--duration", "150"};
+  void simulate(const std::vector<std::string>& set, const std::string& duration_s = "150") {
+    std::vector<std::string> arguments{"simulate", "survey", "--out", path("data"), "--duration", duration_s};
     arguments.insert(arguments.end(), set.begin(), set.end());
     ASSERT_EQ(run("fathom", arguments), 0) << err;
   }
@@ -36,6 +36,25 @@ TEST_F(WorseThanSaid, NoiseIsNamedWithItsFactor) {
   EXPECT_NE(told("solve", {"--out", path("nav.csv")}).find("the noise of dvl was up to "), std::string::npos);
   told("report", {"--out", path("report.html")});
   EXPECT_NE(content("report.html").find("The noise of dvl was up to "), std::string::npos);
+}
+
+TEST_F(WorseThanSaid, NoiseOfTheInertialUnitIsNamed) {
+  struct Case {
+    const char* set;
+    const char* name;
+    double factor;
+  };
+  for (const Case& one :
+       {Case{"sensors.imu.gyro.random_walk_deg_sqrt_h=0.5", "gyros", 5.0},
+        Case{"sensors.imu.accelerometer.random_walk_m_s_sqrt_h=0.3", "accelerometers", 10.0}}) {
+    simulate({"--set", one.set}, "400");
+    const auto metrics = nlohmann::json::parse(told("solve", {"--json", "--out", path("nav.csv")}));
+    ASSERT_TRUE(metrics["noise_factors"].contains(one.name)) << metrics["noise_factors"];
+    EXPECT_NEAR(metrics["noise_factors"][one.name].get<double>() / one.factor, 1.0, 0.6) << one.name;
+    EXPECT_LT(metrics["nees"]["velocity"]["mean"].get<double>(), 7.5) << one.name;
+    const std::string words = std::string("the noise of ") + one.name + " was up to ";
+    EXPECT_NE(told("solve", {"--out", path("nav.csv")}).find(words), std::string::npos);
+  }
 }
 
 TEST_F(WorseThanSaid, ABiasIsNamedWithItsAxis) {

@@ -161,6 +161,19 @@ std::vector<Case> cases() {
                      return true;
                    });
                  }});
+  out.push_back({"noisy_gyros_always", Kind::noisy, "gyros", 400, surface, [](Stage& stage) {
+                   stage.spoil =
+                       spoil<ImuSample>([random = sim::Random(1, "spoilt")](ImuSample& one, double) mutable {
+                         constexpr double kNoise_rad_sqrt_s = 3e-4;  // 1 deg/sqrt(h)
+                         for (std::size_t i = 0; i < 3; ++i) {
+                           const double angle_rad =
+                               random.normal(kNoise_rad_sqrt_s * std::sqrt(one.delta_time_s));
+                           one.delta_angle_B_rad[i] += angle_rad;
+                           one.angular_rate_B_rad_s[i] += angle_rad / one.delta_time_s;
+                         }
+                         return true;
+                       });
+                 }});
   out.push_back({"late_imu", Kind::imu_late, "imu", 240, surface, [](Stage& stage) {
                    stage.spoil = spoil<ImuSample>([last_ns = TimeNs{0}](ImuSample& one, double t) mutable {
                      // A queue: nothing overtakes.

@@ -327,6 +327,17 @@ TEST(AlignmentWatch, WhatScattersMoreThanIsSaidIsANoticeUntilItDoesNot) {
   EXPECT_FALSE(alarmed(book, "noisy:dvl0"));
 }
 
+TEST(AlignmentWatch, NoiseOfTheInertialUnitIsToldByTheMotion) {
+  AlignmentWatch watch{AlignmentWatchConfig{}};
+  AlarmBook book;
+  watch.add(alignment(AlignmentPhase::aligned, "noise_of_gyros", 3.6, 30.0, true), at(1.0));
+  watch.report(book, at(1.0));
+  ASSERT_TRUE(alarmed(book, "noisy:gyros"));
+  EXPECT_EQ(book.find("noisy:gyros")->text,
+            "The motion strays as if the noise of the gyros were 3.6 times what is configured. Navigation "
+            "counts with that.");
+}
+
 TEST(AlignmentWatch, ABiasBeyondItsSigmaIsANoticeOfItsAxis) {
   AlignmentWatch watch{AlignmentWatchConfig{}};
   AlarmBook book;

@@ -1,0 +1,177 @@
+#include "estimation/doubt/motion_noise.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+/// Of what a block would show the noise has at least this share; else the block says nothing of it.
+constexpr double kLeastShare = 0.01;
+/// So many figures at least, and at most so many have a say.
+constexpr std::uint32_t kFewest = 12;
+constexpr std::uint32_t kMostCounted = 200;
+/// So many sigmas of the ratio leave no doubt that it is not one.
+constexpr double kEnough = 4.0;
+
+}  // namespace
+
+void MotionNoise::widen(const std::array<double, kKinds>& said, ProcessNoise& noise) const {
+  noise.velocity.diagonal().array() += (kinds_[kAccelerometers].square - 1.0) * said[kAccelerometers];
+  noise.attitude.diagonal().array() += (kinds_[kGyros].square - 1.0) * said[kGyros];
+}
+
+void MotionNoise::interrupt() {
+  blocks_ = {};
+  now_ = {};
+  for (std::size_t kind = 0; kind < kKinds; ++kind) begin_block(kind);
+}
+
+void MotionNoise::begin_block(std::size_t kind) {
+  blocks_[kind] = {};
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    const std::size_t error = kind * kAxes + axis;
+    for (std::size_t i = 0; i < kMaxStates; ++i) now_[i * kErrors + error] = kFirst + error == i ? 1.0 : 0.0;
+  }
+}
+
+void MotionNoise::propagated(const NavTransition& step, const ProcessNoise& noise,
+                             const std::array<double, kKinds>& said, double most) {
+  // Rows that are kRowStride apart, as the step wants them.
+  alignas(64) std::array<double, static_cast<std::size_t>(kMaxStates) * kRowStride> rows;
+  const auto states = static_cast<std::size_t>(estimated_);
+  for (std::size_t i = 0; i < states; ++i)
+    std::copy_n(now_.data() + i * kErrors, kErrors, rows.data() + i * kRowStride);
+  for (std::size_t i = states; i < kMaxStates; ++i)  // considered: never moved
+    std::fill_n(rows.data() + i * kRowStride, kErrors, 0.0);
+  step.apply(rows.data(), static_cast<int>(kErrors));
+  for (std::size_t i = 0; i < kNavStates; ++i)
+    std::copy_n(rows.data() + i * kRowStride, kErrors, now_.data() + i * kErrors);
+  if (noise.drift != nullptr) {
+    for (const std::uint8_t state : noise.drift->decaying()) {
+      const double kept = noise.drift->kept(state, step.dt_s());
+      for (std::size_t j = 0; j < kErrors; ++j) now_[state * kErrors + j] *= kept;
+    }
+  }
+  bool ended = false;
+  for (std::size_t kind = 0; kind < kKinds; ++kind) {
+    blocks_[kind].age_s += step.dt_s();
+    if (blocks_[kind].age_s < kBlock_s[kind]) continue;
+    end_block(kind, said[kind]);
+    ended = true;
+  }
+  if (ended) judge(most);
+}
+
+void MotionNoise::updated(const Observation& observation, const InnovationStatistics& statistics) {
+  // (GATE-12): lambda and Lambda of each error, with the Cholesky factor L of S: L^-1 H A and L^-1 z.
+  constexpr std::size_t kRows = Observation::kMaxRows;
+  const auto m = static_cast<std::size_t>(statistics.rows);
+  std::array<double, kRows * kRows> l{};
+  std::array<std::array<double, kErrors>, kRows> seen{};
+  std::array<double, kRows> innovation{};
+  std::array<std::array<double, kMaxStates>, kRows> gain;  // L^-1 H P
+  const auto states = static_cast<std::size_t>(estimated_);
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      double value = statistics.s[i * kStatisticsStride + j];
+      for (std::size_t k = 0; k < j; ++k) value -= l[i * kRows + k] * l[j * kRows + k];
+      l[i * kRows + j] = i == j ? std::sqrt(value) : value / l[j * kRows + j];
+    }
+    for (int c = 0; c < observation.column_count; ++c) {
+      const std::size_t state = observation.columns[static_cast<std::size_t>(c)];
+      const double h = observation.h[i][state];
+      for (std::size_t j = 0; j < kErrors; ++j) seen[i][j] += h * now_[state * kErrors + j];
+    }
+    innovation[i] = observation.innovation[i];
+    std::copy_n(statistics.ph.data() + i * kMaxStates, states, gain[i].data());
+    for (std::size_t k = 0; k < i; ++k) {
+      const double factor = l[i * kRows + k];
+      for (std::size_t j = 0; j < kErrors; ++j) seen[i][j] -= factor * seen[k][j];
+      for (std::size_t j = 0; j < states; ++j) gain[i][j] -= factor * gain[k][j];
+      innovation[i] -= factor * innovation[k];
+    }
+    const double inverse = 1.0 / l[i * kRows + i];
+    for (double& one : seen[i]) one *= inverse;
+    for (std::size_t j = 0; j < states; ++j) gain[i][j] *= inverse;
+    innovation[i] *= inverse;
+  }
+  for (std::size_t i = 0; i < m; ++i) {
+    for (std::size_t j = 0; j < kErrors; ++j) {
+      Block& block = blocks_[j / kAxes];
+      block.gradient[j % kAxes] += seen[i][j] * innovation[i];
+      block.curvature[j % kAxes] += seen[i][j] * seen[i][j];
+    }
+    for (std::size_t state = 0; state < states; ++state)
+      for (std::size_t j = 0; j < kErrors; ++j) now_[state * kErrors + j] -= gain[i][state] * seen[i][j];
+  }
+}
+
+void MotionNoise::carried(const Carry& carry) {
+  using Rows = Eigen::Matrix<double, Carry::kStates, kErrors, Eigen::RowMajor>;
+  Eigen::Map<Rows> part(now_.data() + Carry::kFirst * kErrors);
+  part = (carry.matrix() * part).eval();
+}
+
+void MotionNoise::end_block(std::size_t kind, double said) {
+  const Block& block = blocks_[kind];
+  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+    const double share = block.curvature[axis] * said * block.age_s;
+    if (share > kLeastShare)
+      kinds_[kind].add(block.gradient[axis] * block.gradient[axis] / block.curvature[axis], share);
+  }
+  begin_block(kind);
+}
+
+void MotionNoise::judge(double most) {
+  // None is judged before the other can be: what is wrong of one shows in the other, too.
+  for (const Kind& one : kinds_)
+    if (one.count > 0 && one.count < kFewest) return;
+  Kind& velocity = kinds_[kAccelerometers];
+  Kind& attitude = kinds_[kGyros];
+  if (!velocity.is_wrong() && !attitude.is_wrong()) return;
+  // That of the gyros makes much of the attitude and less of the velocity, the other as much of both.
+  constexpr double kAsMuch = 0.75;
+  Kind& likelier = velocity.log_ratio > kAsMuch * attitude.log_ratio ? velocity : attitude;
+  Kind& other = &likelier == &velocity ? attitude : velocity;
+  if (!likelier.is_wrong() && likelier.may_be()) return;
+  (likelier.is_wrong() ? likelier : other).correct(most);
+  velocity.forget();
+  attitude.forget();
+}
+
+void MotionNoise::Kind::add(double ratio, double share_of_said) {
+  // The mean of min(q, 3) for q the square of a standard normal figure, and by what share of itself it grows
+  // with the logarithm of q.
+  constexpr double kClip = 3.0;
+  constexpr double kMean = 0.858336;
+  constexpr double kSlope = 0.708769;
+  constexpr std::uint32_t kStart = 4;
+  count = std::min(count + 1, kMostCounted);
+  const double clipped = std::min(ratio / std::exp(log_ratio), kClip);
+  log_ratio += (clipped / kMean - 1.0) / (kSlope * (count + kStart));
+  share += (share_of_said - share) / count;
+}
+
+double MotionNoise::Kind::sigmas() const {
+  constexpr double kSpread = 1.571;  // of the logarithm of the ratio, by one figure
+  if (count < kFewest) return 0.0;
+  const double sigmas = log_ratio * std::sqrt(static_cast<double>(count)) / kSpread;
+  return square > 1.0 ? sigmas : std::max(sigmas, 0.0);
+}
+
+bool MotionNoise::Kind::is_wrong() const {
+  return std::abs(sigmas()) > kEnough;
+}
+
+bool MotionNoise::Kind::may_be() const {
+  return sigmas() > 0.5 * kEnough;
+}
+
+void MotionNoise::Kind::correct(double most) {
+  // By what makes the blocks show what is expected; in steps, as that is known roughly.
+  constexpr double kStep = 16.0;
+  constexpr double kNone = 1.2;
+  const double wanted = square + (std::exp(log_ratio) - 1.0) / share;
+  square = std::clamp(std::clamp(wanted, square / kStep, square * kStep), 1.0, most * most);
+  if (square < kNone) square = 1.0;
+}
+
+}  // namespace fathom::estimation

@@ -1,0 +1,150 @@
+// Noise of the inertial unit that is larger than is said of it (GATE-12).
+#include "estimation/doubt/motion_noise.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "geo/so3.hpp"
+#include "support/vehicles/spoilt_survey.hpp"
+#include "unit/estimation/linear_loop.hpp"
+
+namespace fathom::estimation {
+namespace {
+
+using Eigen::Vector3d;
+using test::Normal;
+
+constexpr std::size_t kAccelerometers = MotionNoise::kAccelerometers;
+constexpr std::size_t kGyros = MotionNoise::kGyros;
+
+/// A filter that sees velocities, and a motion that may be noisier than it is told.
+struct Drive {
+  explicit Drive(std::uint64_t seed) : loop(filter()), motion(index().size()), normal(seed) {}
+
+  static constexpr double kStep_s = 0.1;
+  static constexpr double kSaidVelocity_m_s = 5e-4;  ///< per sqrt(s)
+  static constexpr double kSaidAttitude_rad = 3e-5;
+
+  LinearLoop loop;
+  MotionNoise motion;
+  Normal normal;
+  double most = 30.0;
+  double nees = 0.0;  ///< mean of velocity and tilt, by their number, in the last run
+  double largest = 1.0;
+
+  static StateIndex index() { return StateIndex{StateGroups{}}; }
+  static ErrorFilter filter() {
+    std::array<double, kMaxStates> sigma{};
+    for (std::size_t i = 0; i < kNavStates; ++i) sigma[i] = i < 3 ? 2.0 : i < 6 ? 0.1 : 1e-3;
+    ErrorFilter out(index());
+    out.reset(sigma);
+    return out;
+  }
+
+  /// The true noise is so many times what is said.
+  void run(double duration_s, double accelerometers, double gyros) {
+    NavSolution nav;
+    nav.position = {0.6, 0.2, 10.0};
+    nav.q_NB = geo::from_rpy({0.0, 0.0, 0.8});
+    const std::array<double, 2> said{kSaidVelocity_m_s * kSaidVelocity_m_s,
+                                     kSaidAttitude_rad * kSaidAttitude_rad};
+    const NavTransition step(index(), nav, Vector3d::Zero(), Vector3d(0.2, 0.0, -9.8), kStep_s);
+    nees = largest = 0.0;
+    const int steps = static_cast<int>(duration_s / kStep_s);
+    for (int k = 1; k <= steps; ++k) {
+      ProcessNoise noise;
+      noise.velocity = said[kAccelerometers] * Eigen::Matrix3d::Identity();
+      noise.attitude = said[kGyros] * Eigen::Matrix3d::Identity();
+      motion.widen(said, noise);
+      loop.filter.propagate(step, noise);
+      loop.propagate_error(step, index().size());
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        loop.error(3 + i) += normal(accelerometers * kSaidVelocity_m_s * std::sqrt(kStep_s));
+        loop.error(6 + i) += normal(gyros * kSaidAttitude_rad * std::sqrt(kStep_s));
+      }
+      motion.propagated(step, noise, said, most);
+      if (k % 2 == 0) measure();
+      largest = std::max({largest, motion.factor(kAccelerometers), motion.factor(kGyros)});
+      for (Eigen::Index i = 3; i < 8; ++i)
+        nees += loop.error(i) * loop.error(i) / loop.filter(static_cast<int>(i), static_cast<int>(i)) /
+                (5.0 * steps);
+    }
+  }
+  void measure() {
+    Observation seen;
+    seen.rows = 3;
+    LinearLoop::Noise drawn = LinearLoop::Noise::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      seen.h[i][3 + i] = 1.0;
+      seen.sigma[i] = 0.01;
+      drawn(static_cast<Eigen::Index>(i)) = normal(seen.sigma[i]);
+    }
+    seen.list_columns(index().size());
+    loop.take_in(seen, drawn, [&](const Observation& observation, const InnovationStatistics& statistics) {
+      motion.updated(observation, statistics);
+    });
+  }
+};
+
+TEST(MotionNoise, IsWhatIsSaidWhereItIs) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Drive drive(seed);
+    drive.run(1'200.0, 1.0, 1.0);
+    EXPECT_EQ(drive.largest, 1.0) << seed;
+    EXPECT_NEAR(drive.nees, 1.0, 0.25) << seed;
+  }
+}
+
+TEST(MotionNoise, ThatOfTheGyrosIsFound) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Drive drive(seed);
+    drive.run(600.0, 1.0, 5.0);
+    EXPECT_GT(drive.motion.factor(kGyros), 2.5) << seed;
+    EXPECT_LT(drive.motion.factor(kGyros), 9.0) << seed;
+    EXPECT_LT(drive.motion.factor(kAccelerometers), 3.0) << seed;
+    drive.run(600.0, 1.0, 5.0);
+    EXPECT_LT(drive.nees, 1.6) << seed;
+    EXPECT_GT(drive.nees, 0.5) << seed;
+  }
+}
+
+TEST(MotionNoise, ThatOfTheAccelerometersIsFound) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Drive drive(seed);
+    drive.run(600.0, 10.0, 1.0);
+    EXPECT_GT(drive.motion.factor(kAccelerometers), 4.0) << seed;
+    EXPECT_LT(drive.motion.factor(kAccelerometers), 15.0) << seed;
+    EXPECT_LT(drive.motion.factor(kGyros), 5.0) << seed;
+    drive.run(600.0, 10.0, 1.0);
+    EXPECT_LT(drive.nees, 1.6) << seed;
+    EXPECT_GT(drive.nees, 0.5) << seed;
+  }
+}
+
+TEST(MotionNoise, WithoutThatTheFilterWouldBeFarTooSure) {
+  Drive drive(1);
+  drive.most = 1.0;
+  drive.run(600.0, 1.0, 5.0);
+  EXPECT_EQ(drive.largest, 1.0);
+  EXPECT_GT(drive.nees, 3.0);
+}
+
+TEST(MotionNoise, EndsWhenTheMotionIsQuietAgain) {
+  Drive drive(3);
+  drive.run(600.0, 1.0, 5.0);
+  ASSERT_GT(drive.motion.factor(kGyros), 2.5);
+  drive.run(1'800.0, 1.0, 1.0);
+  EXPECT_LT(drive.motion.factor(kGyros), 2.0);
+  EXPECT_LT(drive.motion.factor(kAccelerometers), 2.0);
+}
+
+TEST(MotionNoise, IsBounded) {
+  Drive drive(4);
+  drive.most = 3.0;
+  drive.run(900.0, 1.0, 8.0);
+  EXPECT_EQ(drive.motion.factor(kGyros), 3.0);
+}
+
+}  // namespace
+}  // namespace fathom::estimation
