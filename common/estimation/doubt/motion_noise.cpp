@@ -34,22 +34,7 @@ void MotionNoise::begin_block(std::size_t kind) {
 
 void MotionNoise::propagated(const NavTransition& step, const ProcessNoise& noise,
                              const std::array<double, kKinds>& said, double most) {
-  // Rows that are kRowStride apart, as the step wants them.
-  alignas(64) std::array<double, static_cast<std::size_t>(kMaxStates) * kRowStride> rows;
-  const auto states = static_cast<std::size_t>(estimated_);
-  for (std::size_t i = 0; i < states; ++i)
-    std::copy_n(now_.data() + i * kErrors, kErrors, rows.data() + i * kRowStride);
-  for (std::size_t i = states; i < kMaxStates; ++i)  // considered: never moved
-    std::fill_n(rows.data() + i * kRowStride, kErrors, 0.0);
-  step.apply(rows.data(), static_cast<int>(kErrors));
-  for (std::size_t i = 0; i < kNavStates; ++i)
-    std::copy_n(rows.data() + i * kRowStride, kErrors, now_.data() + i * kErrors);
-  if (noise.drift != nullptr) {
-    for (const std::uint8_t state : noise.drift->decaying()) {
-      const double kept = noise.drift->kept(state, step.dt_s());
-      for (std::size_t j = 0; j < kErrors; ++j) now_[state * kErrors + j] *= kept;
-    }
-  }
+  follow<kErrors>(step, noise, now_);
   bool ended = false;
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     blocks_[kind].age_s += step.dt_s();
@@ -61,53 +46,18 @@ void MotionNoise::propagated(const NavTransition& step, const ProcessNoise& nois
 }
 
 void MotionNoise::updated(const Observation& observation, const InnovationStatistics& statistics) {
-  // (GATE-12): lambda and Lambda of each error, with the Cholesky factor L of S: L^-1 H A and L^-1 z.
-  constexpr std::size_t kRows = Observation::kMaxRows;
-  const auto m = static_cast<std::size_t>(statistics.rows);
-  std::array<double, kRows * kRows> l{};
-  std::array<std::array<double, kErrors>, kRows> seen{};
-  std::array<double, kRows> innovation{};
-  std::array<std::array<double, kMaxStates>, kRows> gain;  // L^-1 H P
-  const auto states = static_cast<std::size_t>(estimated_);
-  for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t j = 0; j <= i; ++j) {
-      double value = statistics.s[i * kStatisticsStride + j];
-      for (std::size_t k = 0; k < j; ++k) value -= l[i * kRows + k] * l[j * kRows + k];
-      l[i * kRows + j] = i == j ? std::sqrt(value) : value / l[j * kRows + j];
-    }
-    for (int c = 0; c < observation.column_count; ++c) {
-      const std::size_t state = observation.columns[static_cast<std::size_t>(c)];
-      const double h = observation.h[i][state];
-      for (std::size_t j = 0; j < kErrors; ++j) seen[i][j] += h * now_[state * kErrors + j];
-    }
-    innovation[i] = observation.innovation[i];
-    std::copy_n(statistics.ph.data() + i * kMaxStates, states, gain[i].data());
-    for (std::size_t k = 0; k < i; ++k) {
-      const double factor = l[i * kRows + k];
-      for (std::size_t j = 0; j < kErrors; ++j) seen[i][j] -= factor * seen[k][j];
-      for (std::size_t j = 0; j < states; ++j) gain[i][j] -= factor * gain[k][j];
-      innovation[i] -= factor * innovation[k];
-    }
-    const double inverse = 1.0 / l[i * kRows + i];
-    for (double& one : seen[i]) one *= inverse;
-    for (std::size_t j = 0; j < states; ++j) gain[i][j] *= inverse;
-    innovation[i] *= inverse;
+  // (GATE-12)
+  const Evidence<kErrors> evidence(now_, observation, statistics);
+  for (std::size_t j = 0; j < kErrors; ++j) {
+    Block& block = blocks_[j / kAxes];
+    block.gradient[j % kAxes] += evidence.gradient[j];
+    block.curvature[j % kAxes] += evidence.curvature[j];
   }
-  for (std::size_t i = 0; i < m; ++i) {
-    for (std::size_t j = 0; j < kErrors; ++j) {
-      Block& block = blocks_[j / kAxes];
-      block.gradient[j % kAxes] += seen[i][j] * innovation[i];
-      block.curvature[j % kAxes] += seen[i][j] * seen[i][j];
-    }
-    for (std::size_t state = 0; state < states; ++state)
-      for (std::size_t j = 0; j < kErrors; ++j) now_[state * kErrors + j] -= gain[i][state] * seen[i][j];
-  }
+  follow(evidence, statistics, estimated_, now_);
 }
 
 void MotionNoise::carried(const Carry& carry) {
-  using Rows = Eigen::Matrix<double, Carry::kStates, kErrors, Eigen::RowMajor>;
-  Eigen::Map<Rows> part(now_.data() + Carry::kFirst * kErrors);
-  part = (carry.matrix() * part).eval();
+  follow<kErrors>(carry, now_);
 }
 
 void MotionNoise::end_block(std::size_t kind, double said) {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "estimation/filter/error_filter.hpp"
+#include "estimation/doubt/followed.hpp"
 
 namespace fathom::estimation {
 
@@ -87,7 +87,7 @@ class MotionNoise {
   void judge(double most);
 
   int estimated_;
-  std::array<double, kMaxStates * kErrors> now_{};  ///< by states: what has become of each error
+  FollowedErrors<kErrors> now_{};  ///< what has become of each error
   std::array<Block, kKinds> blocks_{};
   std::array<Kind, kKinds> kinds_{};
 };

@@ -3,10 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
-#include "estimation/filter/adjoint.hpp"
-
 namespace fathom::estimation {
 namespace {
 
@@ -44,52 +40,13 @@ void StartHeading::propagated(const NavTransition& step, const ProcessNoise& noi
     together_ = {};
     together_s_ = 0.0;
   }
-  // Of rows that are kRowStride apart, as the step wants them, the first two columns; the second is zero.
-  alignas(64) std::array<double, static_cast<std::size_t>(kMaxStates) * kRowStride> rows;
-  for (std::size_t i = 0; i < kMaxStates; ++i) {
-    rows[i * kRowStride] = column_[i];
-    rows[i * kRowStride + 1] = 0.0;
-  }
-  step.apply(rows.data(), 2);
-  for (std::size_t i = 0; i < kNavStates; ++i) column_[i] = rows[i * kRowStride];
-  if (noise.drift == nullptr) return;
-  for (const std::uint8_t state : noise.drift->decaying())
-    column_[state] *= noise.drift->kept(state, step.dt_s());
+  follow<1>(step, noise, column_);
 }
 
-/// What an error at the start does to a measurement's components, and what they say of it.
-struct StartHeading::Evidence {
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, Observation::kMaxRows, 1>;
-
-  Evidence(const Column& column, const Observation& observation, const InnovationStatistics& statistics) {
-    const Eigen::Index m = statistics.rows;
-    Vector innovation(m);
-    Vector seen = Vector::Zero(m);  // H u
-    UpdateRecord::Square s(m, m);
-    for (Eigen::Index i = 0; i < m; ++i) {
-      const auto row = static_cast<std::size_t>(i);
-      innovation(i) = observation.innovation[row];
-      for (int c = 0; c < observation.column_count; ++c) {
-        const auto state = observation.columns[static_cast<std::size_t>(c)];
-        seen(i) += observation.h[row][state] * column[state];
-      }
-      for (Eigen::Index j = 0; j < m; ++j)
-        s(i, j) = statistics.s[row * kStatisticsStride + static_cast<std::size_t>(j)];
-    }
-    weighed = s.llt().solve(seen);
-    gradient = weighed.dot(innovation);
-    curvature = weighed.dot(seen);
-  }
-
-  Vector weighed;  ///< S^-1 H u
-  double gradient = 0.0;
-  double curvature = 0.0;
-};
-
-void StartHeading::add(const Evidence& evidence, double turn_rad_s) {
+void StartHeading::add(const Evidence<1>& evidence, double turn_rad_s) {
   if (!(std::abs(turn_rad_s) < kStraight_rad_s)) return;
-  together_[0] += evidence.gradient;
-  together_[1] += evidence.curvature;
+  together_[0] += evidence.gradient[0];
+  together_[1] += evidence.curvature[0];
 }
 
 double StartHeading::variance_rad2() const {
@@ -101,12 +58,9 @@ void StartHeading::updated(const Observation& observation, const InnovationStati
                            int estimated, double turn_rad_s) {
   if (!open_) return;
   // (GATE-9)
-  const Evidence evidence(column_, observation, statistics);
+  const Evidence<1> evidence(column_, observation, statistics);
   add(evidence, turn_rad_s);
-  for (int i = 0; i < statistics.rows; ++i) {
-    const double* ph = statistics.ph.data() + static_cast<std::size_t>(i) * kMaxStates;
-    for (int j = 0; j < estimated; ++j) column_[static_cast<std::size_t>(j)] -= ph[j] * evidence.weighed(i);
-  }
+  follow(evidence, statistics, estimated, column_);
   if (std::abs(column_[8]) < kNegligible && !is_wrong()) end();
 }
 
@@ -114,10 +68,11 @@ void StartHeading::refused(const Observation& observation, const InnovationStati
                            double turn_rad_s) {
   if (!open_) return;
   // (GATE-9)
-  const Evidence evidence(column_, observation, statistics);
-  const double explained = evidence.gradient * evidence.gradient;
-  if (!(explained > kExplained * evidence.curvature * statistics.squared_distance)) return;
-  if (!(std::abs(evidence.gradient) < kMost_rad * evidence.curvature)) return;
+  const Evidence<1> evidence(column_, observation, statistics);
+  const double gradient = evidence.gradient[0];
+  const double curvature = evidence.curvature[0];
+  if (!(gradient * gradient > kExplained * curvature * statistics.squared_distance)) return;
+  if (!(std::abs(gradient) < kMost_rad * curvature)) return;
   add(evidence, turn_rad_s);
 }
 
@@ -143,9 +98,7 @@ void StartHeading::shifted(const Column& column, double share, std::size_t state
 }
 
 void StartHeading::carried(const Carry& carry) {
-  if (!open_) return;
-  Eigen::Map<Eigen::Matrix<double, Carry::kStates, 1>> part(column_.data() + Carry::kFirst);
-  part = (carry.matrix() * part).eval();
+  if (open_) follow<1>(carry, column_);
 }
 
 bool StartHeading::is_wrong() const {

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "estimation/doubt/certainty.hpp"
-#include "estimation/filter/error_filter.hpp"
+#include "estimation/doubt/followed.hpp"
 
 namespace fathom::estimation {
 
@@ -14,7 +14,7 @@ namespace fathom::estimation {
 /// filter, as a column of errors. Costs next to nothing once the start does not matter any more.
 class StartHeading {
  public:
-  using Column = std::array<double, kMaxStates>;
+  using Column = FollowedErrors<1>;
 
   /// From a start on, which would be wrong by `column` per radian.
   void begin(const Column& column) {
@@ -58,9 +58,8 @@ class StartHeading {
   static void fields(Archive& archive, Self& self);
 
  private:
-  struct Evidence;
   void forget_evidence();
-  void add(const Evidence& evidence, double turn_rad_s);
+  void add(const Evidence<1>& evidence, double turn_rad_s);
 
   bool open_ = false;
   std::uint32_t corrections_ = 0;

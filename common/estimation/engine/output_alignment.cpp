@@ -242,6 +242,7 @@ NoiseFactor add_noise_factors(const EngineConfig& config, const Navigator& navig
     const SensorConfig& sensor = config.sensors[static_cast<std::size_t>(i)];
     add(sensor.sensor, navigator.noise_factor(i), sensor.max_noise_factor);
   }
+  static_assert(kInertialNoise.size() == MotionNoise::kKinds);  // in the order of these
   for (std::size_t kind = 0; kind < MotionNoise::kKinds; ++kind)
     add(kInertialNoise[kind], navigator.estimate().motion_noise.factor(kind), config.imu.max_noise_factor);
   return worst;

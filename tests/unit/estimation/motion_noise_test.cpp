@@ -30,7 +30,8 @@ struct Drive {
   MotionNoise motion;
   Normal normal;
   double most = 30.0;
-  double nees = 0.0;  ///< mean of velocity and tilt, by their number, in the last run
+  double outlier_m_s = 0.0;  ///< of what is measured
+  double nees = 0.0;         ///< mean of velocity and tilt, by their number, in the last run
   double largest = 1.0;
 
   static StateIndex index() { return StateIndex{StateGroups{}}; }
@@ -78,7 +79,7 @@ struct Drive {
     for (std::size_t i = 0; i < 3; ++i) {
       seen.h[i][3 + i] = 1.0;
       seen.sigma[i] = 0.01;
-      drawn(static_cast<Eigen::Index>(i)) = normal(seen.sigma[i]);
+      drawn(static_cast<Eigen::Index>(i)) = outlier_m_s + normal(seen.sigma[i]);
     }
     seen.list_columns(index().size());
     loop.take_in(seen, drawn, [&](const Observation& observation, const InnovationStatistics& statistics) {
@@ -137,6 +138,18 @@ TEST(MotionNoise, EndsWhenTheMotionIsQuietAgain) {
   drive.run(1'800.0, 1.0, 1.0);
   EXPECT_LT(drive.motion.factor(kGyros), 2.0);
   EXPECT_LT(drive.motion.factor(kAccelerometers), 2.0);
+}
+
+TEST(MotionNoise, AWildMeasurementNowAndThenIsNone) {
+  Drive drive(5);
+  for (int k = 0; k < 10; ++k) {
+    drive.run(60.0, 1.0, 1.0);
+    drive.outlier_m_s = 0.1;  // ten sigmas
+    drive.measure();
+    drive.outlier_m_s = 0.0;
+  }
+  EXPECT_EQ(drive.motion.factor(kGyros), 1.0);
+  EXPECT_EQ(drive.motion.factor(kAccelerometers), 1.0);
 }
 
 TEST(MotionNoise, IsBounded) {

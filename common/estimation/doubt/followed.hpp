@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "estimation/filter/error_filter.hpp"
+
+namespace fathom::estimation {
+
+// For N of 1 and 6: see followed.cpp.
+
+/// What the filter has made by now of `N` errors of an earlier instant: by states, a column for each.
+template <std::size_t N>
+using FollowedErrors = std::array<double, static_cast<std::size_t>(kMaxStates) * N>;
+
+/// What a measurement says of such errors, each for itself, if there were none: gradient of the logarithm of
+/// the likelihood, and how fast that falls.
+template <std::size_t N>
+struct Evidence {
+  Evidence(const FollowedErrors<N>& errors, const Observation& observation,
+           const InnovationStatistics& statistics);
+
+  Eigen::Matrix<double, Eigen::Dynamic, static_cast<int>(N), 0, Observation::kMaxRows, static_cast<int>(N)>
+      weighed;  ///< S^-1 H u
+  std::array<double, N> gradient{};
+  std::array<double, N> curvature{};
+};
+
+// What the filter does, in its order.
+template <std::size_t N>
+void follow(const NavTransition& step, const ProcessNoise& noise, FollowedErrors<N>& errors);
+/// A measurement that says `evidence` has been taken in; the first `estimated` states have moved.
+template <std::size_t N>
+void follow(const Evidence<N>& evidence, const InnovationStatistics& statistics, int estimated,
+            FollowedErrors<N>& errors);
+template <std::size_t N>
+void follow(const Carry& carry, FollowedErrors<N>& errors);
+
+}  // namespace fathom::estimation
