@@ -305,9 +305,8 @@ std::string advice(const Finding& f) {
                               : "Look at the instrument and at what lies in its way.";
     case Kind::noisy:
       if (is_inertial(f.subject))
-        return "Look at the inertial unit and at what shakes it, at the time stamps of what aids it, or at "
-               "its "
-               "noise in the configuration.";
+        return "Look at the inertial unit and at what shakes it, at the time stamps of what aids it, or "
+               "at its noise in the configuration.";
       return "Look at the instrument and at what disturbs it, or at its sigma in the configuration.";
     case Kind::biased:
       return "Look at the inertial unit, or at the sigma of its bias in the configuration.";

@@ -116,12 +116,10 @@ Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considere
 ProcessNoise Setup::process_noise(const Eigen::Matrix3d& C_NB, const SquaredInputs& inputs) const {
   // (NOISE-1): white noise, and as equivalent noise the scale and misalignment that are not estimated.
   const ImuConfig& imu = config.imu;
-  const double arw = imu.angle_random_walk_rad_sqrt_s;
-  const double vrw = imu.velocity_random_walk_m_s_sqrt_s;
   ProcessNoise noise;
   noise.drift = &drift;
-  noise.attitude = arw * arw * Eigen::Matrix3d::Identity();
-  noise.velocity = vrw * vrw * Eigen::Matrix3d::Identity();
+  noise.attitude = imu_noise[MotionNoise::kGyros] * Eigen::Matrix3d::Identity();
+  noise.velocity = imu_noise[MotionNoise::kAccelerometers] * Eigen::Matrix3d::Identity();
   const auto add = [&](Eigen::Matrix3d& to, const Vector3d& squares, bool scale, double scale_sigma,
                        bool misalignment, double misalignment_sigma) {
     if (scale && misalignment) return;

@@ -65,16 +65,7 @@ struct Minute {
       loop.filter.propagate(step, noise);
       loop.propagate_error(step, index.size());
       prior.propagated(drift, 0.1, estimated, loop.filter);
-      Observation seen;
-      seen.rows = 3;
-      LinearLoop::Noise drawn = LinearLoop::Noise::Zero();
-      for (std::size_t i = 0; i < 3; ++i) {
-        seen.h[i][3 + i] = 1.0;
-        seen.sigma[i] = 0.02;
-        drawn(static_cast<Eigen::Index>(i)) = normal(seen.sigma[i]);
-      }
-      seen.list_columns(index.size());
-      loop.take_in(seen, drawn);
+      loop.see_velocity(0.02, normal);
       note_estimates();
       if (k % 10 == 0 && stop(*this)) return;
     }

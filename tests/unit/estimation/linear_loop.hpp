@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/filter/error_filter.hpp"
+#include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::estimation {
 
@@ -37,6 +38,23 @@ struct LinearLoop {
   }
   void take_in(const Observation& observation, const Noise& noise) {
     take_in(observation, noise, [](const Observation&, const InnovationStatistics&) {});
+  }
+  /// Sees the velocity, each component `off` and with a noise of `sigma`.
+  template <class Updated>
+  void see_velocity(double sigma, double off, test::Normal& normal, const Updated& updated) {
+    Observation seen;
+    seen.rows = 3;
+    Noise drawn = Noise::Zero();
+    for (std::size_t i = 0; i < 3; ++i) {
+      seen.h[i][3 + i] = 1.0;
+      seen.sigma[i] = sigma;
+      drawn(static_cast<Eigen::Index>(i)) = off + normal(sigma);
+    }
+    seen.list_columns(filter.size());
+    take_in(seen, drawn, updated);
+  }
+  void see_velocity(double sigma, test::Normal& normal) {
+    see_velocity(sigma, 0.0, normal, [](const Observation&, const InnovationStatistics&) {});
   }
   void remove(const std::array<double, kMaxStates>& x) {
     for (Eigen::Index i = 0; i < error.size(); ++i) error(i) -= x[static_cast<std::size_t>(i)];

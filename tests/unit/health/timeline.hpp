@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/time.hpp"
+#include "health/alarm_book.hpp"
 #include "health/instant.hpp"
 #include "samples/gps.hpp"
 #include "samples/nav_state.hpp"
@@ -18,6 +19,11 @@ inline constexpr TimeNs kEpoch = 1'700'000'000 * kNsPerSecond;
 /// `seconds` after the monitor's start, with UTC `utc_step_s` away from where it began.
 inline Instant at(double seconds, double utc_step_s = 0.0) {
   return {kBoot + from_seconds(seconds), kEpoch + from_seconds(seconds + utc_step_s)};
+}
+
+inline bool alarmed(const AlarmBook& book, const Name& key) {
+  const Alarm* alarm = book.find(key);
+  return alarm != nullptr && alarm->active;
 }
 
 inline SampleHeader header(const Name& sensor, double seconds) {
