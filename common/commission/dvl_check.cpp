@@ -96,7 +96,7 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
                     : "Whether the DVL is mirrored cannot be told: the vehicle slipped too little sideways. "
                       "Tight turns under way would tell.");
   static constexpr std::array<Unit, 5> kUnits{
-      {{1.0, "m/s"}, {1e-3, "mm/s"}, {1e-2, "cm/s"}, {1852.0 / 3600.0, "knots"}, {0.3048, "ft/s"}}};
+      {{1.0, "m/s"}, {1e-3, "mm/s"}, {1e-2, "cm/s"}, {kKnot_m_s, "knots"}, {kFoot_m, "ft/s"}}};
   const Unit* unit = &kUnits[0];
   for (const Unit& each : kUnits)
     if (std::abs(std::log(found.scale / each.factor)) < std::abs(std::log(found.scale / unit->factor)))

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/median.hpp"
+#include "base/units.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "commission/text.hpp"
 
@@ -177,7 +178,7 @@ GpsCheck check_gps(const Series& series) {
   }
   // Every unit and permutation; what the data as they are leave over is the yardstick.
   static constexpr std::array<Unit, 5> kUnits{
-      {{1.0, "m/s"}, {1852.0 / 3600.0, "knots"}, {1.0 / 3.6, "km/h"}, {1e-3, "mm/s"}, {0.01, "cm/s"}}};
+      {{1.0, "m/s"}, {kKnot_m_s, "knots"}, {kKmh_m_s, "km/h"}, {1e-3, "mm/s"}, {0.01, "cm/s"}}};
   Matrix3d best = Matrix3d::Identity();
   const Unit* unit = &kUnits[0];
   Matrix3d best_axes = Matrix3d::Identity();

@@ -66,7 +66,7 @@ Unit force_unit(const Series& series, double& found) {
       (series.imu.t_s.back() - series.imu.t_s.front()) / static_cast<double>(series.imu.size() - 1);
   const std::array<Unit, 4> units{{{1.0, "m/s^2"},
                                    {kStandardGravity_m_s2, "g"},
-                                   {kStandardGravity_m_s2 / 1000.0, "mg"},
+                                   {kMilliG_m_s2, "mg"},
                                    {1.0 / dt, "m/s (increments of one interval)"}}};
   Unit best = units[0];
   for (const Unit& unit : units)

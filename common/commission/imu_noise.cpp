@@ -158,7 +158,7 @@ ImuNoise check_imu_noise(const Series& series, const Assumed& assumed, const std
                   "Rest of an hour would tell.",
         is_known ? value : kUnknown, unit, is_known ? sigma : kUnknown);
   };
-  instability("gyro_instability", "Gyro", gyro, 3600.0 / kRadPerDeg, "deg/h");
+  instability("gyro_instability", "Gyro", gyro, 1.0 / kDegPerHour_rad_s, "deg/h");
   instability("accelerometer_instability", "Accelerometer", force, 1.0, "m/s^2");
   add("gyro_bias", FindingKind::bias, true, Severity::ok,
       "At rest the gyro reads " + number(out.rate_bias.x() / kRadPerDeg, 3) + ", " +

@@ -10,9 +10,6 @@
 /// filters are told.
 namespace fathom::study {
 
-inline constexpr double kDegreePerHour = kRadPerDeg / 3600.0;
-inline constexpr double kMilliG = 9.80665e-3;
-
 /// One standard deviation of one axis; SI units.
 struct ImuGrade {
   double gyro_bias_rad_s;
@@ -31,23 +28,23 @@ struct ImuGrade {
 };
 
 /// HG1700 class.
-inline constexpr ImuGrade kTactical{.gyro_bias_rad_s = 1.0 * kDegreePerHour,
-                                    .gyro_in_run_rad_s = 0.3 * kDegreePerHour,
+inline constexpr ImuGrade kTactical{.gyro_bias_rad_s = 1.0 * kDegPerHour_rad_s,
+                                    .gyro_in_run_rad_s = 0.3 * kDegPerHour_rad_s,
                                     .angle_walk_rad_sqrt_s = 0.125 * kRadPerDeg / 60.0,
                                     .gyro_scale = 150e-6,
-                                    .accel_bias_m_s2 = 1.0 * kMilliG,
-                                    .accel_in_run_m_s2 = 0.05 * kMilliG,
-                                    .velocity_walk_m_s_sqrt_s = 0.065 * 0.3048 / 60.0,
+                                    .accel_bias_m_s2 = 1.0 * kMilliG_m_s2,
+                                    .accel_in_run_m_s2 = 0.05 * kMilliG_m_s2,
+                                    .velocity_walk_m_s_sqrt_s = 0.065 * kFoot_m / 60.0,
                                     .accel_scale = 300e-6,
                                     .misalignment_rad = 0.3e-3,
                                     .in_run_s = 600.0};
 /// Ring laser or fibre-optic unit that finds north by itself.
-inline constexpr ImuGrade kNavigation{.gyro_bias_rad_s = 0.01 * kDegreePerHour,
-                                      .gyro_in_run_rad_s = 0.003 * kDegreePerHour,
+inline constexpr ImuGrade kNavigation{.gyro_bias_rad_s = 0.01 * kDegPerHour_rad_s,
+                                      .gyro_in_run_rad_s = 0.003 * kDegPerHour_rad_s,
                                       .angle_walk_rad_sqrt_s = 0.002 * kRadPerDeg / 60.0,
                                       .gyro_scale = 10e-6,
-                                      .accel_bias_m_s2 = 0.05 * kMilliG,
-                                      .accel_in_run_m_s2 = 0.01 * kMilliG,
+                                      .accel_bias_m_s2 = 0.05 * kMilliG_m_s2,
+                                      .accel_in_run_m_s2 = 0.01 * kMilliG_m_s2,
                                       .velocity_walk_m_s_sqrt_s = 1e-4,
                                       .accel_scale = 50e-6,
                                       .misalignment_rad = 0.02e-3,

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/units.hpp"
+
 namespace fathom::codec {
 namespace {
 
@@ -10,10 +12,9 @@ constexpr double kSeaLevel_Pa = 101'325.0;
 constexpr double kLapse_K_m = 0.0065;
 constexpr double kTropopause_m = 11'000.0;
 constexpr double kTropopause_K = kSeaLevel_K - kLapse_K_m * kTropopause_m;
-constexpr double kGravity_m_s2 = 9.80665;
 constexpr double kGas_J_kg_K = 287.052874;  // 8314.32 J/(kmol K) over 28.964420 kg/kmol
 constexpr double kHeatRatio = 1.4;
-constexpr double kTroposphere = kGravity_m_s2 / (kGas_J_kg_K * kLapse_K_m);
+constexpr double kTroposphere = kStandardGravity_m_s2 / (kGas_J_kg_K * kLapse_K_m);
 constexpr double kHeatExponent = kHeatRatio / (kHeatRatio - 1.0);  // 3.5
 constexpr double kMachFactor = 0.5 * (kHeatRatio - 1.0);           // 0.2
 
@@ -41,13 +42,14 @@ double standard_pressure_Pa(double altitude_m) {
   if (altitude_m < kTropopause_m)
     return kSeaLevel_Pa * std::pow(standard_temperature_K(altitude_m) / kSeaLevel_K, kTroposphere);
   const double above_m = altitude_m - kTropopause_m;
-  return tropopause_Pa() * std::exp(-kGravity_m_s2 * above_m / (kGas_J_kg_K * kTropopause_K));
+  return tropopause_Pa() * std::exp(-kStandardGravity_m_s2 * above_m / (kGas_J_kg_K * kTropopause_K));
 }
 
 double pressure_altitude_m(double static_Pa) {
   if (static_Pa > tropopause_Pa())
     return kSeaLevel_K / kLapse_K_m * (1.0 - std::pow(static_Pa / kSeaLevel_Pa, 1.0 / kTroposphere));
-  return kTropopause_m + kGas_J_kg_K * kTropopause_K / kGravity_m_s2 * std::log(tropopause_Pa() / static_Pa);
+  return kTropopause_m +
+         kGas_J_kg_K * kTropopause_K / kStandardGravity_m_s2 * std::log(tropopause_Pa() / static_Pa);
 }
 
 double indicated_airspeed_m_s(double impact_Pa) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/units.hpp"
 #include "codec/air/air_data.hpp"
 
 namespace fathom::codec {
@@ -20,9 +21,9 @@ struct Scale {
 Scale scale_of(AirUnit unit) {
   switch (unit) {
     case U::km_h:
-      return {1.0 / 3.6};
+      return {kKmh_m_s};
     case U::kn:
-      return {1852.0 / 3600.0};
+      return {kKnot_m_s};
     case U::mph:
       return {0.44704};
     case U::hPa:
@@ -38,7 +39,7 @@ Scale scale_of(AirUnit unit) {
     case U::mmHg:
       return {133.322387415};
     case U::ft:
-      return {0.3048};
+      return {kFoot_m};
     case U::degC:
       return {1.0, kZeroCelsius_K};
     case U::degF:

@@ -1,10 +1,12 @@
 #include "codec/altimeter/nmea_altimeter.hpp"
 
+#include "base/units.hpp"
+
 namespace fathom::codec {
 namespace {
 
 constexpr double kDeepest_m = 12'000.0;
-constexpr double kFeetPerMetre = 1.0 / 0.3048;
+constexpr double kFeetPerMetre = 1.0 / kFoot_m;
 constexpr double kFathomsPerMetre = kFeetPerMetre / 6.0;
 constexpr double kLargestOffset_m = 1'000.0;
 

@@ -128,10 +128,9 @@ class Mavlink final : public Framer {
   }
 
   static void take(const mavlink::ScaledImu& in, AnySample& sample, DeviceTime& time) {
-    constexpr double kMilliG = kMilli * kStandardGravity_m_s2;
     ImuSample out;
     out.angular_rate_B_rad_s = {kMilli * in.xgyro, kMilli * in.ygyro, kMilli * in.zgyro};
-    out.specific_force_B_m_s2 = {kMilliG * in.xacc, kMilliG * in.yacc, kMilliG * in.zacc};
+    out.specific_force_B_m_s2 = {kMilliG_m_s2 * in.xacc, kMilliG_m_s2 * in.yacc, kMilliG_m_s2 * in.zacc};
     if (in.temperature != 0) out.temperature_degC = kCenti * in.temperature;
     sample = out;
     time = since_start(in.time_boot_ms);

@@ -9,8 +9,6 @@
 namespace fathom::codec {
 namespace {
 
-constexpr double kKnot_m_s = 1852.0 / 3600.0;
-constexpr double kKmh_m_s = 1.0 / 3.6;
 constexpr double kMaxSpeed_kn = 20'000.0;
 constexpr double kMaxAltitude_m = 1e6;
 constexpr double kMaxSigma_m = 1e7;

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "base/units.hpp"
 #include "config/vehicle/sources.hpp"
 #include "estimation/engine_config.hpp"
 
@@ -34,10 +35,9 @@ void add_own_keys(Layers& out, const std::string& at, const Known& known) {
 void widen_turn_on_bias(Layers& out) {
   const json imu = out.value().at("engine").value("imu", json::object());
   const estimation::ImuConfig standard;
-  constexpr double kDegHPerRadS = 180.0 / std::numbers::pi * 3600.0;
   for (const auto& [sigma, instability, usual] :
        {std::tuple{"gyro_bias_sigma_deg_h", "gyro_bias_instability_deg_h",
-                   standard.gyro_bias_sigma_rad_s * kDegHPerRadS},
+                   standard.gyro_bias_sigma_rad_s / kDegPerHour_rad_s},
         {"accel_bias_sigma_m_s2", "accel_bias_instability_m_s2", standard.accel_bias_sigma_m_s2}}) {
     if (imu.contains(sigma) || !imu.contains(instability) || !imu.at(instability).is_number()) continue;
     if (imu.at(instability).get<double>() <= usual) continue;

@@ -3,8 +3,8 @@
 // Description of the alignment after a drop.
 
 #include "base/field.hpp"
+#include "base/units.hpp"
 #include "estimation/alignment/drop_config.hpp"
-#include "estimation/description/units.hpp"
 
 namespace fathom::estimation {
 

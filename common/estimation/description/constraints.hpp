@@ -3,7 +3,7 @@
 // Description of what is known about the motion without an instrument.
 
 #include "base/field.hpp"
-#include "estimation/description/units.hpp"
+#include "base/units.hpp"
 #include "estimation/engine_config.hpp"
 
 namespace fathom::estimation {

@@ -3,6 +3,7 @@
 // Description of the whole estimator.
 
 #include "base/field.hpp"
+#include "base/units.hpp"
 #include "estimation/description/air_drop.hpp"
 #include "estimation/description/alignment.hpp"
 #include "estimation/description/altimeter.hpp"
@@ -10,7 +11,6 @@
 #include "estimation/description/imu.hpp"
 #include "estimation/description/sensor.hpp"
 #include "estimation/description/states.hpp"
-#include "estimation/description/units.hpp"
 #include "estimation/description/vehicle_model.hpp"
 #include "estimation/engine_config.hpp"
 

@@ -3,7 +3,7 @@
 // Description of the error model of the inertial unit.
 
 #include "base/field.hpp"
-#include "estimation/description/units.hpp"
+#include "base/units.hpp"
 #include "estimation/engine_config.hpp"
 
 namespace fathom::estimation {
@@ -28,20 +28,20 @@ void describe(Walk<ImuConfig>& s) {
   s.field("angle_random_walk_deg_sqrt_h", &C::angle_random_walk_rad_sqrt_s, "gyro white noise")
       .unit("deg/sqrt(h)")
       .range(1e-6, 1000)
-      .scaled(kRadPerDeg * kPerSqrtSecond_per_perSqrtHour);
+      .scaled(kRadPerDeg * kPerSqrtHour_per_sqrt_s);
   s.field("velocity_random_walk_m_s_sqrt_h", &C::velocity_random_walk_m_s_sqrt_s, "accelerometer white noise")
       .unit("m/s/sqrt(h)")
       .range(1e-6, 600)
-      .scaled(kPerSqrtSecond_per_perSqrtHour);
+      .scaled(kPerSqrtHour_per_sqrt_s);
   s.field("gyro_bias_sigma_deg_h", &C::gyro_bias_sigma_rad_s, "gyro turn-on bias")
       .unit("deg/h")
       .range(1e-6, 1e5)
-      .scaled(kRadPerSecond_per_degPerHour);
+      .scaled(kDegPerHour_rad_s);
   s.field("gyro_bias_instability_deg_h", &C::gyro_bias_instability_rad_s,
           "in-run drift of the gyro bias: steady state of its Gauss-Markov process")
       .unit("deg/h")
       .range(0, 1e5)
-      .scaled(kRadPerSecond_per_degPerHour);
+      .scaled(kDegPerHour_rad_s);
   s.field("gyro_bias_time_constant_s", &C::gyro_bias_time_constant_s, "time constant of that process")
       .unit("s")
       .range(1, 1e9);
@@ -61,7 +61,7 @@ void describe(Walk<ImuConfig>& s) {
        "begun: warming up, or a filter inside the instrument that still changes its corrections; 0: settled")
       .unit("deg/h")
       .range(0, 1e5)
-      .scaled(kRadPerSecond_per_degPerHour);
+      .scaled(kDegPerHour_rad_s);
   s.field("accel_bias_settling_m_s2", &C::accel_bias_settling_m_s2,
           "what the accelerometer biases move by meanwhile; 0: settled")
       .unit("m/s^2")
@@ -89,7 +89,7 @@ void describe(Walk<ImuConfig>& s) {
           "what a gyro turns by for a specific force, per axis; it counts as noise")
       .unit("deg/h/g")
       .range(0, 5000)
-      .scaled(kRadPerSecond_per_degPerHour / kStandardGravity_m_s2);
+      .scaled(kDegPerHour_rad_s / kStandardGravity_m_s2);
   s.field(
        "accel_nonlinearity_sigma", &C::accel_nonlinearity_sigma,
        "accelerometer error that grows with the acceleration but is no constant scale, a ratio; it counts as "

@@ -5,7 +5,7 @@
 #include <concepts>
 
 #include "base/field.hpp"
-#include "estimation/description/units.hpp"
+#include "base/units.hpp"
 #include "estimation/engine_config.hpp"
 #include "samples/kinds.hpp"
 

@@ -3,7 +3,7 @@
 // Description of which states are estimated, and how uncertain they are at the start.
 
 #include "base/field.hpp"
-#include "estimation/description/units.hpp"
+#include "base/units.hpp"
 #include "estimation/engine_config.hpp"
 
 namespace fathom::estimation {

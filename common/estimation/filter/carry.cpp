@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/units.hpp"
 #include "base/wide.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "geo/so3.hpp"
@@ -13,7 +14,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kGravity_m_s2 = 9.80665;
 /// A slower vehicle tells no heading by its velocity.
 constexpr double kSlow_m_s = 0.1;
 
@@ -95,7 +95,7 @@ Carry carried(const ErrorFilter& filter, const std::array<double, kMaxStates>& x
       share_along_vehicle(filter, before_N_m_s) * geo::skew(after_N_m_s - out.turn * before_N_m_s) * out.turn;
   // The tilt that goes with this much bias where nothing accelerates.
   const Vector3d force_N = C_NB * Vector3d(x[9], x[10], x[11]);
-  const Vector3d tilt = Vector3d(force_N.y(), -force_N.x(), 0.0) / kGravity_m_s2;
+  const Vector3d tilt = Vector3d(force_N.y(), -force_N.x(), 0.0) / kStandardGravity_m_s2;
   out.bias_own = geo::to_matrix(geo::exp(-(C_NB.transpose() * tilt)));
   return out;
 }

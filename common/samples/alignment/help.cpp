@@ -103,9 +103,7 @@ std::string_view FoundBias::unit() const {
 }
 
 double FoundBias::in_unit(double si) const {
-  constexpr double kSecondsPerHour = 3600.0;
-  constexpr double kMilli = 1e-3;
-  return axis.starts_with("gyro") ? si * kDegPerRad * kSecondsPerHour : si / (kMilli * kStandardGravity_m_s2);
+  return axis.starts_with("gyro") ? si / kDegPerHour_rad_s : si / kMilliG_m_s2;
 }
 
 std::array<char, 96> FoundBias::text() const {

@@ -15,7 +15,6 @@
 namespace fathom::sim::encode {
 namespace {
 
-constexpr double kKnot_m_s = 1852.0 / 3600.0;
 constexpr double kKmhPerKnot = 1.852;
 
 [[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "base/units.hpp"
 #include "sim/random.hpp"
 #include "sim/scenario.hpp"
 
@@ -52,7 +53,7 @@ class Vehicle {
 
 /// Standard gravity of the vehicle dynamics. The sensed gravity is the WGS-84 one; this only shapes the
 /// motion.
-inline constexpr double kModelGravity_m_s2 = 9.80665;
+inline constexpr double kModelGravity_m_s2 = kStandardGravity_m_s2;
 
 [[nodiscard]] std::unique_ptr<Vehicle> make_auv(const AuvConfig& config, const EnvironmentConfig& environment,
                                                 std::uint64_t seed);

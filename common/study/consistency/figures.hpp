@@ -11,24 +11,24 @@ namespace fathom::study {
 
 // Inertial units beside kNavigation (study/instruments.hpp).
 /// A tactical unit with the in-run drift of its data sheet.
-inline constexpr ImuGrade kTacticalGrade{.gyro_bias_rad_s = 1.0 * kDegreePerHour,
-                                         .gyro_in_run_rad_s = 0.3 * kDegreePerHour,
+inline constexpr ImuGrade kTacticalGrade{.gyro_bias_rad_s = 1.0 * kDegPerHour_rad_s,
+                                         .gyro_in_run_rad_s = 0.3 * kDegPerHour_rad_s,
                                          .angle_walk_rad_sqrt_s = 0.1 * kRadPerDeg / 60.0,
                                          .gyro_scale = 150e-6,
-                                         .accel_bias_m_s2 = 1.0 * kMilliG,
-                                         .accel_in_run_m_s2 = 0.1 * kMilliG,
+                                         .accel_bias_m_s2 = 1.0 * kMilliG_m_s2,
+                                         .accel_in_run_m_s2 = 0.1 * kMilliG_m_s2,
                                          .velocity_walk_m_s_sqrt_s = 0.02 / 60.0,
                                          .accel_scale = 300e-6,
                                          .misalignment_rad = 0.3e-3,
                                          .in_run_s = 1800.0};
 /// A good MEMS unit, calibrated over temperature (ADIS16490 class).
 inline constexpr ImuGrade kIndustrialGrade{
-    .gyro_bias_rad_s = 20.0 * kDegreePerHour,
-    .gyro_in_run_rad_s = 3.0 * kDegreePerHour,
+    .gyro_bias_rad_s = 20.0 * kDegPerHour_rad_s,
+    .gyro_in_run_rad_s = 3.0 * kDegPerHour_rad_s,
     .angle_walk_rad_sqrt_s = 0.15 * kRadPerDeg / 60.0,
     .gyro_scale = 1e-3,
-    .accel_bias_m_s2 = 4.0 * kMilliG,
-    .accel_in_run_m_s2 = 0.3 * kMilliG,
+    .accel_bias_m_s2 = 4.0 * kMilliG_m_s2,
+    .accel_in_run_m_s2 = 0.3 * kMilliG_m_s2,
     .velocity_walk_m_s_sqrt_s = 0.03 / 60.0,
     .accel_scale = 1e-3,
     .misalignment_rad = 1e-3,
@@ -37,11 +37,11 @@ inline constexpr ImuGrade kIndustrialGrade{
 /// A MEMS chip as it comes (consumer parts on autopilots).
 inline constexpr ImuGrade kConsumerGrade{
     .gyro_bias_rad_s = 0.2 * kRadPerDeg,
-    .gyro_in_run_rad_s = 30.0 * kDegreePerHour,
+    .gyro_in_run_rad_s = 30.0 * kDegPerHour_rad_s,
     .angle_walk_rad_sqrt_s = 0.4 * kRadPerDeg / 60.0,
     .gyro_scale = 1e-2,
-    .accel_bias_m_s2 = 30.0 * kMilliG,
-    .accel_in_run_m_s2 = 1.0 * kMilliG,
+    .accel_bias_m_s2 = 30.0 * kMilliG_m_s2,
+    .accel_in_run_m_s2 = 1.0 * kMilliG_m_s2,
     .velocity_walk_m_s_sqrt_s = 0.1 / 60.0,
     .accel_scale = 5e-3,
     .misalignment_rad = 5e-3,

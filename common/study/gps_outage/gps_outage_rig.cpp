@@ -20,18 +20,18 @@ constexpr double kAttack_rad = 0.05;
 constexpr std::array<double, 3> kWind_N_m_s{4.0, -3.0, 0.0};
 
 // Point samples of an instrument that vibrates: what it adds to one sample is white from sample to sample.
-constexpr double kGyroBias_rad_s = 7.2 * kDegreePerHour;
-constexpr double kGyroInRun_rad_s = 2.0 * kDegreePerHour;
-constexpr double kGyroNoise_rad_s = 50.0 * kDegreePerHour;
+constexpr double kGyroBias_rad_s = 7.2 * kDegPerHour_rad_s;
+constexpr double kGyroInRun_rad_s = 2.0 * kDegPerHour_rad_s;
+constexpr double kGyroNoise_rad_s = 50.0 * kDegPerHour_rad_s;
 constexpr double kGyroScale = 5e-3;
 constexpr double kMisalignment_rad = 2e-3;
-constexpr double kAccelBias_m_s2 = 21.0 * kMilliG;
-constexpr double kAccelInRun_m_s2 = 1.5 * kMilliG;
-constexpr double kAccelNoise_m_s2 = 20.0 * kMilliG;
+constexpr double kAccelBias_m_s2 = 21.0 * kMilliG_m_s2;
+constexpr double kAccelInRun_m_s2 = 1.5 * kMilliG_m_s2;
+constexpr double kAccelNoise_m_s2 = 20.0 * kMilliG_m_s2;
 constexpr double kAccelScale = 3e-3;
 constexpr double kInRun_s = 600.0;
 constexpr double kCounts = 32768.0;
-constexpr double kAccelRange_m_s2 = 2000.0 * kMilliG;
+constexpr double kAccelRange_m_s2 = 2000.0 * kMilliG_m_s2;
 constexpr double kGyroRange_rad_s = 100.0 * kRadPerDeg;
 
 constexpr double kGpsDrift_m = 1.8;

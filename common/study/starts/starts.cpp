@@ -45,19 +45,19 @@ constexpr double kLongestWait_s = 90.0;
 /// filter.
 constexpr ImuGrade fog_with_accelerometers_of(double bias_mg) {
   ImuGrade grade = kTacticalGrade;
-  grade.accel_bias_m_s2 = bias_mg * kMilliG;
-  grade.accel_in_run_m_s2 = 0.05 * bias_mg * kMilliG;
+  grade.accel_bias_m_s2 = bias_mg * kMilliG_m_s2;
+  grade.accel_in_run_m_s2 = 0.05 * bias_mg * kMilliG_m_s2;
   return grade;
 }
 constexpr ImuGrade kFog300ug = fog_with_accelerometers_of(0.3);
 constexpr ImuGrade kFog21mg = fog_with_accelerometers_of(21.0);
 /// A MEMS unit between industrial and consumer grade.
 constexpr ImuGrade kMems10mg{.gyro_bias_rad_s = 0.05 * kRadPerDeg,
-                             .gyro_in_run_rad_s = 10.0 * kDegreePerHour,
+                             .gyro_in_run_rad_s = 10.0 * kDegPerHour_rad_s,
                              .angle_walk_rad_sqrt_s = 0.3 * kRadPerDeg / 60.0,
                              .gyro_scale = 3e-3,
-                             .accel_bias_m_s2 = 10.0 * kMilliG,
-                             .accel_in_run_m_s2 = 0.5 * kMilliG,
+                             .accel_bias_m_s2 = 10.0 * kMilliG_m_s2,
+                             .accel_in_run_m_s2 = 0.5 * kMilliG_m_s2,
                              .velocity_walk_m_s_sqrt_s = 0.06 / 60.0,
                              .accel_scale = 2e-3,
                              .misalignment_rad = 2e-3,

@@ -24,7 +24,7 @@ constexpr double kGpsRate_hz = 5.0;
 // Where instruments of the same grade are less kind.
 constexpr double kUnkindGpsVelocity_m_s = 0.1;
 constexpr double kUnkindGpsRate_hz = 1.0;
-constexpr double kUnkindAccelDrift_m_s2 = 0.3 * kMilliG;
+constexpr double kUnkindAccelDrift_m_s2 = 0.3 * kMilliG_m_s2;
 // Deviation of a magnetic compass in the vehicle, A and each of B to E, 1 sigma.
 constexpr double kCompassA_rad = 1.0 * kRadPerDeg;
 constexpr double kCompassCurve_rad = 2.0 * kRadPerDeg;

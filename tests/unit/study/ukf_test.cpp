@@ -1,6 +1,5 @@
 #include "study/baselines/ukf.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
 #include "support/vehicles/analytic_vehicle.hpp"
@@ -44,6 +43,10 @@ TEST(Ukf, LinearSystemIsAKalmanFilter) {
   }
 }
 
+bool is_positive_definite(const Eigen::Matrix2d& symmetric) {
+  return symmetric(0, 0) > 0.0 && symmetric(0, 0) * symmetric(1, 1) > symmetric(0, 1) * symmetric(1, 0);
+}
+
 TEST(Ukf, NegativeCentreWeightLeavesCovarianceDefinite) {
   // A strong even nonlinearity throws the mean far from the image of the centre, whose weight is negative.
   Ukf<2> ukf(UkfTuning{0.3, 0.0, 0.0});
@@ -54,10 +57,10 @@ TEST(Ukf, NegativeCentreWeightLeavesCovarianceDefinite) {
     ukf.predict([](const Eigen::Vector2d& s) { return Eigen::Vector2d(5.0 * s.x() * s.x(), 0.9 * s.y()); },
                 q);
     EXPECT_EQ(ukf.P, Eigen::Matrix2d(ukf.P.transpose()));
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(ukf.P).eigenvalues().minCoeff(), 0.0);
+    EXPECT_TRUE(is_positive_definite(ukf.P));
     ukf.update<1>([](const Eigen::Vector2d& s) { return Eigen::Matrix<double, 1, 1>(s.x()); },
                   Eigen::Matrix<double, 1, 1>(0.1), Eigen::Matrix<double, 1, 1>(1e-4));
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(ukf.P).eigenvalues().minCoeff(), 0.0);
+    EXPECT_TRUE(is_positive_definite(ukf.P));
   }
 }
 

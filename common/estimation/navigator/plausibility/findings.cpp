@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Matrix2d;
 
-constexpr double kKnot_m_s = 1852.0 / 3600.0;
-constexpr double kFoot_m = 0.3048;
 /// A likelihood ratio above c is seen once in c times where all is as configured, however often one looks
 /// (Ville); of all explanations together once in ten thousand.
 constexpr double kExplanations = 57.0;
@@ -76,7 +74,7 @@ struct Plausibility::Best {
       hear(Implausible::gps_place_unit, kDegPerRad,
            fit.evidence(matrix(kRadPerDeg, 0.0, 0.0, kRadPerDeg * east), proof));
     }
-    for (const double factor : {kKnot_m_s, 1.0 / 3.6, 1e-2, 1e-3})
+    for (const double factor : {kKnot_m_s, kKmh_m_s, 1e-2, 1e-3})
       hear(Implausible::gps_unit, factor, fit.evidence(factor, proof));
     hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(0, 1, 1, 0), proof));
     hear(Implausible::gps_axes, 0.0, fit.evidence(matrix(-1, 0, 0, 1), proof));
