@@ -40,6 +40,11 @@ void settle(const Setup& setup, double share, Target& target) {
   widen_group(Group::accel_bias, setup.config.imu.accel_bias_settling_m_s2);
 }
 
+Vector3d bias(const Setup& setup, const FilterState& state, Group group) {
+  const auto at = static_cast<std::size_t>(setup.index.of(group));
+  return {state.x[at], state.x[at + 1], state.x[at + 2]};
+}
+
 }  // namespace
 
 void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns) {
@@ -244,18 +249,21 @@ double Estimate::turn_rad_s() const {
   return geo::to_matrix(state.nav.q_NB).row(2).dot(rate_B_rad_s);
 }
 
+Vector3d Estimate::gyro_bias_rad_s(const Setup& setup) const {
+  return bias(setup, state, Group::gyro_bias);
+}
+
 Vector3d Estimate::velocity_N_m_s(const Setup& setup, VelocityOver reference) const {
   const Vector3d& v_N_m_s = state.nav.v_N_m_s;
   return reference == VelocityOver::medium ? Vector3d(v_N_m_s - current_N_m_s(setup)) : v_N_m_s;
 }
 
 void Estimate::replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance) {
-  const auto bias = [&](const FilterState& of, Group group) {
-    const auto at = static_cast<std::size_t>(setup.index.of(group));
-    return Vector3d(of.x[at], of.x[at + 1], of.x[at + 2]);
+  const auto moved = [&](Group group) {
+    return Vector3d(bias(setup, state, group) - bias(setup, other, group));
   };
-  rate_B_rad_s += bias(state, Group::gyro_bias) - bias(other, Group::gyro_bias);
-  force_B_m_s2 += bias(state, Group::accel_bias) - bias(other, Group::accel_bias);
+  rate_B_rad_s += moved(Group::gyro_bias);
+  force_B_m_s2 += moved(Group::accel_bias);
   state = other;
   filter = covariance;
   start_heading.end();

@@ -80,6 +80,7 @@ struct Estimate {
   }
   /// About down.
   [[nodiscard]] double turn_rad_s() const;
+  [[nodiscard]] Eigen::Vector3d gyro_bias_rad_s(const Setup& setup) const;
   /// Relative to ground or medium.
   [[nodiscard]] Eigen::Vector3d velocity_N_m_s(const Setup& setup, VelocityOver reference) const;
   /// Horizontal motion of the water or the air, along N; zero where it is not estimated.

@@ -104,12 +104,12 @@ Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
   return trial.judgement;
 }
 
-const geo::Quaternion* Navigator::attitude_to_trust(const Measurement& measurement) const {
+std::optional<TrustedAttitude> Navigator::attitude_to_trust(const Measurement& measurement) const {
   constexpr double kHeading_rad = 0.2;
   const bool asked = std::holds_alternative<GpsSample>(measurement.sample);
   if (!asked || !estimate_.navigating || descent_.aligning() || !(rpy_sigma_rad().z() < kHeading_rad))
-    return nullptr;
-  return &estimate_.state.nav.q_NB;
+    return std::nullopt;
+  return TrustedAttitude{estimate_.state.nav.q_NB, estimate_.gyro_bias_rad_s(*setup_)};
 }
 
 bool Navigator::admit(Trial& trial) {
@@ -123,7 +123,8 @@ bool Navigator::admit(Trial& trial) {
   if (trial.config.use_sample_sigma && !sound_sigmas(measurement.sample))
     return trial.end(VerdictKind::out_of_range);
   starter_.collect(*setup_, estimate_, measurement);
-  plausibility_.measured(*setup_, measurement, attitude_to_trust(measurement), estimate_.now_ns);
+  const std::optional<TrustedAttitude> attitude = attitude_to_trust(measurement);
+  plausibility_.measured(*setup_, measurement, attitude ? &*attitude : nullptr, estimate_.now_ns);
   trial.drive = model_.drive(*setup_, estimate_, measurement);
   if (!estimate_.navigating) return trial.end(VerdictKind::not_aligned);
   if (descent_.aligning()) {

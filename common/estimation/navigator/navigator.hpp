@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "estimation/navigator/constraints.hpp"
 #include "estimation/navigator/estimate.hpp"
 #include "estimation/navigator/instruments.hpp"
@@ -112,7 +114,7 @@ class Navigator {
   /// Whether it may be looked at at all. Parts that have a use for it beside the filter have it then.
   bool admit(Trial& trial);
   /// Of the estimate, for those who see GPS's velocity in the body; none while heading is not known to that.
-  [[nodiscard]] const geo::Quaternion* attitude_to_trust(const Measurement& measurement) const;
+  [[nodiscard]] std::optional<TrustedAttitude> attitude_to_trust(const Measurement& measurement) const;
   /// What the aiding models make of it; false when there is nothing for the filter in it.
   bool observe(Trial& trial);
   void gate(Trial& trial) const;

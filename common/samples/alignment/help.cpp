@@ -23,7 +23,9 @@ constexpr std::array kHelp{
     Help{"course_sigma_rad",
          "run straight and faster with GPS velocity, or with a DVL on the bottom beside it"},
     Help{"position_known", "a GPS fix, an acoustic fix or an order of the position serves"},
-    Help{"instruments_contradict", "go on turning: it takes some turns to say which instrument is wrong"},
+    Help{"instruments_contradict",
+         "go on turning: it takes some turns to say which instrument is wrong; a vehicle "
+         "that turns on the spot needs a compass"},
     Help{"imu_unjudged_s", "wait: gravity and the rate of the inertial unit are looked at first"},
     Help{"roll_sigma_rad", "change speed and course: accelerations separate tilt from bias"},
     Help{"pitch_sigma_rad", "change speed and course: accelerations separate tilt from bias"},

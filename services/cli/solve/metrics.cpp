@@ -152,11 +152,10 @@ std::string is(double value) {
   return std::isfinite(value) ? text.data() : "is not known";
 }
 
-// One sentence.
-std::string why_no_position(const SolveReport& report) {
+// One sentence, after `what` came of it.
+std::string why_not_aligned(const std::string& what, const SolveReport& report) {
   const AlignmentStatus& status = report.result.alignment;
-  std::string out =
-      "no position was found: alignment is " + std::string(to_string(report.alignment)) + " at the end";
+  std::string out = what + ": alignment is " + std::string(to_string(report.alignment)) + " at the end";
   if (report.smoothed || status.phase != report.alignment) return out;
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), ", for %.1f s", status.in_phase_s);
@@ -169,6 +168,8 @@ std::string why_no_position(const SolveReport& report) {
     if (one.needed_s > 0.0) {  // the others are yes or no, or a figure that is good at once
       std::snprintf(text.data(), text.size(), "%s below %.4g for %.4g s (%s, has been below for %.4g s)",
                     one.name.str().c_str(), one.limit, one.needed_s, is(one.value).c_str(), one.held_s);
+    } else if (one.limit == 0.0 && one.value == 1.0) {
+      std::snprintf(text.data(), text.size(), "%s to be over", one.name.str().c_str());
     } else if (one.limit != 1.0 && known(one.limit)) {
       std::snprintf(text.data(), text.size(), "%s below %.4g (%s)", one.name.str().c_str(), one.limit,
                     is(one.value).c_str());
@@ -264,7 +265,9 @@ std::string to_text(const SolveReport& report) {
   if (implausible(report.result.alignment) != nullptr)
     out += report.result.ever_aligned ? "it is not aligned at the end because of that\n"
                                       : "it did not align because of that\n";
-  if (report.positions == 0) out += why_no_position(report) + "\n";
+  else if (report.positions > 0 && !report.smoothed && !report.result.ever_aligned)
+    out += why_not_aligned("it never aligned", report) + "\n";
+  if (report.positions == 0) out += why_not_aligned("no position was found", report) + "\n";
   const dataset::Score& score = report.score;
   if (score.count > 0) {
     out += line("horizontal error: rms %.2f m, 95 %% %.2f m, end %.2f m, %.3f %% of %.0f m",

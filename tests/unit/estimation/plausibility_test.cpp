@@ -285,6 +285,26 @@ TEST(PairFit, AsksForMoreBeforeItClaimsThanBeforeItDoubts) {
   EXPECT_EQ(fit.evidence(2.0, kDoubt), 0.0);
 }
 
+TEST(PairFit, FiguresThatHaveNothingToDoWithOneAnotherAreNoUnit) {
+  sim::Random random(11, "unrelated");
+  PairFit degrees;
+  PairFit hangs;   // as a compass may, or a course where a vehicle turns on the spot
+  PairFit strays;  // as a course where it goes wherever it likes
+  for (int i = 0; i < 60; ++i) {
+    const double turn = random.normal(1.0);
+    degrees.add(turn / kRadPerDeg, turn + random.normal(0.05), 0.05, 0.4);
+    hangs.add(turn, random.normal(0.05), 0.05, 0.4);
+    strays.add(turn, random.normal(1.0), 0.05, 0.4);
+  }
+  EXPECT_TRUE(degrees.is_related(kRadPerDeg));
+  EXPECT_TRUE(degrees.moves());
+  EXPECT_FALSE(hangs.is_related(kRadPerDeg));
+  EXPECT_FALSE(hangs.moves());
+  EXPECT_GT(hangs.evidence(kRadPerDeg, kProof), 20.0) << "and yet it explains the misfit";
+  EXPECT_FALSE(strays.is_related(kRadPerDeg));
+  EXPECT_TRUE(strays.moves());
+}
+
 TEST(PairFit, KeepsWhatWasClaimedUntilTheConfigurationExplainsAsMuch) {
   constexpr Proof kStands{.fewest = 4.0, .most_left = 1.0, .claim = 0.0};
   PairFit fit;

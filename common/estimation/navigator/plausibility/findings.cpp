@@ -55,11 +55,17 @@ struct Plausibility::Best {
     finding = {kind, value};
   }
   /// `share`: of the evidence that counts.
+  /// A vehicle may turn on the spot, and a compass may hang: that is a doubt, as long as the other one does
+  /// not turn on its own, and no fault of the gyro.
   void hear_turns(const PairFit& fit, const Proof& proof, double share = 1.0) {
-    hear(Implausible::gyro_negated, -1.0, share * fit.evidence(-1.0, proof));
+    const auto hear_factor = [&](Implausible kind, double factor) {
+      if (fit.is_related(factor) || (!proof.accuses() && !fit.moves()))
+        hear(kind, factor, share * fit.evidence(factor, proof));
+    };
+    hear_factor(Implausible::gyro_negated, -1.0);
     for (const double sign : {1.0, -1.0}) {
-      hear(Implausible::gyro_in_degrees, sign * kRadPerDeg, share * fit.evidence(sign * kRadPerDeg, proof));
-      hear(Implausible::gyro_too_slow, sign / kRadPerDeg, share * fit.evidence(sign / kRadPerDeg, proof));
+      hear_factor(Implausible::gyro_in_degrees, sign * kRadPerDeg);
+      hear_factor(Implausible::gyro_too_slow, sign / kRadPerDeg);
     }
   }
   void hear_headings(const PairFit& fit, const Proof& proof) {

@@ -7,6 +7,7 @@ namespace fathom::estimation {
 namespace {
 
 constexpr double kMost = 1e7;
+const double kRelated = std::log(1000.0);
 
 }  // namespace
 
@@ -50,6 +51,15 @@ double PairFit::left_over(const Eigen::Matrix2d& M) const {
 
 double PairFit::turn_rad() const {
   return std::atan2(ba_(1, 0) - ba_(0, 1), ba_(0, 0) + ba_(1, 1));
+}
+
+bool PairFit::is_related(double factor) const {
+  const double left = left_over(factor * Eigen::Matrix2d::Identity());
+  return count_ > 0.0 && 0.5 * count_ * std::log((bb_ + expected_) / (left + expected_)) > kRelated;
+}
+
+bool PairFit::moves() const {
+  return count_ >= 1.0 && bb_ > chi_square_mean(count_, kRefutedSigmas) * expected_;
 }
 
 bool PairFit::agrees() const {

@@ -20,6 +20,8 @@ struct Proof {
   double fewest;     ///< components
   double most_left;  ///< the share of the misfit that it may leave
   double claim;      ///< the log likelihood ratio that it has to exceed
+  /// An instrument is said to be wrong, as against relied on or not.
+  [[nodiscard]] bool accuses() const { return claim > 0.0; }
 };
 
 /// Log of the likelihood of another hypothesis over that of the configured one, where the scatter is not
@@ -53,6 +55,11 @@ class PairFit {
   }
   /// The same with what another hypothesis leaves over of the same pairs.
   [[nodiscard]] double evidence_of(double left_over, const Proof& proof) const;
+  /// `b = factor a` is a thousand times as likely as figures that have nothing to do with one another, the
+  /// scatter not known as in evidence_for_other().
+  [[nodiscard]] bool is_related(double factor) const;
+  /// b stands out of its noise by itself, so that it would show what it is related to.
+  [[nodiscard]] bool moves() const;
   /// Enough was added, and it is as expected: only then can the figures speak against a third one.
   [[nodiscard]] bool agrees() const;
   /// What is configured is refuted, by however few.

@@ -116,11 +116,12 @@ void Plausibility::feel(const Setup& setup, double dt_s, const Vector3d& force_B
   judge(setup);
 }
 
-void Plausibility::measured(const Setup& setup, const Measurement& measurement, const geo::Quaternion* q_NB,
-                            TimeNs now_ns) {
+void Plausibility::measured(const Setup& setup, const Measurement& measurement,
+                            const TrustedAttitude* attitude, TimeNs now_ns) {
   if (measurement.command) return;
   const SensorConfig& config = setup.sensor(measurement.sensor);
-  if (const auto* gps = std::get_if<GpsSample>(&measurement.sample)) take(setup, config, *gps, q_NB, now_ns);
+  if (const auto* gps = std::get_if<GpsSample>(&measurement.sample))
+    take(setup, config, *gps, attitude, now_ns);
   if (const auto* heading = std::get_if<HeadingSample>(&measurement.sample))
     take(setup, config, *heading, now_ns);
   if (const auto* dvl = std::get_if<DvlSample>(&measurement.sample)) take(config, *dvl, now_ns);
@@ -202,7 +203,7 @@ void Plausibility::follow(const SensorConfig& config, const GpsSample& gps, cons
 }
 
 void Plausibility::take(const Setup& setup, const SensorConfig& config, const GpsSample& gps,
-                        const geo::Quaternion* q_NB, TimeNs now_ns) {
+                        const TrustedAttitude* attitude, TimeNs now_ns) {
   const Vector2d v(gps.velocity_N_m_s[0], gps.velocity_N_m_s[1]);
   if (!is_fixed(config, gps) || !v.allFinite() || !(v.norm() < 1000.0)) return;
   if (!(std::abs(gps.latitude_rad) < 1.57) || !(std::abs(gps.longitude_rad) < 6.2832)) return;
@@ -214,12 +215,12 @@ void Plausibility::take(const Setup& setup, const SensorConfig& config, const Gp
   speed_ns_ = now_ns;
 
   if (config.use_velocity) follow(config, gps, v, noise_m_s, now_ns);
-  if (config.use_velocity && q_NB != nullptr) {
+  if (config.use_velocity && attitude != nullptr) {
     const double down_m_s = std::abs(gps.velocity_N_m_s[2]) < 1000.0 ? gps.velocity_N_m_s[2] : 0.0;
     tilts_.measured({.v_N_m_s = {v.x(), v.y(), down_m_s},
                      .noise_m_s = noise_m_s,
                      .lever_m = kAntenna_m + geo::vec(config.lever_B_m).norm(),
-                     .q_NB = *q_NB});
+                     .attitude = *attitude});
   }
   if (speed > std::max(kSlowest_m_s, 10.0 * noise_m_s)) {
     const double sigma = std::hypot(1.4 * noise_m_s / speed, setup.config.alignment.compass_sigma_rad);

@@ -59,8 +59,8 @@ class Plausibility {
  public:
   /// At the end of each inertial interval.
   void add(const Setup& setup, const ImuStep& step, TimeNs now_ns);
-  /// Each measurement at its instant. `q_NB`: of the estimate, none while its heading is not known.
-  void measured(const Setup& setup, const Measurement& measurement, const geo::Quaternion* q_NB,
+  /// Each measurement at its instant. `attitude`: of the estimate, none while its heading is not known.
+  void measured(const Setup& setup, const Measurement& measurement, const TrustedAttitude* attitude,
                 TimeNs now_ns);
   /// The sums go on, but no pair spans what was not measured.
   void interrupt();
@@ -124,8 +124,8 @@ class Plausibility {
     PairFit fit;
   };
 
-  void take(const Setup& setup, const SensorConfig& config, const GpsSample& gps, const geo::Quaternion* q_NB,
-            TimeNs now_ns);
+  void take(const Setup& setup, const SensorConfig& config, const GpsSample& gps,
+            const TrustedAttitude* attitude, TimeNs now_ns);
   void take(const Setup& setup, const SensorConfig& config, const HeadingSample& heading, TimeNs now_ns);
   void take(const SensorConfig& config, const DvlSample& dvl, TimeNs now_ns);
   void take(const SensorConfig& config, const DepthSample& depth, TimeNs now_ns);

@@ -49,8 +49,9 @@ void TiltFit::measured(const Velocity& velocity) {
   if (has_velocity_ && lasted_s_ < kBlock_s) return;
   const bool sound = turn_rad_.norm() < kMostTilt_rad && dv_m_s_.norm() < kMost_m_s;
   if (has_velocity_ && lasted_s_ < kLongestTilt_s && sound) {
+    turn_rad_ -= lasted_s_ * velocity.attitude.gyro_bias_rad_s;
     // The body in the middle of the block, seen from its end.
-    const geo::Quaternion q_NM = velocity.q_NB * geo::exp(-0.5 * turn_rad_);
+    const geo::Quaternion q_NM = velocity.attitude.q_NB * geo::exp(-0.5 * turn_rad_);
     const Block now{
         .force_B_m_s2 = dv_m_s_ / lasted_s_,
         .acceleration_B_m_s2 = geo::to_matrix(q_NM).transpose() * (velocity.v_N_m_s - v_N_m_s_) / lasted_s_,

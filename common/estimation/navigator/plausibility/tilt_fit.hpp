@@ -9,6 +9,12 @@
 
 namespace fathom::estimation {
 
+/// Of an estimate that knows its heading.
+struct TrustedAttitude {
+  geo::Quaternion q_NB;
+  Eigen::Vector3d gyro_bias_rad_s = Eigen::Vector3d::Zero();  ///< as it takes the gyro to be off
+};
+
 /// Whether the small tilts of a vehicle under way turn as the gyro says, and which exchange or sign of axes
 /// explains them better (PLAUS-2). Where down is follows from the force, less what GPS's velocity changed by.
 /// Of tilts of a degree nobody knows the noise: it is taken from what is left over. A value of fixed size.
@@ -18,8 +24,8 @@ class TiltFit {
   struct Velocity {
     Eigen::Vector3d v_N_m_s;
     double noise_m_s;
-    double lever_m;        ///< of the antenna, and how well it is known
-    geo::Quaternion q_NB;  ///< of the estimate
+    double lever_m;  ///< of the antenna, and how well it is known
+    TrustedAttitude attitude;
   };
 
   /// At the end of each inertial interval.
