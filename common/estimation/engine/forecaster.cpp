@@ -72,11 +72,15 @@ double radius_50(double larger_sigma, double smaller_sigma) {
 
 Forecaster::Forecaster(const Setup& setup) : setup_(&setup), navigator_(setup), filter_(setup.index) {}
 
+// What was refused, or has nothing to say, will not aid.
 void Forecaster::remember(int sensor, const EventSample& sample) {
   const int layer = setup_->water_layer[static_cast<std::size_t>(sensor)];
   const int instrument = is_of_water(sample) && layer >= 0 ? kMaxSensors + layer : sensor;
-  past_.last[static_cast<std::size_t>(instrument)] = sample;
-  past_.remembered[static_cast<std::size_t>(instrument)] = true;
+  const auto at = static_cast<std::size_t>(instrument);
+  // One that came late does not replace what is younger.
+  if (past_.remembered[at] && header_of(past_.last[at]).stamp_ns > header_of(sample).stamp_ns) return;
+  past_.last[at] = sample;
+  past_.remembered[at] = true;
 }
 
 void Forecaster::take(const Navigator& navigator) {
@@ -141,8 +145,9 @@ void Forecaster::step(int lost, double dt_s) {
   nav.q_NB = geo::exp({0.0, 0.0, turned_rad_}) * motion.q_NB;
   nav.v_N_m_s = Eigen::AngleAxisd(turned_rad_, Vector3d::UnitZ()) * motion.v_N_m_s;
   const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
-  filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s),
-                    setup_->process_noise(c, SquaredInputs(c, motion.rate_B_rad_s, motion.force_B_m_s2)));
+  ProcessNoise noise = setup_->process_noise(c, SquaredInputs(c, motion.rate_B_rad_s, motion.force_B_m_s2));
+  navigator_.estimate().motion_noise.widen(setup_->imu_noise, noise);
+  filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s), noise);
   navigator_.settle_biases(filter_, ahead_s_, dt_s);
   ahead_s_ += dt_s;
   if (lost == kAll) return;
@@ -174,6 +179,7 @@ void Forecaster::aid(int sensor, int instrument, const Instrument& known, const 
     if (entry.source == config.kind)
       (void)entry.observe(input, taken_.last[static_cast<std::size_t>(instrument)], observation);
   if (observation.rows == 0) return;
+  if (config.max_noise_factor > 1.0 && !modelled) known.noise.widen(observation);
   observation.list_columns(setup_->index.size());
   InnovationStatistics statistics;
   std::array<double, kMaxStates> ignored{};

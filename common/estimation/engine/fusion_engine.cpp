@@ -113,10 +113,7 @@ class FusionEngine::Impl final : public VerdictSink {
     one.sequence = header.sequence;
     one.sample = sample;
     const History::Placing placing = history_.insert(one, *this);
-    if (placing == History::Placing::taken) {
-      forecaster_.remember(sensor, one.sample);
-      return;
-    }
+    if (placing == History::Placing::taken) return;
     judgement.kind = refusal_of(placing);
     refuse(header, source, writer, judgement);
   }
@@ -214,6 +211,7 @@ class FusionEngine::Impl final : public VerdictSink {
           outcome_of(std::get<Command>(measurement.sample), judgement, measurement.revision > 0);
       return;
     }
+    if (judgement.kind == VerdictKind::used) forecaster_.remember(measurement.sensor, measurement.sample);
     Verdict& verdict = push(measurement.header(), measurement.source, measurement.writer, judgement);
     verdict.revision = measurement.revision;
     verdict.previous = previous;

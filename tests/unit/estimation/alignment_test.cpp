@@ -272,6 +272,29 @@ TEST(Forecast, RadiiHoldTheirShareOfANormalDistribution) {
   EXPECT_EQ(radius_50(0.0, 0.0), 0.0);
 }
 
+TEST(Forecast, DoesNotHangOnOnePingThatSaysNothing) {
+  const SurveyRun run({.duration_s = 100.0, .dive_s = 60.0, .usbl = false});
+  FusionEngine engine(SurveyRun::config());
+  int pings = 0;
+  double good_m = kUnknown;
+  for (test::Sample sample : run.samples) {
+    auto* dvl = std::get_if<DvlSample>(&sample);
+    const bool late = test::header(sample).stamp_ns > SurveyRun::kEpochNs + 90 * kNsPerSecond;
+    if (dvl == nullptr || !late) {
+      test::feed(engine, sample);
+      continue;
+    }
+    const double before_m = engine.forecast_horizontal_95_m(300.0);
+    if (++pings == 5) dvl->velocity_D_m_s = {kUnknown, kUnknown, kUnknown};
+    test::feed(engine, sample);
+    if (pings == 6) {
+      EXPECT_LT(before_m, 1.2 * good_m);
+    }
+    if (pings < 5) good_m = before_m;
+  }
+  EXPECT_GT(pings, 6);
+}
+
 TEST(Forecast, GrowsAndSaysWhenALimitIsPassed) {
   const SurveyRun run({.duration_s = 60.0});
   EngineConfig config = SurveyRun::config();
