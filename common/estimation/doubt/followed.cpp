@@ -1,6 +1,7 @@
 #include "estimation/doubt/followed.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Cholesky>
 
@@ -32,6 +33,20 @@ Evidence<N>::Evidence(const FollowedErrors<N>& errors, const Observation& observ
     const auto column = weighed.col(static_cast<Eigen::Index>(j));
     gradient[j] = column.dot(innovation);
     curvature[j] = column.dot(seen.col(static_cast<Eigen::Index>(j)));
+  }
+}
+
+template <std::size_t N>
+void Evidence<N>::add_considered(std::size_t j, const InnovationStatistics& statistics,
+                                 const ErrorFilter& filter, double* sums) const {
+  for (int c = filter.estimated(); c < filter.size(); ++c) {
+    const double variance = filter(c, c);
+    if (!(variance > 0.0)) continue;
+    double shared = 0.0;
+    for (int i = 0; i < statistics.rows; ++i)
+      shared += weighed(i, static_cast<Eigen::Index>(j)) *
+                statistics.ph[static_cast<std::size_t>(i * kMaxStates + c)];
+    sums[c] += shared / std::sqrt(variance);
   }
 }
 

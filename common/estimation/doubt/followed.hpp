@@ -24,6 +24,12 @@ struct Evidence {
       weighed;  ///< S^-1 H u
   std::array<double, N> gradient{};
   std::array<double, N> curvature{};
+
+  /// Adds to `sums` what one sigma of each error that the filter considers and does not estimate makes of
+  /// gradient `j`. Such an error is the same in all measurements, so that it does not average out: the
+  /// variance of a sum of gradients is that of its curvature and the squares of these sums.
+  void add_considered(std::size_t j, const InnovationStatistics& statistics, const ErrorFilter& filter,
+                      double* sums) const;
 };
 
 // What the filter does, in its order.

@@ -38,20 +38,22 @@ void MotionNoise::propagated(const NavTransition& step, const ProcessNoise& nois
   bool ended = false;
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     blocks_[kind].age_s += step.dt_s();
-    if (blocks_[kind].age_s < kBlock_s[kind]) continue;
+    if (!is_over(kind, said[kind])) continue;
     end_block(kind, said[kind]);
     ended = true;
   }
   if (ended) judge(most);
 }
 
-void MotionNoise::updated(const Observation& observation, const InnovationStatistics& statistics) {
+void MotionNoise::updated(const Observation& observation, const InnovationStatistics& statistics,
+                          const ErrorFilter& filter) {
   // (GATE-12)
   const Evidence<kErrors> evidence(now_, observation, statistics);
   for (std::size_t j = 0; j < kErrors; ++j) {
     Block& block = blocks_[j / kAxes];
     block.gradient[j % kAxes] += evidence.gradient[j];
     block.curvature[j % kAxes] += evidence.curvature[j];
+    evidence.add_considered(j, statistics, filter, block.considered.data() + j % kAxes * kMaxStates);
   }
   follow(evidence, statistics, estimated_, now_);
 }
@@ -60,20 +62,39 @@ void MotionNoise::carried(const Carry& carry) {
   follow<kErrors>(carry, now_);
 }
 
+double MotionNoise::Block::variance(std::size_t axis) const {
+  double out = curvature[axis];
+  for (std::size_t c = 0; c < kMaxStates; ++c) out += std::pow(considered[axis * kMaxStates + c], 2);
+  return out;
+}
+
+double MotionNoise::share(std::size_t kind, std::size_t axis, double said) const {
+  const Block& block = blocks_[kind];
+  return block.curvature[axis] > 0.0
+             ? block.curvature[axis] * block.curvature[axis] / block.variance(axis) * said * block.age_s
+             : 0.0;
+}
+
+bool MotionNoise::is_over(std::size_t kind, double said) const {
+  const double age_s = blocks_[kind].age_s;
+  if (age_s < kBlock_s[kind] || age_s >= kLongestBlock_s[kind]) return age_s >= kBlock_s[kind];
+  for (std::size_t axis = 0; axis < kAxes; ++axis)
+    if (share(kind, axis, said) > kLeastShare) return true;
+  return false;
+}
+
 void MotionNoise::end_block(std::size_t kind, double said) {
   const Block& block = blocks_[kind];
-  for (std::size_t axis = 0; axis < kAxes; ++axis) {
-    const double share = block.curvature[axis] * said * block.age_s;
-    if (share > kLeastShare)
-      kinds_[kind].add(block.gradient[axis] * block.gradient[axis] / block.curvature[axis], share);
-  }
+  for (std::size_t axis = 0; axis < kAxes; ++axis)
+    if (const double shown = share(kind, axis, said); shown > kLeastShare)
+      kinds_[kind].add(block.gradient[axis] * block.gradient[axis] / block.variance(axis), shown);
   begin_block(kind);
 }
 
 void MotionNoise::judge(double most) {
   // None is judged before the other can be: what is wrong of one shows in the other, too.
   for (const Kind& one : kinds_)
-    if (one.count > 0 && one.count < kFewest) return;
+    if (one.count < kFewest) return;
   Kind& velocity = kinds_[kAccelerometers];
   Kind& attitude = kinds_[kGyros];
   if (!velocity.is_wrong() && !attitude.is_wrong()) return;

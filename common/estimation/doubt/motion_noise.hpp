@@ -29,7 +29,8 @@ class MotionNoise {
   /// `said` as above; `most`: bound of the factors.
   void propagated(const NavTransition& step, const ProcessNoise& noise,
                   const std::array<double, kKinds>& said, double most);
-  void updated(const Observation& observation, const InnovationStatistics& statistics);
+  void updated(const Observation& observation, const InnovationStatistics& statistics,
+               const ErrorFilter& filter);
   void carried(const Carry& carry);
   /// Something else than noise has moved the estimate or its covariance: the block begins anew.
   void interrupt();
@@ -75,14 +76,23 @@ class MotionNoise {
     double age_s = 0.0;
     std::array<double, kAxes> gradient{};
     std::array<double, kAxes> curvature{};
+    /// What one sigma of each error that is considered and not estimated adds to each gradient.
+    std::array<double, kAxes * kMaxStates> considered{};
 
+    /// Of the gradient of an axis, where the noise is as is said.
+    [[nodiscard]] double variance(std::size_t axis) const;
     template <class Archive, class Self>
     static void fields(Archive& archive, Self& self);
   };
   /// Longer than a measurement lasts, and for as long as it takes until noise shows: a tilt takes longer.
   static constexpr std::array<double, kKinds> kBlock_s{2.0, 8.0};
+  /// And by velocities of GPS alone a velocity takes longer, too.
+  static constexpr std::array<double, kKinds> kLongestBlock_s{8.0, 8.0};
 
   void begin_block(std::size_t kind);
+  /// The noise that is said has its share of what the block would show of an axis.
+  [[nodiscard]] double share(std::size_t kind, std::size_t axis, double said) const;
+  [[nodiscard]] bool is_over(std::size_t kind, double said) const;
   void end_block(std::size_t kind, double said);
   void judge(double most);
 

@@ -30,6 +30,7 @@ void StartHeading::propagated(const NavTransition& step, const ProcessNoise& noi
   const double kept = std::exp(-step.dt_s() / kMemory_s);
   gradient_ *= kept;
   curvature_ *= kept;
+  for (double& one : considered_) one *= kept;
   for (double& one : scatter_.sums) one *= kept * kept;
   together_s_ += step.dt_s();
   if (together_s_ >= kTogether_s) {
@@ -43,29 +44,33 @@ void StartHeading::propagated(const NavTransition& step, const ProcessNoise& noi
   follow<1>(step, noise, column_);
 }
 
-void StartHeading::add(const Evidence<1>& evidence, double turn_rad_s) {
+void StartHeading::add(const Evidence<1>& evidence, const InnovationStatistics& statistics,
+                       const ErrorFilter& filter, double turn_rad_s) {
   if (!(std::abs(turn_rad_s) < kStraight_rad_s)) return;
   together_[0] += evidence.gradient[0];
   together_[1] += evidence.curvature[0];
+  evidence.add_considered(0, statistics, filter, considered_.data());
 }
 
 double StartHeading::variance_rad2() const {
   // By how the measurements scatter about what they say together, too: they may be worse than their sigmas.
-  return std::max(1.0, scatter_.about(error_rad()) / curvature_) / curvature_;
+  double shared = 0.0;
+  for (const double one : considered_) shared += one * one;
+  return (std::max(1.0, scatter_.about(error_rad()) / curvature_) + shared / curvature_) / curvature_;
 }
 
 void StartHeading::updated(const Observation& observation, const InnovationStatistics& statistics,
-                           int estimated, double turn_rad_s) {
+                           const ErrorFilter& filter, double turn_rad_s) {
   if (!open_) return;
   // (GATE-9)
   const Evidence<1> evidence(column_, observation, statistics);
-  add(evidence, turn_rad_s);
-  follow(evidence, statistics, estimated, column_);
+  add(evidence, statistics, filter, turn_rad_s);
+  follow(evidence, statistics, filter.estimated(), column_);
   if (std::abs(column_[8]) < kNegligible && !is_wrong()) end();
 }
 
 void StartHeading::refused(const Observation& observation, const InnovationStatistics& statistics,
-                           double turn_rad_s) {
+                           const ErrorFilter& filter, double turn_rad_s) {
   if (!open_) return;
   // (GATE-9)
   const Evidence<1> evidence(column_, observation, statistics);
@@ -73,7 +78,7 @@ void StartHeading::refused(const Observation& observation, const InnovationStati
   const double curvature = evidence.curvature[0];
   if (!(gradient * gradient > kExplained * curvature * statistics.squared_distance)) return;
   if (!(std::abs(gradient) < kMost_rad * curvature)) return;
-  add(evidence, turn_rad_s);
+  add(evidence, statistics, filter, turn_rad_s);
 }
 
 void StartHeading::corrected() {
@@ -86,6 +91,7 @@ void StartHeading::corrected() {
 void StartHeading::forget_evidence() {
   gradient_ = curvature_ = 0.0;
   scatter_ = {};
+  considered_ = {};
   together_ = {};
   together_s_ = 0.0;
 }

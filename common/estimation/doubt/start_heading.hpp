@@ -33,10 +33,11 @@ class StartHeading {
 
   // What the filter does, in its order. `turn_rad_s`: about down, by then.
   void propagated(const NavTransition& transition, const ProcessNoise& noise);
-  void updated(const Observation& observation, const InnovationStatistics& statistics, int estimated,
-               double turn_rad_s);
+  void updated(const Observation& observation, const InnovationStatistics& statistics,
+               const ErrorFilter& filter, double turn_rad_s);
   /// A measurement was not taken in. `statistics` with the noise that it says it has.
-  void refused(const Observation& observation, const InnovationStatistics& statistics, double turn_rad_s);
+  void refused(const Observation& observation, const InnovationStatistics& statistics,
+               const ErrorFilter& filter, double turn_rad_s);
   void carried(const Carry& carry);
   /// P has grown by `share` times the square of `column`, that of a state whose prior was wrong (GATE-11):
   /// what was seen until now was seen with that.
@@ -59,7 +60,8 @@ class StartHeading {
 
  private:
   void forget_evidence();
-  void add(const Evidence<1>& evidence, double turn_rad_s);
+  void add(const Evidence<1>& evidence, const InnovationStatistics& statistics, const ErrorFilter& filter,
+           double turn_rad_s);
 
   bool open_ = false;
   std::uint32_t corrections_ = 0;
@@ -69,6 +71,9 @@ class StartHeading {
   std::array<double, 2> together_{};  ///< gradient and curvature of the last measurements
   double together_s_ = 0.0;
   Scatter scatter_;  ///< of those that were taken together
+  /// What one sigma of each error that is considered and not estimated adds to the gradient: it is the same
+  /// in all measurements and does not average out.
+  std::array<double, kMaxStates> considered_{};
   Column column_{};
 };
 

@@ -87,6 +87,7 @@ class ErrorFilter {
   /// Tells `tape`, which must outlive the filter's work, all that follows; nullptr for silence. Copies of the
   /// filter tell the same tape.
   void record_to(FilterTape* tape) { tape_ = tape; }
+  [[nodiscard]] FilterTape* tape() const { return tape_; }
 
   /// P <- Phi P Phi' + Q (KF-1).
   void propagate(const NavTransition& transition, const ProcessNoise& noise);

@@ -185,9 +185,8 @@ bool Estimate::update(const Setup& setup, const Observation& observation,
                       std::array<double, kMaxStates>& x) {
   const Vector3d before = velocity_N_m_s(setup, along);
   if (!filter.update(observation, statistics, x)) return false;
-  if (start_heading.is_open())
-    start_heading.updated(observation, statistics, filter.estimated(), turn_rad_s());
-  motion_noise.updated(observation, statistics);
+  if (start_heading.is_open()) start_heading.updated(observation, statistics, filter, turn_rad_s());
+  motion_noise.updated(observation, statistics, filter);
   move(setup, x, before, along);
   return true;
 }
@@ -270,6 +269,13 @@ void Estimate::replace(const Setup& setup, const FilterState& other, const Error
   bias_prior.interrupt();
   motion_noise.interrupt();
   stride = {};
+}
+
+void Estimate::forget(int state, double sigma) {
+  filter.forget(state, sigma);
+  start_heading.forgot(static_cast<std::size_t>(state));
+  bias_prior.interrupt();
+  motion_noise.interrupt();
 }
 
 void Estimate::forget_covariance(const std::array<double, kMaxStates>& sigma) {

@@ -66,6 +66,8 @@ struct Estimate {
   bool correct_bias(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x);
   /// Another estimate for the same instant, as the smoother has it.
   void replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance);
+  /// What was known of this state is not known any more.
+  void forget(int state, double sigma);
   /// What is considered is as uncertain as at the start and shares nothing with the states.
   void consider_anew(const Setup& setup);
   /// The filter knows nothing but `sigma`.

@@ -253,6 +253,11 @@ bool Navigator::update(Trial& trial) {
   }
   if (!estimate_.update(*setup_, *trial.kept, trial.statistics, velocity_along(trial.policy), trial.x))
     return trial.end(VerdictKind::rejected);
+  // What it did to an error of the start, nobody has followed.
+  if (trial.then != nullptr) {
+    estimate_.start_heading.end();
+    estimate_.motion_noise.interrupt();
+  }
   bool corrected = start_was_wrong(trial);
   if (corrected) estimate_.correct_start(*setup_, velocity_along(trial.policy), trial.x);
   corrected = estimate_.correct_bias(*setup_, velocity_along(trial.policy), trial.x) || corrected;
@@ -275,7 +280,7 @@ void Navigator::doubt_start(Trial& trial) {
   const bool over_ground = trial.policy.velocity == VelocityOver::ground || trial.policy.fix != Fix::none;
   if (!refused || !over_ground || trial.then != nullptr || !estimate_.start_heading.is_open()) return;
   estimate_.filter.statistics(trial.whole, 1.0, trial.statistics);
-  estimate_.start_heading.refused(trial.whole, trial.statistics, estimate_.turn_rad_s());
+  estimate_.start_heading.refused(trial.whole, trial.statistics, estimate_.filter, estimate_.turn_rad_s());
   if (!start_was_wrong(trial)) return;
   estimate_.correct_start(*setup_, velocity_along(trial.policy), trial.x);
   const Vector3d step_N_m(trial.x[0], trial.x[1], trial.x[2]);

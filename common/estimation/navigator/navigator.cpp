@@ -117,7 +117,7 @@ Judgement Navigator::place(const Command& command) {
   if (step.judgement.kind != VerdictKind::used) return step.judgement;
   reacquisition_.note_step(step.step_N_m, nullptr, estimate_);
   estimate_.state.nav.position = step.wanted;
-  for (int i = 0; i < step.axes; ++i) estimate_.filter.forget(i, command.sigma_m);
+  for (int i = 0; i < step.axes; ++i) estimate_.forget(i, command.sigma_m);
   if (descent_.aligning()) descent_.place(*setup_, step.axes, command.sigma_m);
   return step.judgement;
 }
@@ -187,7 +187,9 @@ void Navigator::lose_attitude() {
 void Navigator::lose_all() {
   lose_attitude();
   const TimeNs now_ns = estimate_.now_ns;
+  FilterTape* const tape = estimate_.filter.tape();
   estimate_ = Estimate(*setup_);
+  estimate_.filter.record_to(tape);
   estimate_.now_ns = now_ns;
 }
 

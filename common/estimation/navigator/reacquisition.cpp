@@ -217,8 +217,7 @@ void Reacquisition::renew_compass(const Setup& setup, Estimate& estimate, Observ
       if (heading.h[0][state] == 0.0) continue;
       heading.innovation[0] += heading.h[0][state] * estimate.state.x[state];
       estimate.state.x[state] = 0.0;
-      estimate.filter.forget(i, setup.initial_sigma[state]);
-      estimate.start_heading.forgot(state);
+      estimate.forget(i, setup.initial_sigma[state]);
     }
   }
   heading.innovation[0] = geo::wrap_pi(heading.innovation[0]);

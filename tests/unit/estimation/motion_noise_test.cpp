@@ -29,6 +29,8 @@ struct Drive {
   LinearLoop loop;
   MotionNoise motion;
   Normal normal;
+  int measured_every = 2;
+  double velocity_sigma_m_s = 0.01;
   double most = 30.0;
   double nees = 0.0;  ///< mean of velocity and tilt, by their number, in the last run
   double largest = 1.0;
@@ -64,7 +66,7 @@ struct Drive {
         loop.error(6 + i) += normal(gyros * kSaidAttitude_rad * std::sqrt(kStep_s));
       }
       motion.propagated(step, noise, said, most);
-      if (k % 2 == 0) measure();
+      if (k % measured_every == 0) measure();
       largest = std::max({largest, motion.factor(kAccelerometers), motion.factor(kGyros)});
       for (Eigen::Index i = 3; i < 8; ++i)
         nees += loop.error(i) * loop.error(i) / loop.filter(static_cast<int>(i), static_cast<int>(i)) /
@@ -72,9 +74,9 @@ struct Drive {
     }
   }
   void measure(double off_m_s = 0.0) {
-    loop.see_velocity(0.01, off_m_s, normal,
+    loop.see_velocity(velocity_sigma_m_s, off_m_s, normal,
                       [&](const Observation& observation, const InnovationStatistics& statistics) {
-                        motion.updated(observation, statistics);
+                        motion.updated(observation, statistics, loop.filter);
                       });
   }
 };
@@ -142,6 +144,18 @@ TEST(MotionNoise, IsBounded) {
   drive.most = 3.0;
   drive.run(900.0, 1.0, 8.0);
   EXPECT_EQ(drive.motion.factor(kGyros), 3.0);
+}
+
+// GPS knows a velocity far worse than a DVL: that of seconds tells accelerometers from gyros all the same.
+TEST(MotionNoise, OfTheAccelerometersIsNotTakenForThatOfTheGyrosByVelocitiesOfGps) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Drive drive(seed);
+    drive.measured_every = 5;
+    drive.velocity_sigma_m_s = 0.05;
+    drive.run(900.0, 25.0, 1.0);
+    EXPECT_LT(drive.motion.factor(kGyros), 3.0) << seed;
+    EXPECT_GT(drive.motion.factor(kAccelerometers), 3.0) << seed;
+  }
 }
 
 }  // namespace

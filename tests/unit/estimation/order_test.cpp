@@ -1,11 +1,15 @@
 #include "estimation/engine/order.hpp"
 
+#include <cmath>
 #include <limits>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "base/unknown.hpp"
 #include "estimation/engine/fusion_engine.hpp"
+#include "geo/wgs84.hpp"
 #include "support/orders.hpp"
 #include "support/vehicles/survey_run.hpp"
 
@@ -162,6 +166,47 @@ TEST_F(OrderTest, WhatWaitsWhenTheTimeAxisBreaksIsSaidToBeNotDone) {
   go_on(0.0);
   ASSERT_EQ(outcomes_.size(), 1U);
   EXPECT_EQ(outcomes_[0].fate, OrderFate::not_done);
+}
+
+// A wrong start heading put the position wrong. Somebody says where the vehicle is; that later fixes agree
+// with him says nothing of the heading.
+TEST(Order, APlaceThatIsToldIsNoProofOfTheHeading) {
+  const SurveyRun run({.duration_s = 650.0, .dive_s = 20.0, .wave_rad = 0.0});
+  FusionEngine engine(SurveyRun::config());
+  std::size_t steps = 0;
+  bool told = false;
+  double yaw_error_rad = kUnknown;
+  double yaw_sigma_rad = kUnknown;
+  for (test::Sample sample : run.samples) {
+    const double t_s = to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs);
+    if (auto* heading = std::get_if<HeadingSample>(&sample)) {
+      if (t_s > 18.0) continue;
+      heading->heading_rad = geo::wrap_two_pi(heading->heading_rad + 0.3);
+    }
+    if (std::holds_alternative<UsblSample>(sample) && t_s < 520.0) continue;
+    test::feed(engine, sample);
+    if (!std::holds_alternative<ImuSample>(sample)) continue;
+    const Truth& truth = run.truth[steps++];
+    if (t_s >= 500.0 && !told) {
+      told = true;
+      Command order;
+      order.header = truth.header;
+      order.kind = CommandKind::set_position;
+      order.latitude_rad = truth.latitude_rad;
+      order.longitude_rad = truth.longitude_rad;
+      order.sigma_m = 3.0;
+      for (const bool confirmed : {false, true}) {  // it is far from where the vehicle takes itself to be
+        order.header.sequence += 1;
+        order.confirmed = confirmed;
+        EXPECT_EQ(engine.apply(order), "");
+      }
+    }
+    yaw_error_rad = geo::wrap_pi(engine.nav_state().rpy_rad[2] - truth.rpy_rad[2]);
+    yaw_sigma_rad = engine.nav_state().rpy_sigma_rad[2];
+  }
+  EXPECT_TRUE(told);
+  EXPECT_LT(std::abs(yaw_error_rad), 0.05);
+  EXPECT_LT(std::abs(yaw_error_rad), 4.0 * yaw_sigma_rad);
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ void run(double wrong_rad, std::uint64_t seed, LinearLoop& believing, LinearLoop
     LinearLoop::Noise drawn = LinearLoop::Noise::Zero();
     for (int r = 0; r < seen.rows; ++r) drawn(r) = normal(seen.sigma[static_cast<std::size_t>(r)]);
     believing.take_in(seen, drawn, [&](const Observation& taken, const InnovationStatistics& statistics) {
-      start.updated(taken, statistics, kStates, 0.0);
+      start.updated(taken, statistics, believing.filter, 0.0);
     });
     open.take_in(seen, drawn);
   }
@@ -142,9 +142,52 @@ TEST(StartHeading, NoSingleReadingDecides) {
   LinearLoop::Noise far = LinearLoop::Noise::Zero();
   far(0) = 1.0;
   believing.take_in(heading, far, [&](const Observation& taken, const InnovationStatistics& statistics) {
-    start.updated(taken, statistics, kStates, 0.0);
+    start.updated(taken, statistics, believing.filter, 0.0);
   });
   EXPECT_FALSE(start.is_wrong());
+}
+
+// One instrument is off by what is considered of it, in all measurements alike: however many say the same,
+// they know the heading no better than that.
+TEST(StartHeading, WhatIsConsideredDoesNotAverageOut) {
+  for (const double considered : {0.0, 0.05}) {
+    StateGroups groups;
+    groups.accel_scale = true;
+    const StateIndex index(StateGroups{}, groups);
+    const int other = index.of(Group::accel_scale);
+    std::array<double, kMaxStates> sigma{};
+    for (std::size_t i = 0; i < 15; ++i) sigma[i] = 1e-4;
+    sigma[static_cast<std::size_t>(other)] = considered;
+    ErrorFilter filter(index);
+    filter.reset(sigma);
+    LinearLoop loop(filter);
+    loop.error(other) = 0.06;
+    StartHeading start;
+    StartHeading::Column column{};
+    column[8] = 1.0;
+    start.begin(column);
+    NavSolution nav;
+    nav.position = {0.6, 0.2, 10.0};
+    const NavTransition step(index, nav, Vector3d::Zero(), Vector3d(0.0, 0.0, -9.8), 1.0);
+    for (int k = 0; k < 100; ++k) {
+      loop.filter.propagate(step, ProcessNoise{});
+      start.propagated(step, ProcessNoise{});
+      Observation seen;
+      seen.rows = 1;
+      seen.h[0][8] = seen.h[0][static_cast<std::size_t>(other)] = 1.0;
+      seen.sigma[0] = 0.02;
+      seen.list_columns(index.size());
+      loop.take_in(seen, LinearLoop::Noise::Zero(),
+                   [&](const Observation& taken, const InnovationStatistics& statistics) {
+                     start.updated(taken, statistics, loop.filter, 0.0);
+                   });
+    }
+    EXPECT_NEAR(start.error_rad(), 0.06, 0.015);
+    EXPECT_EQ(start.is_wrong(), considered == 0.0) << considered;
+    if (considered > 0.0) {
+      EXPECT_NEAR(std::sqrt(start.variance_rad2()), considered, 0.1 * considered);
+    }
+  }
 }
 
 // Of what has been found all the time before was wrong as well (SMOOTH-6).
