@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <numbers>
 #include <tuple>
+#include <utility>
 
-#include "base/units.hpp"
 #include "config/vehicle/sources.hpp"
-#include "estimation/engine_config.hpp"
 
 namespace fathom::config {
 namespace {
@@ -30,19 +29,34 @@ void add_own_keys(Layers& out, const std::string& at, const Known& known) {
   if (known.own.contains("fusion")) out.overlay(at, known.own.at("fusion"), known.at.child("fusion"));
 }
 
-/// A bias is at least as uncertain when it is switched on as it wanders afterwards. Data sheets give the
-/// latter more often, and the default of the former is that of a good unit.
+/// What an inertial unit is taken for where nobody says better: the engine's own default is that of a
+/// tactical unit, which few are. deploy/README.md has the figures of the classes.
+void add_class_of_unit(Layers& out, bool has_model) {
+  const Origin of_class{Layer::standard, "class of factory-calibrated MEMS modules", ""};
+  json figures = {{"gyro_bias_sigma_deg_h", 180.0},      {"accel_bias_sigma_m_s2", 0.02942},
+                  {"gyro_scale_sigma", 0.001},           {"accel_scale_sigma", 0.001},
+                  {"gyro_misalignment_sigma_deg", 0.05}, {"accel_misalignment_sigma_deg", 0.05}};
+  // A model says its noise as far as it is known, and is seldom noisier than the default where it is not.
+  if (!has_model) {
+    figures["angle_random_walk_deg_sqrt_h"] = 0.3;
+    figures["velocity_random_walk_m_s_sqrt_h"] = 0.08;
+    figures["gyro_bias_instability_deg_h"] = 10.0;
+  }
+  out.overlay("engine.imu", figures, of_class);
+}
+
+/// A bias is at least as uncertain when it is switched on as it wanders afterwards, where the latter is said
+/// more particularly.
 void widen_turn_on_bias(Layers& out) {
-  const json imu = out.value().at("engine").value("imu", json::object());
-  const estimation::ImuConfig standard;
-  for (const auto& [sigma, instability, usual] :
-       {std::tuple{"gyro_bias_sigma_deg_h", "gyro_bias_instability_deg_h",
-                   standard.gyro_bias_sigma_rad_s / kDegPerHour_rad_s},
-        {"accel_bias_sigma_m_s2", "accel_bias_instability_m_s2", standard.accel_bias_sigma_m_s2}}) {
-    if (imu.contains(sigma) || !imu.contains(instability) || !imu.at(instability).is_number()) continue;
-    if (imu.at(instability).get<double>() <= usual) continue;
-    out.overlay(std::string("engine.imu.") + sigma, imu.at(instability),
-                out.origin_of(std::string("engine.imu.") + instability));
+  const json imu = out.value().at("engine").at("imu");
+  for (const auto& [sigma, instability] : {std::pair{"gyro_bias_sigma_deg_h", "gyro_bias_instability_deg_h"},
+                                           {"accel_bias_sigma_m_s2", "accel_bias_instability_m_s2"}}) {
+    if (!imu.contains(instability) || !imu.at(instability).is_number() || !imu.at(sigma).is_number())
+      continue;
+    const Origin said = out.origin_of(std::string("engine.imu.") + instability);
+    if (out.origin_of(std::string("engine.imu.") + sigma).layer >= said.layer) continue;
+    if (imu.at(instability).get<double>() <= imu.at(sigma).get<double>()) continue;
+    out.overlay(std::string("engine.imu.") + sigma, imu.at(instability), said);
   }
 }
 
@@ -53,6 +67,7 @@ void fusion_layers(const Sources& vehicle, const LoadRequest& request, Layers& o
   out.overlay("engine", json::object(), kStandard);
   out.overlay("imu_sensor", unit.config->name.str(), unit.at.child("name"));
   out.mark("engine.imu", unit.at.child("fusion"));
+  add_class_of_unit(out, unit.model.is_object());
   add_model_keys(out, "engine.imu", unit);
   put(out, "engine.imu.nominal_rate_hz", find(unit, "rate_hz"));
   put(out, "engine.imu.mounting_rpy_deg", find(unit, "mounting_rpy_deg"));

@@ -36,7 +36,16 @@ class VehicleCommand : public SolveTest {
 
 TEST_F(VehicleCommand, SolveRunsFusionAsTheVehicleWould) {
   dataset::write(path("data"), StraightCourse(true).data);
-  ASSERT_EQ(solve({"--start", "reference"}), 0) << err;
+  // Of an IMU of no model, as a vehicle has it.
+  std::vector<std::string> said{"--start", "reference"};
+  for (const char* const figure :
+       {"gyro_bias_sigma_deg_h=180", "accel_bias_sigma_m_s2=0.02942", "gyro_scale_sigma=0.001",
+        "accel_scale_sigma=0.001", "gyro_misalignment_sigma_deg=0.05", "accel_misalignment_sigma_deg=0.05",
+        "angle_random_walk_deg_sqrt_h=0.3", "velocity_random_walk_m_s_sqrt_h=0.08",
+        "gyro_bias_instability_deg_h=10"}) {
+    said.insert(said.end(), {"--set", std::string("engine.imu.") + figure});
+  }
+  ASSERT_EQ(solve(said), 0) << err;
   const std::string by_file = content("nav.csv");
   ASSERT_EQ(run("fathom", {"solve", path("data"), "--vehicle", path("vehicle.json"), "--out", path("nav.csv"),
                            "--start", "reference", "--metrics", path("m.json")}),

@@ -101,11 +101,59 @@ TEST_F(Vehicle, ABiasIsAtLeastAsUncertainAsItWanders) {
     return load<FusionConfig>("fusion").engine.imu.gyro_bias_sigma_rad_s * 180.0 / std::numbers::pi * 3600.0;
   };
   instrument("imu")["model"] = "vectornav_vn100";
-  EXPECT_NEAR(sigma_deg_h(), 10.0, 1e-9) << "its data sheet says how far it wanders in a run";
+  EXPECT_NEAR(sigma_deg_h(), 180.0, 1e-9) << "the catalogue says it";
   instrument("imu")["fusion"] = {{"gyro_bias_sigma_deg_h", 40.0}};
   EXPECT_NEAR(sigma_deg_h(), 40.0, 1e-9) << "what the vehicle says stays";
+  instrument("imu")["fusion"] = {{"gyro_bias_instability_deg_h", 500.0}};
+  EXPECT_NEAR(sigma_deg_h(), 500.0, 1e-9) << "the vehicle says how far it wanders in a run";
   instrument("imu")["fusion"] = {{"gyro_bias_instability_deg_h", 0.5}};
-  EXPECT_NEAR(sigma_deg_h(), 1.0, 1e-3) << "the default is more";
+  EXPECT_NEAR(sigma_deg_h(), 180.0, 1e-9) << "the catalogue's is more";
+}
+
+TEST_F(Vehicle, AUnitOfNoModelIsNotTakenForATacticalOne) {
+  const auto imu = [&] { return load<FusionConfig>("fusion").engine.imu; };
+  const estimation::ImuConfig tactical;
+  instrument("imu").erase("model");
+  instrument("imu")["protocol"] = "vectornav";
+  const estimation::ImuConfig module = imu();
+  EXPECT_GT(module.gyro_bias_sigma_rad_s, 100.0 * tactical.gyro_bias_sigma_rad_s);
+  EXPECT_GT(module.accel_bias_sigma_m_s2, 2.0 * tactical.accel_bias_sigma_m_s2);
+  EXPECT_GT(module.gyro_scale_sigma, 2.0 * tactical.gyro_scale_sigma);
+  EXPECT_GT(module.accel_scale_sigma, 2.0 * tactical.accel_scale_sigma);
+  EXPECT_GT(module.gyro_misalignment_sigma_rad, 2.0 * tactical.gyro_misalignment_sigma_rad);
+  EXPECT_GT(module.accel_misalignment_sigma_rad, 2.0 * tactical.accel_misalignment_sigma_rad);
+  EXPECT_GT(module.angle_random_walk_rad_sqrt_s, 2.0 * tactical.angle_random_walk_rad_sqrt_s);
+  EXPECT_GT(module.velocity_random_walk_m_s_sqrt_s, 2.0 * tactical.velocity_random_walk_m_s_sqrt_s);
+  instrument("imu")["fusion"] = {{"gyro_scale_sigma", 1e-4}};
+  EXPECT_DOUBLE_EQ(imu().gyro_scale_sigma, 1e-4) << "what the vehicle says stays";
+}
+
+TEST_F(Vehicle, WhatAModelOfOnesOwnLeavesOutIsThatOfAClass) {
+  const char* const walk = "angle_random_walk_deg_sqrt_h";
+  std::filesystem::create_directories(folder / "catalogue");
+  write("catalogue/own.json",
+        {{"title", "Own"},
+         {"kind", "imu"},
+         {"fusion", {{walk, 0.01}}},
+         {"figures",
+          {{std::string("fusion.") + walk, {{"says", "0.01 deg/sqrt(h)"}, {"source", "Own, page 1"}}}}}});
+  instrument("imu")["model"] = "own";
+  instrument("imu")["protocol"] = "vectornav";
+  const estimation::ImuConfig own = load<FusionConfig>("fusion").engine.imu;
+  const estimation::ImuConfig tactical;
+  EXPECT_GT(own.gyro_bias_sigma_rad_s, 100.0 * tactical.gyro_bias_sigma_rad_s);
+  EXPECT_LT(own.angle_random_walk_rad_sqrt_s, tactical.angle_random_walk_rad_sqrt_s);
+  EXPECT_DOUBLE_EQ(own.velocity_random_walk_m_s_sqrt_s, tactical.velocity_random_walk_m_s_sqrt_s);
+  std::map<std::string, Origin> from;
+  for (const ConfigKind& kind : config_kinds()) {
+    if (kind.name != "fusion") continue;
+    for (const Provenance& one : provenance(kind, with_vehicle({}, vehicle(), "fusion")))
+      from[one.key] = one.origin;
+  }
+  const Origin& bias = from.at("engine.imu.gyro_bias_sigma_deg_h");
+  EXPECT_EQ(bias.layer, Layer::standard);
+  EXPECT_EQ(bias.file, "class of factory-calibrated MEMS modules");
+  EXPECT_EQ(from.at(std::string("engine.imu.") + walk).layer, Layer::catalogue);
 }
 
 TEST_F(Vehicle, MountingTurnsOnce) {
