@@ -141,4 +141,22 @@ class UsblPath {
                        station.C_NA * path_A);
 }
 
+/// What `place`, that of such a fix, is wrong by per radian that the transceiver is turned about its axes
+/// (AID-USBL-2, AID-USBLR-2): N metres. Zero where the place of the transceiver is unknown.
+[[nodiscard]] inline Matrix3 usbl_turned_N_m(const SensorConfig& sensor, const UsblSample& sample,
+                                             const geo::Geodetic& place, double surface_altitude_m) {
+  const bool geodetic = sample.frame == UsblFrame::geodetic;
+  if (geodetic && !sensor.transceiver_known) return Matrix3::Zero();
+  UsblStation station(sensor, sample);
+  if (geodetic) {
+    station.latitude_rad = sensor.transceiver_latitude_rad;
+    station.longitude_rad = sensor.transceiver_longitude_rad;
+    station.depth_m = sensor.transceiver_depth_m;
+    station.C_NA = Matrix3::Identity();
+  }
+  const Vector3 path_N_m = geo::difference_N(
+      {station.latitude_rad, station.longitude_rad, surface_altitude_m - station.depth_m}, place);
+  return geo::skew(path_N_m) * station.C_NA;
+}
+
 }  // namespace fathom::estimation

@@ -6,8 +6,8 @@
 
 namespace fathom::estimation {
 
-/// What instruments said last while there was no attitude yet, kept for a start under way. Instants are those
-/// of validity; 0: never.
+/// What instruments said last while there was no attitude yet, kept for a start. Instants are those of
+/// validity; 0: never.
 struct UnderWay {
   TimeNs heading_ns = 0;
   double heading_rad = kUnknown;  ///< true, of the body
@@ -23,6 +23,9 @@ struct UnderWay {
   double usbl_depth_m = kUnknown;
   double usbl_sigma_m = kUnknown;
   Eigen::Vector3d usbl_lever_B_m = Eigen::Vector3d::Zero();
+  bool usbl_agrees = false;  ///< with the fix before it
+  /// What the place is wrong by, per radian that the transceiver is turned about its axes.
+  Eigen::Matrix3d usbl_turned_N_m = Eigen::Matrix3d::Zero();
 };
 
 }  // namespace fathom::estimation

@@ -91,6 +91,9 @@ void fields(Archive& archive, Self& self) {
   if (!archive.since(6)) return;
   archive("dvl_lever_B_m", self.dvl_lever_B_m, fathom::archive::finite());
   archive("dvl_sigma_m_s", self.dvl_sigma_m_s, fathom::archive::or_unknown(fathom::archive::at_least_zero()));
+  if (!archive.since(17)) return;
+  archive("usbl_agrees", self.usbl_agrees);
+  archive("usbl_turned_N_m", self.usbl_turned_N_m, fathom::archive::finite());
 }
 
 template <class Archive, class Self>

@@ -22,7 +22,7 @@ constexpr std::array kHelp{
     Help{"heading_known", "a compass, two antennas or a given heading serve; or a start in motion"},
     Help{"course_sigma_rad",
          "run straight and faster with GPS velocity, or with a DVL on the bottom beside it"},
-    Help{"position_known", "a GPS fix, an acoustic fix or an order of the position serves"},
+    Help{"position_known", "a GPS fix, two acoustic fixes that agree or an order of the position serves"},
     Help{"instruments_contradict",
          "go on turning: it takes some turns to say which instrument is wrong; a vehicle "
          "that turns on the spot needs a compass"},

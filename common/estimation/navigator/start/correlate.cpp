@@ -48,4 +48,19 @@ void correlate_gyros(const Setup& setup, const Matrix3d& rotation_by_rate, const
             rate_B_rad_s, filter);
 }
 
+void correlate_usbl(const Setup& setup, const Matrix3d& turned_N_m, ErrorFilter& filter) {
+  // (ALN-21)
+  const auto carries = [&](int state, const Vector3d& moved_N) {
+    const double variance = filter(state, state);
+    for (int i = 0; i < 3; ++i) {
+      filter.set(i, state, variance * moved_N(i));
+      for (int k = 0; k <= i; ++k) filter.set(i, k, filter(i, k) + variance * moved_N(i) * moved_N(k));
+    }
+  };
+  const int bias = setup.index.of(Group::usbl_bias);
+  for (int i = 0; bias >= 0 && i < 2; ++i) carries(bias + i, Vector3d::Unit(i));
+  const int misalignment = setup.index.of(Group::usbl_misalignment);
+  for (int i = 0; misalignment >= 0 && i < 3; ++i) carries(misalignment + i, turned_N_m.col(i));
+}
+
 }  // namespace fathom::estimation

@@ -2,8 +2,8 @@
 
 #include "estimation/navigator/setup.hpp"
 
-/// A start that is found with an inertial unit carries the errors of that unit (ALN-5): the filter must know,
-/// or it unlearns an attitude that it cannot know better.
+/// A start carries the errors of the instruments that it is found with (ALN-5, ALN-21): the filter must know,
+/// or it unlearns what it cannot know better.
 namespace fathom::estimation {
 
 /// What bias, scale and misalignment of the accelerometers did to the attitude. `rotation_by_force` is the
@@ -14,5 +14,8 @@ void correlate_accelerometers(const Setup& setup, const Eigen::Matrix3d& rotatio
 /// The same of the gyros: `rotation_by_rate` in s.
 void correlate_gyros(const Setup& setup, const Eigen::Matrix3d& rotation_by_rate,
                      const Eigen::Vector3d& rate_B_rad_s, ErrorFilter& filter);
+/// What bias and misalignment of an acoustic system did to the position: `turned_N_m` by the latter, per
+/// radian about the transceiver's axes.
+void correlate_usbl(const Setup& setup, const Eigen::Matrix3d& turned_N_m, ErrorFilter& filter);
 
 }  // namespace fathom::estimation

@@ -6,6 +6,7 @@
 #include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/gps_velocity.hpp"
 #include "estimation/aiding/heading.hpp"
+#include "estimation/navigator/start/correlate.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -85,7 +86,7 @@ StartConditions Starter::conditions(const StartInputs& in) const {
   c.slow = !(in.estimate.since(gps_seen_ns_) <= kFreshFix_s && gps_speed_m_s_ > config.max_speed_m_s);
   c.heading = config.heading_source == HeadingSource::given ||
               config.heading_source == HeadingSource::gyrocompass || window_.headings() > 0;
-  c.position = start_position(in).has_value();
+  c.position = start_position(in).has_value() || usbl_places(in);
   return c;
 }
 
@@ -147,15 +148,19 @@ void Starter::begin(const StartInputs& in, const FilterState& state, std::array<
   FilterState start = state;
   // The position is that of the antenna or of the point set; the IMU lies a lever away from it.
   const bool from_gps = in.estimate.since(gps_seen_ns_) <= kFreshFix_s;
+  const bool from_usbl = usbl_places(in);
   Vector3d lever = Vector3d::Zero();
   Vector3d position_sigma = Vector3d::Constant(setup.config.alignment.position_sigma_m);
   if (from_gps) {
     lever = lever_of_gps_B_m(setup);
     position_sigma = gps_sigma_N_m_;
-  } else if (usbl_places(in)) {
-    const double horizontal = std::max(under_way_.usbl_sigma_m, setup.config.alignment.position_sigma_m);
+  } else if (from_usbl) {
+    const double carried_m = in.estimate.since(under_way_.usbl_ns) * sigma[3];
+    const double fix_m = std::max(under_way_.usbl_sigma_m, setup.config.alignment.position_sigma_m);
+    const double horizontal = std::hypot(fix_m, carried_m);
     lever = under_way_.usbl_lever_B_m;
-    position_sigma = {horizontal, horizontal, setup.config.states.surface_altitude_sigma_m};
+    position_sigma = {horizontal, horizontal,
+                      std::hypot(horizontal, setup.config.states.surface_altitude_sigma_m)};
   } else {
     lever = geo::vec(setup.config.output_lever_B_m);
     if (in.ordered.is_set) position_sigma.setConstant(in.ordered.sigma_m);
@@ -166,9 +171,10 @@ void Starter::begin(const StartInputs& in, const FilterState& state, std::array<
   if (surface >= 0) {
     // On the surface, unless an acoustic fix has just said how deep below it.
     start.x[static_cast<std::size_t>(surface)] =
-        usbl_places(in) ? setup.config.states.surface_altitude_m : start.nav.position.altitude_m;
+        from_usbl ? setup.config.states.surface_altitude_m : start.nav.position.altitude_m;
   }
   estimate.begin(start, sigma);
+  if (from_usbl) correlate_usbl(setup, under_way_.usbl_turned_N_m, estimate.filter);
   const int bias = setup.index.of(Group::gps_position_bias);
   if (from_gps && bias >= 0) {
     // (ALN-7): a position taken from GPS carries the whole of its slow error.

@@ -83,6 +83,7 @@ class Starter {
   /// Begins with `state`, at the position of what said it.
   void begin(const StartInputs& in, const FilterState& state, std::array<double, kMaxStates> sigma,
              Estimate& estimate) const;
+  /// By GPS, by an order or as it is given.
   [[nodiscard]] std::optional<geo::Geodetic> start_position(const StartInputs& in) const;
 
   // starter_rest.cpp
@@ -119,8 +120,13 @@ class Starter {
   /// By the velocities of GPS; heading from the course where none is given.
   [[nodiscard]] bool start_moving_by(const StartInputs& in, std::optional<double> heading_rad,
                                      double heading_sigma_rad, Estimate& estimate) const;
-  /// Only an acoustic fix says where the vehicle is.
+  /// A fix at `place` now may be right if the one before was, and the other way round.
+  [[nodiscard]] bool agrees(const Setup& setup, const Estimate& estimate, const geo::Geodetic& place,
+                            double sigma_m) const;
+  /// Only acoustic fixes, of which the last two agree, say where the vehicle is.
   [[nodiscard]] bool usbl_places(const StartInputs& in) const;
+  /// Of the transponder, by the last of them.
+  [[nodiscard]] geo::Geodetic usbl_position(const Setup& setup) const;
 
   RestWindow window_;
   Eigen::Vector3d smooth_force_ = Eigen::Vector3d::Zero();

@@ -21,6 +21,10 @@ constexpr double kVelocitySigma_m_s = 0.3;
 /// A DVL's velocity this old is still that of the vehicle, but for what it may have gained meanwhile.
 constexpr double kSameMotion_s = 0.5;
 constexpr double kGain_m_s2 = 0.2;
+/// A fix that is so much older than the next one says nothing of it.
+constexpr double kPairOfFixes_s = 60.0;
+/// Two fixes that are further apart for their noise are not both right.
+constexpr double kSameFix_sigmas = 3.0;
 
 /// (ALN-6): the errors of velocity and attitude have causes in common. The filter's velocity error is the
 /// estimate less the truth (KF-4), that of the start the truth less what was found.
@@ -81,14 +85,30 @@ void Starter::collect_under_way(const Setup& setup, const Estimate& estimate, co
     const auto place = usbl_place(config, *usbl, surface_m);
     if (!place) return;
     const UsblNoise noise(config, *usbl);
+    const double sigma_m =
+        known(usbl->range_m) ? std::hypot(noise.range_m, usbl->range_m * noise.angle_rad) : noise.range_m;
+    under_way_.usbl_agrees = agrees(setup, estimate, *place, sigma_m);
     under_way_.usbl_latitude_rad = place->latitude_rad;
     under_way_.usbl_longitude_rad = place->longitude_rad;
     under_way_.usbl_depth_m = surface_m - place->altitude_m;
-    under_way_.usbl_sigma_m =
-        known(usbl->range_m) ? std::hypot(noise.range_m, usbl->range_m * noise.angle_rad) : noise.range_m;
+    under_way_.usbl_sigma_m = sigma_m;
     under_way_.usbl_lever_B_m = geo::vec(config.lever_B_m);
+    under_way_.usbl_turned_N_m = usbl_turned_N_m(config, *usbl, *place, surface_m);
     under_way_.usbl_ns = estimate.now_ns;
   }
+}
+
+bool Starter::agrees(const Setup& setup, const Estimate& estimate, const geo::Geodetic& place,
+                     double sigma_m) const {
+  // (ALN-21)
+  const double apart_s = estimate.since(under_way_.usbl_ns);
+  if (!(apart_s <= kPairOfFixes_s)) return false;
+  const bool dvl = estimate.since(under_way_.dvl_ns) <= kFreshVelocity_s;
+  const double speed_m_s =
+      std::max(setup.config.alignment.max_speed_m_s, dvl ? under_way_.dvl_velocity_B_m_s.norm() : 0.0);
+  const geo::Geodetic before{under_way_.usbl_latitude_rad, under_way_.usbl_longitude_rad, place.altitude_m};
+  return geo::difference_N(before, place).head<2>().norm() <=
+         kSameFix_sigmas * std::hypot(sigma_m, under_way_.usbl_sigma_m) + speed_m_s * apart_s;
 }
 
 Starter::Course Starter::course(const Setup& setup, TimeNs stamp_ns, const Vector3d& v_N_m_s,
@@ -203,7 +223,13 @@ bool Starter::can_start_under_way(const StartInputs& in) const {
 }
 
 bool Starter::usbl_places(const StartInputs& in) const {
-  return !start_position(in).has_value() && in.estimate.since(under_way_.usbl_ns) <= kFreshFix_s;
+  return !start_position(in).has_value() && under_way_.usbl_agrees &&
+         in.estimate.since(under_way_.usbl_ns) <= kFreshFix_s;
+}
+
+geo::Geodetic Starter::usbl_position(const Setup& setup) const {
+  return {under_way_.usbl_latitude_rad, under_way_.usbl_longitude_rad,
+          setup.config.states.surface_altitude_m - under_way_.usbl_depth_m};
 }
 
 bool Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
@@ -220,8 +246,7 @@ bool Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
   double age_s = 0.0;
   if (usbl_places(in)) {
     age_s = in.estimate.since(under_way_.usbl_ns);
-    start.nav.position = {under_way_.usbl_latitude_rad, under_way_.usbl_longitude_rad,
-                          in.setup.config.states.surface_altitude_m - under_way_.usbl_depth_m};
+    start.nav.position = usbl_position(in.setup);
   } else {
     age_s = in.estimate.since(gps_seen_ns_) <= kFreshFix_s ? in.estimate.since(gps_seen_ns_) : 0.0;
     start.nav.position = *start_position(in);

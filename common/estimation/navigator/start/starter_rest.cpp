@@ -66,7 +66,7 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
   const ImuConfig& imu = setup.config.imu;
   const StateIndex& index = setup.index;
   const RestResult rest = window_.result();
-  const geo::Geodetic position = *start_position(in);
+  const geo::Geodetic position = usbl_places(in) ? usbl_position(setup) : *start_position(in);
   const Eigen::Vector2d tilt = level(rest.force_start_m_s2);
   const double rate_noise = std::hypot(rest.rate_sigma_rad_s.maxCoeff(),
                                        imu.angle_random_walk_rad_sqrt_s / std::sqrt(rest.duration_s));
