@@ -37,6 +37,7 @@ GpsOutageConfig gps_config(const HealthConfig& config) {
 VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start, DescribeWriter describe)
     : config_(config),
       start_(start),
+      fresh_(config.sensors, config.service),
       describe_(std::move(describe)),
       book_(config.vehicle),
       gps_(gps_config(config), start),
@@ -46,7 +47,7 @@ VehicleHealth::VehicleHealth(const HealthConfig& config, const Instant& start, D
       changes_(names_of(config.services)),
       nav_(config.nav, config.startup_s, start),
       alignment_(config.alignment),
-      refusal_(config.refusal),
+      refusal_(config.refusal, fresh_),
       sensors_(config.sensors, config.startup_s, start),
       services_(config.services, config.service, config.startup_s, start) {}
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "health/alarm_book.hpp"
+#include "health/freshness.hpp"
 #include "health/gps/dispute_watch.hpp"
 #include "health/gps/fix_watch.hpp"
 #include "health/gps/gps_outage.hpp"
@@ -95,6 +96,7 @@ class VehicleHealth {
 
   HealthConfig config_;
   Instant start_;
+  Freshness fresh_;
   DescribeWriter describe_;
   AlarmBook book_;
   GpsOutage gps_;

@@ -1,5 +1,6 @@
 #include "health/instruments/refusal_watch.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@ namespace fathom::health {
 namespace {
 
 constexpr std::size_t kMaxSources = 64;  // names come from the network: bounded
+constexpr double kMissed = 2.0;          // periods; then one measurement did not come
 
 bool is_disagreement(VerdictKind kind) {
   // A disputed receiver has an alarm of its own, DisputeWatch's; it is refused all the same.
@@ -32,12 +34,31 @@ void RefusalWatch::add(const Verdict& verdict, const Instant& now) {
   } else if (verdict.source == SourceKind::gps && verdict.kind == VerdictKind::frozen) {
     source.refused = 0;  // FixWatch raises the alarm of a frozen fix
   } else if (is_disagreement(verdict.kind)) {
-    if (source.refused == 0) source.since_ns = now.monotonic_ns;
-    if (source.refused < std::numeric_limits<int>::max()) ++source.refused;
-    source.last_ns = now.monotonic_ns;
-    source.kind = verdict.kind;
-    source.model = verdict.model;
+    refuse(source, verdict, now);
   }
+}
+
+void RefusalWatch::refuse(Source& source, const Verdict& verdict, const Instant& now) {
+  if (source.refused == 0) {
+    source.since_ns = now.monotonic_ns;
+    source.pauses = 0;
+  } else if (verdict.header.stamp_ns != source.stamp_ns) {  // models may judge parts of one measurement
+    source.pauses_s[source.pauses++ % source.pauses_s.size()] = to_seconds(now.monotonic_ns - source.last_ns);
+  }
+  if (source.refused < std::numeric_limits<int>::max()) ++source.refused;
+  source.last_ns = now.monotonic_ns;
+  source.stamp_ns = verdict.header.stamp_ns;
+  source.kind = verdict.kind;
+  source.model = verdict.model;
+}
+
+double RefusalWatch::period_s(const Source& source) {
+  auto pauses_s = source.pauses_s;
+  const std::size_t known = std::min(source.pauses, pauses_s.size());
+  if (known == 0) return 0.0;
+  const auto middle = pauses_s.begin() + static_cast<std::ptrdiff_t>(known / 2);
+  std::nth_element(pauses_s.begin(), middle, pauses_s.begin() + static_cast<std::ptrdiff_t>(known));
+  return *middle;
 }
 
 void RefusalWatch::report(AlarmBook& book, const Instant& now) const {
@@ -47,7 +68,8 @@ void RefusalWatch::report(AlarmBook& book, const Instant& now) const {
     const Name key = alarm_key("refused", id.second.view());
     const double for_s = to_seconds(now.monotonic_ns - source.since_ns);
     // A sensor that fell silent is no longer refused: it is missing, which is another alarm.
-    const bool current = to_seconds(now.monotonic_ns - source.last_ns) < config_.limit_s;
+    const bool current = fresh_.of_sensor(id.first, id.second, source.last_ns, now,
+                                          std::max(config_.limit_s, kMissed * period_s(source)));
     if (source.refused < config_.minimum || for_s < config_.limit_s || !current) continue;
     held.insert(key);
     const std::string model = source.model.empty() ? "" : " (" + source.model.str() + ")";

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <map>
 #include <utility>
 
 #include "health/alarm_book.hpp"
+#include "health/freshness.hpp"
 #include "health/instant.hpp"
 #include "samples/verdict.hpp"
 
@@ -16,10 +19,12 @@ struct RefusalWatchConfig {
 
 /// A watch for sensors that talk but are not believed: fusion judged every measurement and used none. A
 /// measurement that carries nothing to use (no fix, no bottom lock: out_of_range) is not a disagreement and
-/// does not count.
+/// does not count. An alarm outlives the pauses between the measurements of a slow instrument: it stays until
+/// the sensor counts as missing and twice the usual pause between its refusals has passed.
 class RefusalWatch {
  public:
-  explicit RefusalWatch(const RefusalWatchConfig& config) : config_(config) {}
+  explicit RefusalWatch(const RefusalWatchConfig& config, Freshness fresh = {})
+      : config_(config), fresh_(std::move(fresh)) {}
 
   void add(const Verdict& verdict, const Instant& now);
   /// "refused:<sensor>".
@@ -30,11 +35,19 @@ class RefusalWatch {
     int refused = 0;  ///< in a row
     TimeNs since_ns = 0;
     TimeNs last_ns = 0;
+    TimeNs stamp_ns = 0;               ///< of the last refused measurement
+    std::array<double, 5> pauses_s{};  ///< before the last ones of the row
+    std::size_t pauses = 0;            ///< so many of the row so far
     VerdictKind kind = VerdictKind::rejected;
     Name model;  ///< that judged the last
   };
 
+  static void refuse(Source& source, const Verdict& verdict, const Instant& now);
+  /// The median of the last pauses, so that a missed measurement does not count; 0 when there was none.
+  [[nodiscard]] static double period_s(const Source& source);
+
   RefusalWatchConfig config_;
+  Freshness fresh_;
   std::map<std::pair<SourceKind, Name>, Source> sources_;
 };
 

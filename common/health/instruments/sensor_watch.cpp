@@ -5,7 +5,6 @@
 #include "health/text.hpp"
 
 namespace fathom::health {
-namespace {
 
 StreamLimits limits_of(const ExpectedSensor& sensor) {
   StreamLimits limits = StreamLimits::from_rate(sensor.rate_hz);
@@ -16,12 +15,9 @@ StreamLimits limits_of(const ExpectedSensor& sensor) {
   return limits;
 }
 
-// What a stream of unknown rate is judged by: present or not, generously.
 StreamLimits limits_of_unexpected() {
   return {kUnknown, 5.0, 20.0, 1};
 }
-
-}  // namespace
 
 SensorWatch::SensorWatch(const std::vector<ExpectedSensor>& expected, double startup_s, const Instant& start)
     : startup_s_(startup_s), start_(start) {

@@ -20,6 +20,10 @@ struct ExpectedSensor {
   Severity severity = Severity::warning;
 };
 
+[[nodiscard]] StreamLimits limits_of(const ExpectedSensor& sensor);
+/// What a stream of unknown rate is judged by: present or not, generously.
+[[nodiscard]] StreamLimits limits_of_unexpected();
+
 /// A watch over every sensor stream of the vehicle. Unexpected sensors are listed too, without alarms.
 class SensorWatch {
  public:

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "health/gps/dispute_watch.hpp"
-#include "health/instruments/refusal_watch.hpp"
 #include "health/instruments/sensor_watch.hpp"
 #include "health/navigation/nav_watch.hpp"
 #include "health/writers/service_watch.hpp"
@@ -242,53 +241,6 @@ TEST_F(NavWatchTest, InvalidAndUncertainStates) {
 TEST_F(NavWatchTest, SlowState) {
   run(0.0, 12.0, nav(0.0), 40.0);
   EXPECT_TRUE(alarmed(book, "nav_state_slow"));
-}
-
-TEST(RefusalWatch, OnlyWhenEverythingIsRefusedForLong) {
-  RefusalWatch watch{RefusalWatchConfig{}};
-  AlarmBook book;
-  double t = 0.0;
-  const auto run = [&](double seconds, VerdictKind kind) {
-    for (const double end = t + seconds; t < end; t += 0.2) {
-      watch.add(verdict(SourceKind::dvl, kind, t, "dvl"), at(t));
-      watch.report(book, at(t));
-    }
-  };
-  run(30.0, VerdictKind::out_of_range);
-  run(9.0, VerdictKind::rejected);
-  run(1.0, VerdictKind::used);
-  run(9.0, VerdictKind::rejected);
-  EXPECT_EQ(book.all().size(), 0u);
-  run(2.0, VerdictKind::frozen);
-  ASSERT_TRUE(alarmed(book, "refused:dvl"));
-  EXPECT_NE(book.find("refused:dvl")->text.find("frozen"), std::string::npos);
-  run(1.0, VerdictKind::used);
-  EXPECT_FALSE(alarmed(book, "refused:dvl"));
-}
-
-TEST(RefusalWatch, TwoKindsUnderOneNameShareAnAlarm) {
-  // A controller's shaft speed is used by the speed log while its fins, which serve the vehicle model alone,
-  // are not.
-  RefusalWatch watch{RefusalWatchConfig{}};
-  AlarmBook book;
-  double t = 0.0;
-  const auto run = [&](double seconds, VerdictKind fins) {
-    std::size_t changes = 0;
-    for (const double end = t + seconds; t < end; t += 0.2) {
-      watch.add(verdict(SourceKind::propulsion, VerdictKind::used, t, "actuator"), at(t));
-      watch.add(verdict(SourceKind::fins, fins, t, "actuator"), at(t));
-      watch.report(book, at(t));
-      for (const auto& [event, alarm] : book.take_transitions()) changes += alarm.active ? 1 : 0;
-    }
-    return changes;
-  };
-  EXPECT_EQ(run(9.0, VerdictKind::rejected), 0u);
-  EXPECT_GE(run(3.0, VerdictKind::rejected), 1u);
-  EXPECT_TRUE(alarmed(book, "refused:actuator"));
-  EXPECT_LE(run(4.0, VerdictKind::rejected), 5u);  // it stays, it does not flicker
-  EXPECT_TRUE(alarmed(book, "refused:actuator"));
-  run(1.0, VerdictKind::used);
-  EXPECT_FALSE(alarmed(book, "refused:actuator"));
 }
 
 TEST(Uncertainty, RadiusOfALineACircleAndTheUnknown) {
