@@ -9,7 +9,7 @@
 namespace fathom::health {
 namespace {
 
-constexpr double kSilent_s = 10.0;  // then it says nothing any more
+constexpr double kSilent_s = 10.0;  // at least, before it says nothing any more: verdicts come late
 constexpr double kDisputeHold_s = 3.0;
 
 bool is_disagreement(VerdictKind kind) {
@@ -41,7 +41,7 @@ void DisputeWatch::add(const Verdict& verdict, const Instant& now) {
 void DisputeWatch::report(AlarmBook& book, const Instant& now) const {
   for (const auto& [name, receiver] : receivers_) {
     const double for_s = to_seconds(now.monotonic_ns - receiver.since_ns);
-    const bool current = to_seconds(now.monotonic_ns - receiver.last_ns) < kSilent_s;
+    const bool current = fresh_.of_sensor(SourceKind::gps, name, receiver.last_ns, now, kSilent_s);
     book.set(
         receiver.disputed && current,
         {.key = alarm_key("gps_disputed", name.view()),

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <map>
+#include <utility>
 
 #include "health/alarm_book.hpp"
+#include "health/freshness.hpp"
 #include "health/instant.hpp"
 #include "samples/verdict.hpp"
 
@@ -13,6 +15,8 @@ namespace fathom::health {
 /// person.
 class DisputeWatch {
  public:
+  explicit DisputeWatch(Freshness fresh = {}) : fresh_(std::move(fresh)) {}
+
   void add(const Verdict& verdict, const Instant& now);
   void report(AlarmBook& book, const Instant& now) const;
 
@@ -25,6 +29,7 @@ class DisputeWatch {
     double apart_m = kUnknown;  ///< horizontally, fix and estimate
     double sigma_m = kUnknown;  ///< of that
   };
+  Freshness fresh_;
   std::map<Name, Receiver> receivers_;
 };
 

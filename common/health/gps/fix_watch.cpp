@@ -85,6 +85,7 @@ bool FixWatch::add(const GpsSample& sample, const Instant& now) {
     found = receivers_.emplace(sample.header.sensor, Receiver{}).first;
   }
   Receiver& receiver = found->second;
+  receiver.heard_ns = now.monotonic_ns;
   if (!is_usable(sample)) {
     receiver.frozen = false;  // it no longer claims anything
     receiver.same = 0;
@@ -201,7 +202,7 @@ TimeNs FixWatch::same_since_ns(const Name& name) const {
 void FixWatch::report(AlarmBook& book, const Instant& now) const {
   for (const auto& [name, receiver] : receivers_) {
     const double same_s = to_seconds(now.monotonic_ns - receiver.same_since_ns);
-    book.set(receiver.frozen,
+    book.set(receiver.frozen && fresh_.of_sensor(SourceKind::gps, name, receiver.heard_ns, now),
              {.key = alarm_key("gps_frozen", name.view()),
               .severity = Severity::warning,
               .text = sentence("Receiver %s has repeated one fix for %s while the vehicle travelled %.0f m.",

@@ -4,8 +4,10 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "health/alarm_book.hpp"
+#include "health/freshness.hpp"
 #include "health/instant.hpp"
 #include "samples/dvl.hpp"
 #include "samples/gps.hpp"
@@ -28,9 +30,11 @@ struct FixWatchConfig {
 /// Disagreement: the displacement between fixes differs from the integral of the receiver's own velocity, or
 /// of the navigation state's. Three fixes in a row decide. After a pause the window starts again, because
 /// fusion judges whether the first fixes after an outage are right.
+/// A receiver that counts as missing is neither.
 class FixWatch {
  public:
-  explicit FixWatch(const FixWatchConfig& config) : config_(config) {}
+  explicit FixWatch(const FixWatchConfig& config, Freshness fresh = {})
+      : config_(config), fresh_(std::move(fresh)) {}
 
   /// Returns whether the fix may be used, by these checks alone.
   bool add(const GpsSample& sample, const Instant& now);
@@ -64,6 +68,7 @@ class FixWatch {
   enum class Against { own, nav };
   struct Receiver {
     std::array<double, 3> reading{kUnknown, kUnknown, kUnknown};
+    TimeNs heard_ns = 0;  ///< monotonic
     TimeNs same_since_ns = 0;
     int same = 0;
     Travel own_at_reading, own;
@@ -91,6 +96,7 @@ class FixWatch {
   [[nodiscard]] std::optional<Pair> nav_moved_at(TimeNs stamp_ns) const;
 
   FixWatchConfig config_;
+  Freshness fresh_;
   std::map<Name, Receiver> receivers_;
   Travel nav_;
   double nav_velocity_sigma_m_s_ = kUnknown;

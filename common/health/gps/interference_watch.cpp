@@ -6,7 +6,6 @@
 namespace fathom::health {
 namespace {
 
-constexpr double kWordHolds_s = 10.0;  // of a receiver that is heard no more
 constexpr double kInterferenceHold_s = 3.0;
 
 void follow(bool active, TimeNs& since_ns, const Instant& now) {
@@ -37,7 +36,7 @@ bool InterferenceWatch::add(const GpsSample& sample, const Instant& now) {
 
 void InterferenceWatch::report(AlarmBook& book, const Instant& now) const {
   for (const auto& [name, receiver] : receivers_) {
-    const bool heard = to_seconds(now.monotonic_ns - receiver.heard_ns) < kWordHolds_s;
+    const bool heard = fresh_.of_sensor(SourceKind::gps, name, receiver.heard_ns, now);
     const auto ago_s = [&](TimeNs since_ns) {
       return since_ns == 0 ? 0.0 : to_seconds(now.monotonic_ns - since_ns);
     };

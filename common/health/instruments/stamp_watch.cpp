@@ -24,6 +24,7 @@ void StampWatch::heard(SourceKind kind, const SampleHeader& header, const Instan
   Sensor& sensor = found->second;
   if (sensor.heard && header.stamp_ns == sensor.last_stamp_ns) count_repeat(sensor, now);
   sensor.heard = true;
+  sensor.heard_ns = now.monotonic_ns;
   sensor.last_stamp_ns = header.stamp_ns;
   follow_age(sensor, to_seconds(now.utc_ns - header.stamp_ns), now);
 }
@@ -91,6 +92,7 @@ void StampWatch::add(const ServiceStatus& status, const Instant& now) {
   if (disbelieves && !bridge.disbelieved) bridge.disbelieved_since_ns = now.monotonic_ns;
   bridge.disbelieved = disbelieves;
   bridge.known = true;
+  bridge.heard_ns = now.monotonic_ns;
   bridge.steps = steps;
   bridge.implausible = implausible;
 }
@@ -126,7 +128,7 @@ void StampWatch::report(AlarmBook& book, const Instant& now) {
       sensor.jumped_s = 0.0;
     }
     const Name ahead_key = alarm_key("clock_ahead", id.second.view());
-    if (sensor.ahead >= kFewest) {
+    if (sensor.ahead >= kFewest && fresh_.of_sensor(id.first, id.second, sensor.heard_ns, now)) {
       book.hold({.key = ahead_key,
                  .severity = Severity::warning,
                  .text = sentence("Sensor %s stamps its samples %s ahead of this host's clock.", name,
@@ -139,6 +141,10 @@ void StampWatch::report(AlarmBook& book, const Instant& now) {
       book.release(ahead_key, now);
     }
   }
+  report_bridges(book, now);
+}
+
+void StampWatch::report_bridges(AlarmBook& book, const Instant& now) {
   for (auto& [name, bridge] : bridges_) {
     const Name key = alarm_key("device_clock", name.view());
     if (bridge.stepped) {
@@ -149,9 +155,9 @@ void StampWatch::report(AlarmBook& book, const Instant& now) {
       bridge.stepped = false;
       continue;
     }
-    const double for_s =
-        bridge.disbelieved ? to_seconds(now.monotonic_ns - bridge.disbelieved_since_ns) : 0.0;
-    if (bridge.disbelieved && for_s >= kDisbeliefHoldS) {
+    const bool disbelieved = bridge.disbelieved && fresh_.of_service(bridge.heard_ns, now);
+    const double for_s = disbelieved ? to_seconds(now.monotonic_ns - bridge.disbelieved_since_ns) : 0.0;
+    if (disbelieved && for_s >= kDisbeliefHoldS) {
       book.hold({.key = key,
                  .severity = Severity::warning,
                  .text = sentence("The device of %s has told a time that cannot be for %s; its samples are "
@@ -162,7 +168,7 @@ void StampWatch::report(AlarmBook& book, const Instant& now) {
                  .began_ago_s = for_s,
                  .clear_hold_s = 2.0},
                 now);
-    } else if (!bridge.disbelieved) {
+    } else if (!disbelieved) {
       book.release(key, now);
     }
   }

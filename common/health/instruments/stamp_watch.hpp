@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "health/alarm_book.hpp"
+#include "health/freshness.hpp"
 #include "health/instant.hpp"
 #include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
@@ -23,10 +24,12 @@ struct StampWatchConfig {
 /// The age of samples (arrival minus stamp) wanders and jitters, and its range so far is kept. A clock jumped
 /// when every sample of two seconds, and three at least, lies beyond that range by more than the limit, and
 /// all of them lie within half the limit of each other. Late bursts after a stall scatter, and a damaged
-/// stamp stands alone, so that neither is a jump.
+/// stamp stands alone, so that neither is a jump. What holds of a sensor or a bridge holds until it counts as
+/// missing.
 class StampWatch {
  public:
-  explicit StampWatch(const StampWatchConfig& config) : config_(config) {}
+  explicit StampWatch(const StampWatchConfig& config, Freshness fresh = {})
+      : config_(config), fresh_(std::move(fresh)) {}
 
   void heard(SourceKind kind, const SampleHeader& header, const Instant& now);
   /// Takes the counters of a bridge, which sees its device's clock before it mends the stamps.
@@ -38,6 +41,7 @@ class StampWatch {
  private:
   struct Sensor {
     bool heard = false;
+    TimeNs heard_ns = 0;
     TimeNs last_stamp_ns = 0;
     int repeats = 0;  ///< within the window
     TimeNs repeats_since_ns = 0;
@@ -56,10 +60,9 @@ class StampWatch {
   };
   struct Bridge {
     bool known = false;
+    TimeNs heard_ns = 0;
     std::uint64_t steps = 0;
     std::uint64_t implausible = 0;
-    TimeNs stepped_ns = 0;
-    TimeNs implausible_ns = 0;
     bool stepped = false;      ///< since the last report
     bool disbelieved = false;  ///< at the last life sign
     TimeNs disbelieved_since_ns = 0;
@@ -68,7 +71,10 @@ class StampWatch {
   void count_repeat(Sensor& sensor, const Instant& now) const;
   void follow_age(Sensor& sensor, double age_s, const Instant& now) const;
 
+  void report_bridges(AlarmBook& book, const Instant& now);
+
   StampWatchConfig config_;
+  Freshness fresh_;
   std::map<std::pair<SourceKind, Name>, Sensor> sensors_;
   std::map<Name, Bridge> bridges_;
 };

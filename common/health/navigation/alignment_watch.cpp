@@ -17,6 +17,7 @@ constexpr std::size_t kMostNoisy = 64;
 void AlignmentWatch::add(const AlignmentStatus& status, const Instant& now) {
   last_ = status;
   last_known_ = true;
+  last_ns_ = now.monotonic_ns;
   for (const NoiseFactor& one : noise_factors(status))
     if (noisy_.size() < kMostNoisy &&
         std::find(noisy_.begin(), noisy_.end(), Name(one.sensor)) == noisy_.end())
@@ -75,15 +76,17 @@ void AlignmentWatch::report(AlarmBook& book, const Instant& now) const {
             .limit = config_.limit_s,
             .began_ago_s = waiting_s},
            now);
-  const AlignmentCondition* wrong = last_known_ ? implausible(last_) : nullptr;
+  // It comes once a second, like a life sign.
+  const bool fresh = last_known_ && fresh_.of_service(last_ns_, now);
+  const AlignmentCondition* wrong = fresh ? implausible(last_) : nullptr;
   book.set(wrong != nullptr,
            {.key = "implausible",
             .severity = Severity::critical,
             .text = std::string(last_.advice.data(), strnlen(last_.advice.data(), last_.advice.size())),
             .value = wrong != nullptr ? wrong->value : 0.0},
            now);
-  report_noise(book, now);
-  report_biases(book, now);
+  report_noise(fresh, book, now);
+  report_biases(fresh, book, now);
   const double lost_s = ever_aligned_ && !aligned ? to_seconds(now.monotonic_ns - lost_since_ns_) : 0.0;
   book.set(ever_aligned_ && !aligned,
            {.key = "alignment_lost",
@@ -96,7 +99,7 @@ void AlignmentWatch::report(AlarmBook& book, const Instant& now) const {
            now);
 }
 
-void AlignmentWatch::report_noise(AlarmBook& book, const Instant& now) const {
+void AlignmentWatch::report_noise(bool fresh, AlarmBook& book, const Instant& now) const {
   const std::vector<NoiseFactor> factors = noise_factors(last_);
   for (const Name& sensor : noisy_) {
     const auto found = std::find_if(factors.begin(), factors.end(),
@@ -107,7 +110,7 @@ void AlignmentWatch::report_noise(AlarmBook& book, const Instant& now) const {
             ? "The motion strays as if the noise of the %s were %.1f times what is configured. Navigation "
               "counts with that."
             : "%s scatters %.1f times as much as its sigmas say. Navigation counts with that.";
-    book.set(factor > 1.0,
+    book.set(fresh && factor > 1.0,
              {.key = alarm_key("noisy", sensor.view()),
               .severity = Severity::notice,
               .text = sentence(text, sensor.c_str(), factor),
@@ -116,13 +119,13 @@ void AlignmentWatch::report_noise(AlarmBook& book, const Instant& now) const {
   }
 }
 
-void AlignmentWatch::report_biases(AlarmBook& book, const Instant& now) const {
+void AlignmentWatch::report_biases(bool fresh, AlarmBook& book, const Instant& now) const {
   const std::vector<FoundBias> biases = found_biases(last_);
   for (const std::string_view axis : biased_) {
     const auto found =
         std::find_if(biases.begin(), biases.end(), [&](const FoundBias& one) { return one.axis == axis; });
     const FoundBias one = found == biases.end() ? FoundBias{axis} : *found;
-    book.set(found != biases.end(),
+    book.set(fresh && found != biases.end(),
              {.key = alarm_key("biased", axis),
               .severity = Severity::notice,
               .text = sentence("The %s. Navigation counts with the bias.", one.text().data()),

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "health/alarm_book.hpp"
+#include "health/freshness.hpp"
 #include "health/instant.hpp"
 #include "samples/alignment_status.hpp"
 #include "samples/nav_state.hpp"
@@ -18,7 +20,8 @@ struct AlignmentWatchConfig {
 /// A watch over the alignment: whether attitude and position may be used, and if not, what is missing.
 class AlignmentWatch {
  public:
-  explicit AlignmentWatch(const AlignmentWatchConfig& config) : config_(config) {}
+  explicit AlignmentWatch(const AlignmentWatchConfig& config, Freshness fresh = {})
+      : config_(config), fresh_(std::move(fresh)) {}
 
   void add(const AlignmentStatus& status, const Instant& now);
   /// The phase of the navigation state counts while such states come. The two topics do not arrive in one
@@ -26,7 +29,8 @@ class AlignmentWatch {
   void add(const NavState& state, const Instant& now);
   /// Alarms "not_aligned" (for too long, or timed out), "alignment_lost" (after it was aligned),
   /// "implausible" (an instrument cannot be right: what the advice says), "noisy:<sensor>" (it scatters more
-  /// than its sigmas say), "biased:<axis>" (of the inertial unit, by more than its sigma says).
+  /// than its sigmas say), "biased:<axis>" (of the inertial unit, by more than its sigma says). The last
+  /// three hold until the service that said so counts as missing.
   void report(AlarmBook& book, const Instant& now) const;
 
   [[nodiscard]] AlignmentPhase phase() const { return phase_; }
@@ -34,16 +38,18 @@ class AlignmentWatch {
  private:
   void phase(AlignmentPhase phase, const Instant& now);
   [[nodiscard]] std::string unmet() const;
-  void report_noise(AlarmBook& book, const Instant& now) const;
-  void report_biases(AlarmBook& book, const Instant& now) const;
+  void report_noise(bool fresh, AlarmBook& book, const Instant& now) const;
+  void report_biases(bool fresh, AlarmBook& book, const Instant& now) const;
 
   AlignmentWatchConfig config_;
+  Freshness fresh_;
   bool heard_ = false;
   TimeNs heard_since_ns_ = 0;
   AlignmentPhase phase_ = AlignmentPhase::none;
   bool ever_aligned_ = false;
   TimeNs lost_since_ns_ = 0;
   AlignmentStatus last_;
+  TimeNs last_ns_ = 0;                    ///< monotonic, of its arrival
   std::vector<Name> noisy_;               ///< sensors that were, once
   std::vector<std::string_view> biased_;  ///< axes that were, once
   bool last_known_ = false;
