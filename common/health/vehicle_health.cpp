@@ -95,6 +95,7 @@ void VehicleHealth::add(const NavState& state, const Instant& now, const WriterG
   gps_.add(state, now);
   fixes_.add(state, now);
   alignment_.add(state, now);
+  refusal_.add(state);
 }
 
 void VehicleHealth::add(const AlignmentStatus& status, const Instant& now) {

@@ -38,6 +38,13 @@ void RefusalWatch::add(const Verdict& verdict, const Instant& now) {
   }
 }
 
+void RefusalWatch::add(const NavState& state) {
+  if (state.header.stamp_ns == nav_stamp_ns_) return;
+  nav_stamp_ns_ = state.header.stamp_ns;
+  for (auto& [id, source] : sources_)
+    if (id.first == SourceKind::imu) source.refused = 0;
+}
+
 void RefusalWatch::refuse(Source& source, const Verdict& verdict, const Instant& now) {
   if (source.refused == 0) {
     source.since_ns = now.monotonic_ns;

@@ -8,6 +8,7 @@
 #include "health/alarm_book.hpp"
 #include "health/freshness.hpp"
 #include "health/instant.hpp"
+#include "samples/nav_state.hpp"
 #include "samples/verdict.hpp"
 
 namespace fathom::health {
@@ -27,6 +28,9 @@ class RefusalWatch {
       : config_(config), fresh_(std::move(fresh)) {}
 
   void add(const Verdict& verdict, const Instant& now);
+  /// A state that is new is an inertial sample that was used: those get no verdict. Fusion integrates one
+  /// unit alone, and what it refuses of another one is not a disagreement (source_disabled).
+  void add(const NavState& state);
   /// "refused:<sensor>".
   void report(AlarmBook& book, const Instant& now) const;
 
@@ -49,6 +53,7 @@ class RefusalWatch {
   RefusalWatchConfig config_;
   Freshness fresh_;
   std::map<std::pair<SourceKind, Name>, Source> sources_;
+  TimeNs nav_stamp_ns_ = 0;
 };
 
 }  // namespace fathom::health

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,39 @@ TEST(RefusalWatch, TwoKindsUnderOneNameShareAnAlarm) {
   EXPECT_TRUE(alarmed(book, "refused:actuator"));
   run(1.0, VerdictKind::used);
   EXPECT_FALSE(alarmed(book, "refused:actuator"));
+}
+
+TEST(RefusalWatch, NavigationThatGoesOnHasUsedInertialSamples) {
+  RefusalWatch watch{RefusalWatchConfig{}};
+  AlarmBook book;
+  const auto run = [&](double from_s, double to_s, double state_every_s) {
+    double next_s = from_s;
+    for (double t = from_s; t < to_s; t += 0.01) {
+      if (t >= next_s) watch.add(nav(t)), next_s += state_every_s;
+      const bool fourth = std::llround(t * 100.0) % 4 == 0;
+      if (fourth) watch.add(verdict(SourceKind::imu, VerdictKind::late, t, "imu"), at(t));
+      watch.add(verdict(SourceKind::dvl, VerdictKind::rejected, t, "dvl"), at(t));
+      watch.report(book, at(t));
+    }
+  };
+  run(0.0, 40.0, 0.01);
+  EXPECT_FALSE(alarmed(book, "refused:imu")) << book.find("refused:imu")->text;
+  EXPECT_TRUE(alarmed(book, "refused:dvl")) << "a state says nothing of what aids it";
+  run(40.0, 60.0, 100.0);
+  EXPECT_TRUE(alarmed(book, "refused:imu"));
+  run(60.0, 62.0, 0.01);
+  EXPECT_FALSE(alarmed(book, "refused:imu"));
+}
+
+TEST(RefusalWatch, AStateThatRepeatsItselfHasUsedNothing) {
+  RefusalWatch watch{RefusalWatchConfig{}};
+  AlarmBook book;
+  for (double t = 0.0; t < 20.0; t += 0.01) {
+    watch.add(nav(0.0));
+    watch.add(verdict(SourceKind::imu, VerdictKind::late, t, "imu"), at(t));
+    watch.report(book, at(t));
+  }
+  EXPECT_TRUE(alarmed(book, "refused:imu"));
 }
 
 /// How often the alarm of a sensor that is refused every `period_s` is raised within `seconds`.
