@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "base/median.hpp"
 #include "health/text.hpp"
 
 namespace fathom::health {
@@ -60,12 +61,9 @@ void RefusalWatch::refuse(Source& source, const Verdict& verdict, const Instant&
 }
 
 double RefusalWatch::period_s(const Source& source) {
-  auto pauses_s = source.pauses_s;
-  const std::size_t known = std::min(source.pauses, pauses_s.size());
-  if (known == 0) return 0.0;
-  const auto middle = pauses_s.begin() + static_cast<std::ptrdiff_t>(known / 2);
-  std::nth_element(pauses_s.begin(), middle, pauses_s.begin() + static_cast<std::ptrdiff_t>(known));
-  return *middle;
+  const std::size_t known = std::min(source.pauses, source.pauses_s.size());
+  const auto begin = source.pauses_s.begin();
+  return known == 0 ? 0.0 : median({begin, begin + static_cast<std::ptrdiff_t>(known)});
 }
 
 void RefusalWatch::report(AlarmBook& book, const Instant& now) const {
