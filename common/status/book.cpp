@@ -1,5 +1,7 @@
 #include "status/book.hpp"
 
+#include "status/receiver.hpp"
+
 namespace fathom::status {
 namespace {
 
@@ -57,11 +59,19 @@ bool StatusBook::add(const Alarm& alarm, TimeNs) {
   return true;
 }
 
-bool StatusBook::add(const Verdict& verdict, TimeNs) {
+bool StatusBook::add(const Verdict& verdict, TimeNs monotonic_ns) {
   if (!ours(verdict.header)) return false;
   if (verdicts_.size() >= kMostNames && !verdicts_.contains(verdict.header.sensor)) return true;
   if (!is_news(verdict)) return true;
-  VerdictCounts& counts = verdicts_[verdict.header.sensor];
+  Judged& judged = verdicts_[verdict.header.sensor];
+  judged.last_ns = monotonic_ns;
+  judged.counts.last = verdict.kind;
+  if (!is_refused_fix(verdict.kind)) {
+    judged.refused_since_ns = 0;
+  } else if (judged.refused_since_ns == 0) {
+    judged.refused_since_ns = monotonic_ns;
+  }
+  VerdictCounts& counts = judged.counts;
   if (verdict.revision > 0) {
     // Counted before as something else, unless its first verdict was not heard.
     std::uint64_t& before = verdict.previous == VerdictKind::used ? counts.used : counts.not_used;
@@ -100,7 +110,12 @@ StatusView StatusBook::view(TimeNs monotonic_ns) const {
     view.services[name] = {stamped.sample, to_seconds(monotonic_ns - stamped.at_ns)};
   }
   view.alarms = alarms_;
-  view.verdicts = verdicts_;
+  for (const auto& [name, judged] : verdicts_) {
+    VerdictCounts& counts = view.verdicts[name] = judged.counts;
+    counts.last_age_s = to_seconds(monotonic_ns - judged.last_ns);
+    if (judged.refused_since_ns != 0)
+      counts.refused_for_s = to_seconds(monotonic_ns - judged.refused_since_ns);
+  }
   return view;
 }
 

@@ -54,7 +54,12 @@ class StatusBook {
   std::optional<Stamped<Forecast>> forecast_;
   std::map<Name, Stamped<ServiceStatus>> services_;
   std::map<Name, Alarm> alarms_;
-  std::map<Name, VerdictCounts> verdicts_;
+  struct Judged {
+    VerdictCounts counts;
+    TimeNs last_ns = 0;
+    TimeNs refused_since_ns = 0;  ///< 0: the last one was not refused
+  };
+  std::map<Name, Judged> verdicts_;
 };
 
 }  // namespace fathom::status

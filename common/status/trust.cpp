@@ -7,6 +7,7 @@
 #include "health/text.hpp"
 #include "samples/position/gives_position.hpp"
 #include "samples/uncertainty.hpp"
+#include "status/receiver.hpp"
 
 namespace fathom::status {
 namespace {
@@ -100,9 +101,17 @@ Trust not_yet(const StatusView& view) {
 void judge_gps(const StatusView& view, Trust& trust) {
   const NavState& nav = view.nav->sample;
   if (view.monitor && view.monitor->sample.gps_outage_active) {
-    trust.sentence += ", GPS gone " + duration_text(view.monitor->sample.gps_outage_s);
+    const ReceiverWord why = why_no_gps(view);
+    const std::string phrase = why.phrase();
+    if (!phrase.empty()) trust.sentence += ", " + phrase;
+    const bool has_fix = why.trouble == ReceiverTrouble::refused || why.trouble == ReceiverTrouble::disputed;
+    if (!has_fix) trust.sentence += ", GPS gone " + duration_text(view.monitor->sample.gps_outage_s);
     raise(trust, view.monitor->sample.gps_outage_severity == Severity::critical ? TrustLevel::bad
                                                                                 : TrustLevel::caution);
+    // Then the position may be as far wrong as the fix is away.
+    if (why.trouble == ReceiverTrouble::disputed) raise(trust, TrustLevel::bad);
+    trust.advice = why.advice();
+    if (!trust.advice.empty()) return;
     trust.advice = nav.mode == NavMode::acoustic_aided
                        ? "USBL carries the position; it stays good while its fixes come."
                        : "Surface for GPS or get a USBL fix before the limit is passed.";

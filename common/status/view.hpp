@@ -27,6 +27,9 @@ struct VerdictCounts {
   std::uint64_t used = 0;
   std::uint64_t not_used = 0;
   VerdictKind last_refusal = VerdictKind::used;  ///< used: there was none
+  VerdictKind last = VerdictKind::used;
+  double last_age_s = kUnknown;
+  double refused_for_s = 0.0;  ///< since the first of the refusals in a row up to now; 0: the last is none
 };
 
 /// The newest samples of one vehicle, at one moment.

@@ -12,6 +12,7 @@
 #include "samples/alignment/help.hpp"
 #include "samples/uncertainty.hpp"
 #include "status/judgement.hpp"
+#include "status/receiver.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -230,26 +231,31 @@ class Table {
   void gps() {
     if (!view_.monitor) return;
     const MonitorStatus& monitor = view_.monitor->sample;
-    put(outage(row("gps"), {{},
-                            monitor.gps_outage_active,
-                            monitor.gps_outage_severity,
-                            monitor.gps_outage_since_ns,
-                            monitor.gps_outage_s,
-                            monitor.gps_outage_longest_s,
-                            monitor.gps_outage_total_s,
-                            monitor.gps_outage_count}));
+    put(outage(row("gps"),
+               {{},
+                monitor.gps_outage_active,
+                monitor.gps_outage_severity,
+                monitor.gps_outage_since_ns,
+                monitor.gps_outage_s,
+                monitor.gps_outage_longest_s,
+                monitor.gps_outage_total_s,
+                monitor.gps_outage_count},
+               monitor.gps_outage_active ? status::why_no_gps(view_).phrase() : std::string()));
     if (monitor.receivers.size() < 2) return;  // one receiver's outages are the vehicle's
     for (const ReceiverOutage& receiver : monitor.receivers) {
-      put(outage(row("  " + receiver.name.str()), receiver));
+      put(outage(row("  " + receiver.name.str()), receiver,
+                 receiver.active ? status::why_out(view_, receiver).phrase() : std::string()));
     }
   }
 
-  static Line outage(Line line, const ReceiverOutage& what) {
+  /// `why` it is out, where more is known than that there is no fix.
+  static Line outage(Line line, const ReceiverOutage& what, const std::string& why) {
     if (!known(what.outage_s)) {
       line.add("no fix yet", Style::warn);
     } else if (what.active) {
-      line.add("no fix for " + number("%.1f", what.outage_s) + " s since " +
-                   to_iso8601(what.since_ns, 0).substr(11) + ", " + std::string(to_string(what.severity)),
+      line.add((why.empty() ? "no fix for " : why + ", none used for ") + number("%.1f", what.outage_s) +
+                   " s since " + to_iso8601(what.since_ns, 0).substr(11) + ", " +
+                   std::string(to_string(what.severity)),
                what.severity == Severity::notice ? Style::warn : Style::bad);
     } else {
       line.add("fix", Style::good);

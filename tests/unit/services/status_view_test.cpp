@@ -169,6 +169,22 @@ TEST(StatusView, ReceiversAreToldApartWhereThereAreSeveral) {
   EXPECT_EQ(gps["receivers"][1]["total_s"], 61.5);
 }
 
+TEST(StatusView, AFixThatIsRefusedIsNotCalledNone) {
+  StatusView view = healthy_view();
+  MonitorStatus& monitor = view.monitor->sample;
+  monitor.gps_outage_active = true;
+  monitor.gps_outage_s = 34.0;
+  monitor.receivers = {{"gps", true, Severity::warning, 0, 34.0, 34.0, 34.0, 1}};
+  monitor.sensors.clear();
+  view.verdicts["gps"].last = VerdictKind::disputed;
+  view.verdicts["gps"].last_age_s = 0.1;
+  view.verdicts["gps"].refused_for_s = 32.5;
+  const std::string shown = joined(view, 160, false);
+  EXPECT_NE(shown.find("gps has a fix that navigation has refused for 32.5 s, none used for 34.0 s since"),
+            std::string::npos)
+      << shown;
+}
+
 TEST(StatusView, JsonIsOneLineWithNullForTheUnknown) {
   StatusView view = healthy_view();
   view.nav->sample.depth_m = kUnknown;

@@ -144,5 +144,116 @@ TEST(Trust, ALimitThatIsNeverPassedIsNotMentioned) {
   EXPECT_EQ(judge_trust(view, kFreshS).sentence, "USBL with DVL, GPS last used 0.4 s ago, 95 % 2.5 m");
 }
 
+/// Under way without GPS for 34 s, beside a receiver that is heard.
+StatusView without_gps() {
+  StatusView view = under_way();
+  view.utc_ns = 0;  // the clock of the monitor counts
+  view.nav->sample.mode = NavMode::dead_reckoning;
+  MonitorStatus& monitor = view.monitor->sample;
+  monitor.header.stamp_ns = 1'700'000'000 * kNsPerSecond;
+  monitor.gps_outage_active = true;
+  monitor.gps_outage_severity = Severity::warning;
+  monitor.gps_outage_s = 34.0;
+  monitor.receivers = {{"gps", true, Severity::warning, 0, 34.0, 34.0, 34.0, 1}};
+  monitor.sensors = {{"gps", Presence::present, 0.2, 2.0}};
+  return view;
+}
+
+void add_alarm(StatusView& view, const char* key, double for_s, bool active = true) {
+  Alarm alarm;
+  alarm.alarm = key;
+  alarm.active = active;
+  alarm.since_ns = view.monitor->sample.header.stamp_ns - from_seconds(for_s);
+  view.alarms[key] = alarm;
+}
+
+void add_verdict(StatusView& view, const char* sensor, VerdictKind kind, double refused_for_s) {
+  view.verdicts[sensor].last = kind;
+  view.verdicts[sensor].last_age_s = 0.2;
+  view.verdicts[sensor].refused_for_s = refused_for_s;
+}
+
+bool says(const std::string& text, const char* words) {
+  return text.find(words) != std::string::npos;
+}
+
+TEST(Trust, AReceiverUnderWaterIsWorthSurfacing) {
+  StatusView view = without_gps();
+  add_verdict(view, "gps", VerdictKind::no_fix, 0.0);
+  add_alarm(view, "refused:gps", 60.0);  // of before the dive, it goes soon
+  add_alarm(view, "gps_disputed:gps", 60.0, false);
+  const Trust trust = judge_trust(view, kFreshS);
+  EXPECT_TRUE(says(trust.sentence, "GPS gone 34.0 s")) << trust.sentence;
+  EXPECT_TRUE(says(trust.advice, "Surface for GPS")) << trust.advice;
+}
+
+TEST(Trust, AFixThatIsRefusedIsNotCalledGoneAndNeedsNoSurface) {
+  StatusView at_once = without_gps();
+  add_verdict(at_once, "gps", VerdictKind::rejected, 6.5);
+  StatusView by_alarm = without_gps();
+  add_alarm(by_alarm, "refused:gps", 6.4);
+  for (const StatusView& view : {at_once, by_alarm}) {
+    const Trust trust = judge_trust(view, kFreshS);
+    EXPECT_EQ(trust.level, TrustLevel::caution);
+    EXPECT_EQ(trust.sentence,
+              "Dead reckoning with DVL, gps has a fix that navigation has refused for 6.5 s, 95 % 2.5 m");
+    EXPECT_TRUE(says(trust.advice, "Compare gps with another position")) << trust.advice;
+    EXPECT_FALSE(says(trust.advice, "Surface")) << trust.advice;
+  }
+  StatusView late = without_gps();
+  add_verdict(late, "gps", VerdictKind::late, 6.5);
+  EXPECT_TRUE(says(judge_trust(late, kFreshS).advice, "Look at the clock behind gps"));
+}
+
+TEST(Trust, AFixFarFromNavigationMakesThePositionBad) {
+  StatusView view = without_gps();
+  add_alarm(view, "gps_disputed:gps", 32.4);
+  add_alarm(view, "refused:gps", 32.4);
+  add_verdict(view, "gps", VerdictKind::disputed, 2.0);
+  view.nav->sample.mode = NavMode::acoustic_aided;
+  const Trust trust = judge_trust(view, kFreshS);
+  EXPECT_EQ(trust.level, TrustLevel::bad);
+  EXPECT_EQ(trust.sentence,
+            "USBL with DVL, gps has a fix that navigation has refused for 32.5 s, 95 % 2.5 m");
+  EXPECT_EQ(trust.advice,
+            "gps or navigation is far wrong: compare with another position, then disable gps or set the "
+            "position.");
+}
+
+TEST(Trust, AReceiverThatIsNotHeardIsNotWorthSurfacing) {
+  for (const Presence presence : {Presence::missing, Presence::stale}) {
+    StatusView view = without_gps();
+    add_alarm(view, "refused:gps", 60.0);
+    view.monitor->sample.sensors = {{"gps", presence, 33.9, 0.0}};
+    const Trust trust = judge_trust(view, kFreshS);
+    EXPECT_TRUE(says(trust.sentence, ", gps has been silent for 34.0 s, GPS gone 34.0 s")) << trust.sentence;
+    EXPECT_EQ(trust.advice,
+              "Look at the cable, port and bridge of gps: at the surface it stays silent, too.");
+  }
+}
+
+TEST(Trust, FrozenAndDisabledReceiversAreNamed) {
+  StatusView frozen = without_gps();
+  add_alarm(frozen, "gps_frozen:gps", 11.9);
+  EXPECT_TRUE(says(judge_trust(frozen, kFreshS).sentence, "gps has repeated one fix for 12.0 s, GPS gone"));
+  EXPECT_TRUE(says(judge_trust(frozen, kFreshS).advice, "Restart gps"));
+  StatusView disabled = without_gps();
+  add_verdict(disabled, "gps", VerdictKind::source_disabled, 0.0);
+  EXPECT_TRUE(says(judge_trust(disabled, kFreshS).sentence, "gps is disabled, GPS gone"));
+  EXPECT_TRUE(says(judge_trust(disabled, kFreshS).advice, "Enable gps"));
+}
+
+TEST(Trust, OfSeveralReceiversTheOneNearestToAFixIsNamed) {
+  StatusView view = without_gps();
+  MonitorStatus& monitor = view.monitor->sample;
+  monitor.receivers.push_back({"bow", true, Severity::warning, 0, 34.0, 34.0, 34.0, 1});
+  monitor.sensors.push_back({"bow", Presence::missing, 40.0, 0.0});
+  EXPECT_TRUE(says(judge_trust(view, kFreshS).advice, "Surface")) << "gps is only under water";
+  add_alarm(view, "refused:gps", 20.0);
+  EXPECT_TRUE(says(judge_trust(view, kFreshS).sentence, "gps has a fix"));
+  monitor.receivers[0].active = false;
+  EXPECT_TRUE(says(judge_trust(view, kFreshS).advice, "bridge of bow")) << "gps does not count";
+}
+
 }  // namespace
 }  // namespace fathom::status
