@@ -13,15 +13,11 @@
 #include <utility>
 #include <vector>
 
-#include <unistd.h>
-
 #include "bus/reader.hpp"
 #include "bus/writer.hpp"
 #include "health/vehicle_health.hpp"
-#include "monitor/alarm_journal.hpp"
 #include "monitor/metrics.hpp"
-#include "monitor/outage_file.hpp"
-#include "runtime/build_info.hpp"
+#include "monitor/record_keeper.hpp"
 #include "samples/kinds.hpp"
 
 namespace fathom::monitor {
@@ -54,11 +50,12 @@ struct MonitorService::Impl {
                [this](const WriterGuid& writer) { return describe(writer); }),
         status_writer(host.participant()),
         alarm_writer(host.participant()),
-        journal(monitor_config.journal.path),
-        outages(monitor_config.journal.path),
+        records(monitor_config.journal.path, Name(monitor_config.common.vehicle), service_host.clock(),
+                service_host.log()),
         metrics([this] { return snapshot(); }) {
     resume_outages(now());
-    open_outputs(now());
+    restore(now());
+    open_metrics(now());
     listen_to_sensors();
     // Who writes it matters, too.
     readers.push_back(std::make_shared<bus::Reader<NavState>>(
@@ -108,26 +105,9 @@ struct MonitorService::Impl {
     }
   }
 
-  /// Journal and metrics, as far as they are wanted and not open yet.
-  void open_outputs(const health::Instant& at) {
+  /// The metrics, where they are wanted and not open yet.
+  void open_metrics(const health::Instant& at) {
     tried_ns = at.monotonic_ns;
-    if (!config.journal.path.empty() && !journal.is_open()) {
-      if (journal.open(at.utc_ns)) {
-        const auto repaired = journal.counters().repaired_bytes;
-        if (repaired > 0) {
-          host.log().warning("journal " + config.journal.path + ": its last line was incomplete (" +
-                             std::to_string(repaired) + " bytes) and was closed");
-        }
-        restore(at);
-        journal.note(
-            "started",
-            "fathom-monitor " + std::string(runtime::version()) + ", process " + std::to_string(getpid()),
-            at.utc_ns);
-      }
-      complain(journal.error(), journal_trouble);
-      const std::lock_guard lock(mutex);
-      journal_counters = journal.counters();
-    }
     if (config.metrics.enabled && !metrics.running()) {
       const std::string trouble = metrics.start(config.metrics.address, config.metrics.port);
       if (trouble.empty()) {
@@ -140,8 +120,7 @@ struct MonitorService::Impl {
 
   /// Outages go on over a restart of the monitor.
   void resume_outages(const health::Instant& at) {
-    const auto books = outages.read(health.alarms().vehicle());
-    if (!outages.error().empty()) host.log().warning(outages.error());
+    const auto& books = records.books_of_before();
     health.resume(books, at);
     for (const health::GpsOutageBook& book : books) {
       if (book.receiver.empty() && book.record.active) host.log().info("a GPS outage of before goes on");
@@ -151,8 +130,10 @@ struct MonitorService::Impl {
   /// Alarms are latched until somebody acknowledges them, also when the monitor was started again in between.
   void restore(const health::Instant& at) {
     int restored = 0;
+    const std::vector<Alarm> latched = records.take_latched();
+    if (latched.empty()) return;
     const std::lock_guard lock(mutex);
-    for (const Alarm& alarm : journal.latched()) {
+    for (const Alarm& alarm : latched) {
       if (alarm.header.vehicle.view() != config.common.vehicle) continue;
       health.restore(alarm, at);
       restored += alarm.acknowledged ? 0 : 1;
@@ -177,7 +158,7 @@ struct MonitorService::Impl {
       condition.text = trouble.substr(0, 240);
       health.set(!trouble.empty(), condition, at);
     };
-    alarm("journal_failed", Severity::warning, journal_trouble);
+    alarm("journal_failed", Severity::warning, records.state().trouble);
     alarm("metrics_unavailable", Severity::notice, metrics_trouble);
   }
 
@@ -193,8 +174,9 @@ struct MonitorService::Impl {
     out.raised = raised;
     out.acknowledged = commands;
     out.dropped = health.alarms().dropped();
-    out.journal_lines = journal_counters.lines;
-    out.journal_failures = journal_counters.failures;
+    const RecordKeeper::State kept = records.state();
+    out.journal_lines = kept.journal.lines;
+    out.journal_failures = kept.journal.failures + kept.dropped;
     if (forecast && at.monotonic_ns - forecast_ns < kForecastNs) {
       const auto count = std::min<std::size_t>(forecast->limit_count, Forecast::kMaxLimits);
       // One series a limit: as it is, not as it would be without this or that aiding.
@@ -236,7 +218,8 @@ struct MonitorService::Impl {
   }
 
   void tick() {
-    if (const health::Instant at = now(); at.monotonic_ns - tried_ns >= kRetryNs) open_outputs(at);
+    if (const health::Instant at = now(); at.monotonic_ns - tried_ns >= kRetryNs) open_metrics(at);
+    restore(now());  // of a journal that could be opened only now
     std::vector<std::string> strangers;
     for (const bus::Stranger& one : host.participant().strangers()) strangers.push_back(bus::to_string(one));
     std::vector<health::AlarmTransition> transitions;
@@ -271,7 +254,6 @@ struct MonitorService::Impl {
       status->header.sequence = ++status_sequence;
       status_writer.write(*status);
     }
-    // Last: a disk may take its time.
     keep_outages(books);
     for (const health::AlarmTransition& one : transitions) record(one);
   }
@@ -285,8 +267,7 @@ struct MonitorService::Impl {
     if (books.empty() || (turns == kept_turns && now_ns - kept_ns < kKeepNs)) return;
     kept_turns = turns;
     kept_ns = now_ns;
-    (void)outages.write(health.alarms().vehicle(), books);
-    complain(outages.error(), outages_trouble);
+    records.keep(books);
   }
 
   void publish(Alarm alarm) {
@@ -310,13 +291,9 @@ struct MonitorService::Impl {
                                                                : runtime::LogLevel::info;
       host.log().write(level, std::string(to_string(alarm.severity)) + text);
     }
-    if (!config.journal.path.empty()) {
-      journal.append(transition, host.clock().utc_ns());
-      complain(journal.error(), journal_trouble);
-    }
+    records.append(transition, host.clock().utc_ns());
     const std::lock_guard lock(mutex);
     if (event == AlarmEvent::raised) ++raised[static_cast<std::size_t>(alarm.severity)];
-    journal_counters = journal.counters();
   }
 
   void fill(ServiceStatus& status) {
@@ -326,6 +303,7 @@ struct MonitorService::Impl {
     status.counters.push_back({"alarms_unacknowledged", health.alarms().unacknowledged_count()});
     status.counters.push_back({"alarms_dropped", health.alarms().dropped()});
     status.counters.push_back({"acknowledgements", commands});
+    status.counters.push_back({"journal_dropped", records.state().dropped});
   }
 
   host::ServiceHost& host;
@@ -338,7 +316,6 @@ struct MonitorService::Impl {
   std::optional<Forecast> forecast;
   TimeNs forecast_ns = 0;  ///< monotonic, of its arrival
   std::array<std::uint64_t, 3> raised{};
-  AlarmJournal::Counters journal_counters;
 
   // Of the tick's thread only.
   TimeNs published_ns = 0;
@@ -347,16 +324,13 @@ struct MonitorService::Impl {
   TimeNs tried_ns = 0;
   std::uint64_t kept_turns = 0;
   TimeNs kept_ns = 0;
-  std::string outages_trouble;
-  std::string journal_trouble;
   std::string metrics_trouble;
   std::uint64_t status_sequence = 0;
   std::uint64_t alarm_sequence = 0;
 
   bus::Writer<MonitorStatus> status_writer;
   bus::Writer<Alarm> alarm_writer;
-  AlarmJournal journal;
-  OutageFile outages;
+  RecordKeeper records;
   MetricsServer metrics;
   std::vector<std::shared_ptr<void>> readers;  ///< last: their handlers use all of the above
 };
@@ -365,9 +339,7 @@ MonitorService::MonitorService(host::ServiceHost& host, const config::MonitorCon
     : impl_(std::make_unique<Impl>(host, config)) {}
 
 MonitorService::~MonitorService() {
-  if (impl_->journal.is_open()) {
-    impl_->journal.note("stopped", "fathom-monitor ended in good order", impl_->host.clock().utc_ns());
-  }
+  impl_->records.finish();
 }
 
 }  // namespace fathom::monitor

@@ -6,10 +6,13 @@
 #include <vector>
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <nlohmann/json.hpp>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "support/process.hpp"
 #include "vehicle_network.hpp"
@@ -260,6 +263,27 @@ TEST_F(MonitorTest, ADiskThatFailsAgainIsSaidAgain) {
     ASSERT_TRUE(drive_until([&] { return complaints() == time; })) << monitor->err();
     std::filesystem::remove(in_the_way);
   }
+  std::filesystem::remove(books);
+}
+
+TEST_F(MonitorTest, ADiskThatHangsSilencesNothing) {
+  start(198, {"services=[]", "navigation.expected=false", "gps.limit_s=1.0"}, clock);
+  const std::filesystem::path books = journal.string() + ".outages";
+  const std::filesystem::path hanging = books.string() + ".new";
+  const auto drive_until = [&](bool fix, const std::function<bool()>& condition) {
+    return drive([&] { network->gps(fix); }, condition, 60.0);
+  };
+  ASSERT_TRUE(drive_until(true, [&] { return std::filesystem::exists(books); })) << monitor->err();
+  // A file that nobody reads hangs whoever opens it to write. The monitor may be about to rename its own.
+  ASSERT_TRUE(drive_until(true, [&] { return mkfifo(hanging.c_str(), 0600) == 0; }));
+  EXPECT_TRUE(drive_until(true, [&] { return ear->active("journal_failed"); }));
+  EXPECT_TRUE(drive_until(false, [&] { return ear->active("gps_outage"); }));
+  EXPECT_FALSE(journalled("raised", "gps_outage"));
+  const int reader = open(hanging.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  EXPECT_TRUE(drive_until(
+      false, [&] { return journalled("raised", "gps_outage") && !ear->active("journal_failed"); }));
+  close(reader);
   std::filesystem::remove(books);
 }
 

@@ -1,0 +1,114 @@
+#include "monitor/record_keeper.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace fathom::monitor {
+namespace {
+
+using health::AlarmEvent;
+
+constexpr TimeNs kNow = 1'700'000'000 * kNsPerSecond;
+
+class RecordKeeperTest : public ::testing::Test {
+ protected:
+  RecordKeeperTest() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "fathom-records-XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+    path = (folder / "alarms.jsonl").string();
+  }
+  ~RecordKeeperTest() override { std::filesystem::remove_all(folder); }
+
+  static health::AlarmTransition raised(int number) {
+    Alarm alarm;
+    alarm.header.vehicle = "auv";
+    alarm.alarm = Name("alarm" + std::to_string(number));
+    alarm.active = true;
+    alarm.since_ns = kNow;
+    return {AlarmEvent::raised, alarm};
+  }
+  static std::vector<health::GpsOutageBook> books(std::uint32_t count) {
+    return {{"gps", {true, kNow, count, 0, 0}}};
+  }
+  [[nodiscard]] std::vector<std::string> events() const {
+    std::vector<std::string> out;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);)
+      out.push_back(nlohmann::json::parse(line)["event"].get<std::string>());
+    return out;
+  }
+
+  std::filesystem::path folder;
+  std::string path;
+  SystemClock clock;
+  runtime::Log log{"test", runtime::LogLevel::error};
+};
+
+TEST_F(RecordKeeperTest, WritesInOrderAndHandsOutWhatWasLatched) {
+  {
+    RecordKeeper keeper(path, "auv", clock, log);
+    EXPECT_TRUE(keeper.books_of_before().empty());
+    EXPECT_TRUE(keeper.take_latched().empty());
+    for (int i = 0; i < 5; ++i) keeper.append(raised(i), kNow + i);
+    keeper.keep(books(3));
+    keeper.finish();
+  }
+  EXPECT_EQ(events(), (std::vector<std::string>{"started", "raised", "raised", "raised", "raised", "raised",
+                                                "stopped"}));
+  RecordKeeper again(path, "auv", clock, log);
+  ASSERT_EQ(again.books_of_before().size(), 1U);
+  EXPECT_EQ(again.books_of_before()[0].record.count, 3U);
+  const auto latched = again.take_latched();
+  ASSERT_EQ(latched.size(), 5U);
+  EXPECT_EQ(latched[4].alarm, Name("alarm4"));
+  EXPECT_TRUE(again.take_latched().empty()) << "once";
+}
+
+TEST_F(RecordKeeperTest, NobodyWaitsForADiskThatHangsAndWhatIsDroppedIsCountedAndSaid) {
+  // A file that nobody reads hangs whoever opens it to write.
+  const std::string hanging = path + ".outages.new";
+  ASSERT_EQ(mkfifo(hanging.c_str(), 0600), 0);
+  int reader = -1;
+  {
+    RecordKeeper keeper(path, "auv", clock, log);
+    keeper.keep(books(1));
+    while (keeper.state().trouble.empty()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_NE(keeper.state().trouble.find("does not answer"), std::string::npos) << keeper.state().trouble;
+    constexpr int kTooMany = 7;
+    for (int i = 0; i < static_cast<int>(RecordKeeper::kMostLines) + kTooMany; ++i)
+      keeper.append(raised(i), kNow + i);
+    EXPECT_EQ(keeper.state().dropped, static_cast<std::uint64_t>(kTooMany));
+    EXPECT_EQ(events(), std::vector<std::string>{"started"});
+    reader = ::open(hanging.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    ASSERT_GE(reader, 0);
+    while (keeper.state().journal.lines < RecordKeeper::kMostLines + 2)  // and two of its own
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(keeper.state().trouble, "");
+  }
+  ::close(reader);
+  const auto lines = events();
+  ASSERT_EQ(lines.size(), RecordKeeper::kMostLines + 2);
+  EXPECT_EQ(lines[RecordKeeper::kMostLines], "raised");
+  EXPECT_EQ(lines.back(), "dropped");
+}
+
+TEST_F(RecordKeeperTest, AJournalThatCannotBeIsATroubleAndStopsNobody) {
+  RecordKeeper keeper("/dev/null", "auv", clock, log);
+  EXPECT_NE(keeper.state().trouble.find("regular file"), std::string::npos);
+  keeper.append(raised(1), kNow);
+  while (keeper.state().journal.failures == 0) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_NE(keeper.state().trouble.find("regular file"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fathom::monitor
