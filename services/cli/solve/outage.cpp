@@ -24,12 +24,14 @@ constexpr double kLongest_s = 60.0;
 constexpr double kLeastRecovery_s = 40.0;
 constexpr double kMostRecovery_s = 70.0;
 constexpr int kMostEmptyPasses = 10;
+/// Shorter, a window holds no fix.
+constexpr double kLeastDuration_s = 1e-3;
 
 [[noreturn]] void refuse(const std::string& text) {
-  throw Failure(
-      ExitCode::bad_configuration,
-      "--gps-outage: is '" + text +
-          "', expected T1,T2,...[@start[:recover]] in seconds, e.g. 10,20,60@110:40, or random:N[@start]");
+  throw Failure(ExitCode::bad_configuration, "--gps-outage: is '" + text +
+                                                 "', expected T1,T2,...[@start[:recover]] in seconds, each T "
+                                                 "at least 0.001, e.g. 10,20,60@110:40, or "
+                                                 "random:N[@start]");
 }
 
 double seconds_in(std::string_view part, const std::string& whole) {
@@ -216,7 +218,7 @@ OutageRequest parse_outages(const std::string& text) {
   while (true) {
     const auto comma = rest.find(',');
     const double duration_s = seconds_in(rest.substr(0, comma), text);
-    if (!(duration_s > 0.0)) refuse(text);
+    if (!(duration_s >= kLeastDuration_s)) refuse(text);
     request.durations_s.push_back(duration_s);
     if (comma == std::string_view::npos) return request;
     rest = rest.substr(comma + 1);

@@ -113,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadCall{"outage_text", {"--gps-outage", "ten"}, "fathom: --gps-outage: is 'ten', expected T1,T2"},
         BadCall{"outage_zero", {"--gps-outage", "0"}, "fathom: --gps-outage: is '0'"},
+        BadCall{"outage_nothing", {"--gps-outage", "1e-10@100:0"}, "fathom: --gps-outage: is '1e-10@100:0'"},
         BadCall{"outage_tail", {"--gps-outage", "10@5:x"}, "fathom: --gps-outage: is '10@5:x'"},
         BadCall{"start", {"--start", "somewhere"}, "--start"},
         BadCall{"set", {"--set", "engine.horizon_s=-1"}, "config.json: engine.horizon_s: is -1, expected"},
