@@ -157,7 +157,7 @@ Participant::Impl::Impl(const ParticipantOptions& options) {
   dds::DomainParticipantQos qos = participant_qos(options, profiles_dir);
   auto& sockets = qos.transport().user_transports.front();
   sockets = std::make_shared<detail::TransportDescriptor>(
-      sockets, low_priority_peers_, delivery_watch,
+      sockets, low_priority_peers_, delivery_watch, acknowledgements,
       [this](const std::string& address) { refuse_datagram(address); });
   if (!options.security.folder.empty()) {
     credentials = detail::credentials_of(options);
@@ -269,6 +269,7 @@ void Participant::Impl::refuse_datagram(const std::string& address) {
 
 void Participant::Impl::participant_seen(const detail::GuidPrefix& who,
                                          const detail::Announcement& announcement) {
+  acknowledgements->seen(who);
   const Peer peer = to_peer(announcement);
   if (peer.low_priority) {
     low_priority_peers_->seen(who, announcement.samples_at);
@@ -285,6 +286,7 @@ void Participant::Impl::participant_seen(const detail::GuidPrefix& who,
 void Participant::Impl::participant_gone(const detail::GuidPrefix& who, bool fell_silent) {
   low_priority_peers_->gone(who);
   delivery_watch->gone(who);
+  acknowledgements->gone(who);
   if (fell_silent) participant_dropped(who);
   peers.participant_gone(who);
   if (credentials) part(who);

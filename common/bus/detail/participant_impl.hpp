@@ -69,6 +69,8 @@ struct Participant::Impl final : detail::DiscoveryListener {
   detail::EventBook events;
   detail::PeerBook peers;
   const std::shared_ptr<detail::DeliveryWatch> delivery_watch = std::make_shared<detail::DeliveryWatch>();
+  const std::shared_ptr<detail::AcknowledgementBook> acknowledgements =
+      std::make_shared<detail::AcknowledgementBook>();
   detail::WorkQueue work_queue;
   /// How much longer the ends of all writers together wait for readers: one on a machine that is busy takes
   /// its time, and one that died is not known to have died.

@@ -47,6 +47,12 @@ int Child::end(int signal) {
 void Child::kill_hard() {
   end(SIGKILL);
 }
+void Child::pause() {
+  kill(pid_, SIGSTOP);
+}
+void Child::go_on() {
+  kill(pid_, SIGCONT);
+}
 int Child::stop() {
   return end(SIGTERM);
 }

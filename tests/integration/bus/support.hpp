@@ -99,6 +99,8 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   void kill_hard();  ///< SIGKILL, and waits for the end
+  void pause();      ///< SIGSTOP
+  void go_on();      ///< SIGCONT
   int stop();        ///< SIGTERM, and waits for the end; returns the exit status
 
  private:

@@ -192,12 +192,13 @@ class Transports : public testing::Test {
   Transports()
       : transport(dynamic_cast<fastdds::ChainingTransport*>(
             TransportDescriptor(std::make_shared<fastdds::UDPv4TransportDescriptor>(), low_priority_peers,
-                                delivery_watch,
+                                delivery_watch, acknowledgements,
                                 [this](const std::string& address) { refused.push_back(address); })
                 .create_transport())) {}
 
   const std::shared_ptr<LowPriorityPeers> low_priority_peers = std::make_shared<LowPriorityPeers>();
   const std::shared_ptr<DeliveryWatch> delivery_watch = std::make_shared<DeliveryWatch>();
+  const std::shared_ptr<AcknowledgementBook> acknowledgements = std::make_shared<AcknowledgementBook>();
   std::vector<std::string> refused;
   const std::unique_ptr<fastdds::ChainingTransport> transport;
 };

@@ -58,7 +58,14 @@ class Transport final : public RoutingTransport<Transport> {
       return descriptor_.refused(rtps::IPLocator::toIPv4string(remote));
     }
     descriptor_.delivery_watch->arrived_from(datagram);
-    dds->OnDataReceived(bytes, count, local, remote);
+    thread_local std::vector<std::uint8_t> mended;  // keeps its memory from datagram to datagram
+    mended.clear();
+    all_acknowledgements(datagram, [&](const Acknowledgement& one) {
+      if (!descriptor_.acknowledgements->goes_back(one)) return;
+      if (mended.empty()) mended.assign(datagram.begin(), datagram.end());
+      begin_anew(mended, one);
+    });
+    dds->OnDataReceived(mended.empty() ? bytes : mended.data(), count, local, remote);
   }
 
  private:
@@ -69,10 +76,13 @@ class Transport final : public RoutingTransport<Transport> {
 
 TransportDescriptor::TransportDescriptor(std::shared_ptr<fastdds::TransportDescriptorInterface> sockets,
                                          std::shared_ptr<const LowPriorityPeers> who_look_on,
-                                         std::shared_ptr<DeliveryWatch> what_arrives, Refused on_refused)
+                                         std::shared_ptr<DeliveryWatch> what_arrives,
+                                         std::shared_ptr<AcknowledgementBook> what_readers_have,
+                                         Refused on_refused)
     : ChainingTransportDescriptor(std::move(sockets)),
       low_priority_peers(std::move(who_look_on)),
       delivery_watch(std::move(what_arrives)),
+      acknowledgements(std::move(what_readers_have)),
       refused(std::move(on_refused)) {}
 
 fastdds::TransportInterface* TransportDescriptor::create_transport() const {

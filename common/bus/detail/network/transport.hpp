@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "bus/detail/network/acknowledgements.hpp"
 #include "bus/detail/network/delivery_watch.hpp"
 #include "bus/detail/network/low_priority_peers.hpp"
 #include "bus/detail/versions/transports.hpp"
@@ -17,17 +18,20 @@ namespace fathom::bus::detail {
 /// those that were woken before.
 ///
 /// It drops a received datagram that would end this process (harmless()) or that makes an impossible claim
-/// (DeliveryWatch), and calls `refused` with the sender's address, on the thread that received it.
+/// (DeliveryWatch), and calls `refused` with the sender's address, on the thread that received it. It helps
+/// readers that forgot what they had to get it again (AcknowledgementBook).
 struct TransportDescriptor final : eprosima::fastdds::rtps::ChainingTransportDescriptor {
   using Refused = std::function<void(const std::string& address)>;
 
   TransportDescriptor(std::shared_ptr<eprosima::fastdds::rtps::TransportDescriptorInterface> sockets,
                       std::shared_ptr<const LowPriorityPeers> who_look_on,
-                      std::shared_ptr<DeliveryWatch> what_arrives, Refused on_refused);
+                      std::shared_ptr<DeliveryWatch> what_arrives,
+                      std::shared_ptr<AcknowledgementBook> what_readers_have, Refused on_refused);
   [[nodiscard]] eprosima::fastdds::rtps::TransportInterface* create_transport() const override;
 
   std::shared_ptr<const LowPriorityPeers> low_priority_peers;
   std::shared_ptr<DeliveryWatch> delivery_watch;
+  std::shared_ptr<AcknowledgementBook> acknowledgements;
   Refused refused;
 };
 

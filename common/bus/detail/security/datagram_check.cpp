@@ -14,6 +14,7 @@ constexpr std::size_t kPrefix = 8;
 constexpr std::uint8_t kFastDds[] = {0x01, 0x0F};
 
 constexpr std::uint8_t kPad = 0x01;
+constexpr std::uint8_t kAcknack = 0x06;
 constexpr std::uint8_t kHeartbeat = 0x07;
 constexpr std::uint8_t kGap = 0x08;
 constexpr std::uint8_t kInfoTimestamp = 0x09;
@@ -21,7 +22,14 @@ constexpr std::uint8_t kData = 0x15;
 constexpr std::uint8_t kDataFragment = 0x16;
 constexpr std::uint8_t kSendersStatistics = 0x80;
 
+constexpr std::uint8_t kFinal = 0x02;  // a flag: no answer is expected
+
 constexpr std::uint16_t kSentinel = 0x0001;
+
+// ACKNACK: the reader's and the writer's id, and then
+constexpr std::size_t kBase = 8;
+constexpr std::size_t kBits = 16;  // how many there are, and then they themselves, in words, and the count
+constexpr std::size_t kWords = 20;
 
 constexpr std::size_t to_words(std::size_t bytes) {
   return (bytes + 3) & ~std::size_t{3};
@@ -131,6 +139,14 @@ std::optional<Claim> claim_of(const Submessage& one) {
   return claim;
 }
 
+/// Where the count of an ACKNACK is, which holds together; nothing when it does not.
+std::optional<std::size_t> place_of_count(const Submessage& one) {
+  if (one.id() != kAcknack || one.size() < kWords + 4) return std::nullopt;
+  const std::size_t words = (std::size_t{one.u32(kBits)} + 31) / 32;
+  const std::size_t at = kWords + 4 * words;
+  return at + 4 <= one.size() ? std::optional(at) : std::nullopt;
+}
+
 /// Calls `look(submessage, is_last)` for each that Fast DDS reads, until one call returns false, which it
 /// returns.
 template <class Look>
@@ -167,6 +183,35 @@ bool all_claims(Bytes datagram, const std::function<bool(const Claim&)>& look) {
     std::copy_n(datagram.begin() + kPrefix, 12, claim->writer.begin());
     return look(*claim);
   });
+}
+
+void all_acknowledgements(Bytes datagram, const std::function<void(const Acknowledgement&)>& look) {
+  if (datagram.size() < kHeader) return;
+  (void)all_submessages(datagram, [&](const Submessage& one, bool /*last*/) {
+    const auto count = place_of_count(one);
+    if (!count) return true;
+    Acknowledgement out;
+    std::copy_n(datagram.begin() + kPrefix, 12, out.reader.begin());
+    const Bytes reader = one.bytes(0, 4);
+    std::copy_n(reader.begin(), 4, out.reader.begin() + 12);
+    out.writer = to_entity_id(one.bytes(4, 4));
+    out.base = one.number(kBase);
+    out.count = one.u32(*count);
+    out.at = static_cast<std::size_t>(reader.data() - datagram.data());
+    look(out);
+    return true;
+  });
+}
+
+void begin_anew(std::span<std::uint8_t> datagram, const Acknowledgement& one) {
+  constexpr std::size_t kBeforeContent = 4;
+  const Submessage before(kAcknack, datagram[one.at - kBeforeContent + 1], datagram.subspan(one.at));
+  const auto count = place_of_count(before);
+  if (!count) return;
+  datagram[one.at - kBeforeContent + 1] &= static_cast<std::uint8_t>(~kFinal);
+  const auto content = datagram.begin() + static_cast<std::ptrdiff_t>(one.at);
+  std::fill(content + kBase, content + kWords, std::uint8_t{0});
+  std::copy_n(content + static_cast<std::ptrdiff_t>(*count), 4, content + kWords);
 }
 
 }  // namespace fathom::bus::detail

@@ -5,6 +5,7 @@
 #include <functional>
 #include <span>
 
+#include "bus/detail/network/acknowledgements.hpp"
 #include "bus/detail/network/delivery_watch.hpp"
 
 namespace fathom::bus::detail {
@@ -22,5 +23,13 @@ namespace fathom::bus::detail {
 /// Calls `look` for each claim (DATA, DATA_FRAG, HEARTBEAT, GAP) in a harmless datagram about the samples of
 /// a writer, until one call returns false, which it returns.
 bool all_claims(std::span<const std::uint8_t> datagram, const std::function<bool(const Claim&)>& look);
+
+/// Calls `look` for each ACKNACK in a datagram.
+void all_acknowledgements(std::span<const std::uint8_t> datagram,
+                          const std::function<void(const Acknowledgement&)>& look);
+
+/// Makes of an ACKNACK in this datagram the one of a reader that has just met the writer: it has nothing,
+/// asks for nothing yet, and expects an answer.
+void begin_anew(std::span<std::uint8_t> datagram, const Acknowledgement& one);
 
 }  // namespace fathom::bus::detail
