@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "explain/explain.hpp"
 #include "explain/watch/track.hpp"
 
 namespace fathom::explain {
@@ -17,17 +18,36 @@ bool at_the_time(const Finding& one, TimeNs at_ns) {
   return one.begin_ns <= at_ns + kEarly_ns && one.end_ns + kOver_ns >= at_ns;
 }
 
+/// What the values of a source tell, and not whether there are any.
+bool is_of_values(Kind kind) {
+  return kind >= Kind::wrong_heading && kind <= Kind::wrong_lever;
+}
+
 /// What an alarm is about: the part behind the colon, or the kind of source that its name begins with.
 bool concerns(const std::string& alarm, const Finding& one) {
+  const bool absence = alarm.find("_missing") != std::string::npos || alarm.starts_with("service_");
+  if (absence && is_of_values(one.kind)) return false;
   const std::size_t colon = alarm.find(':');
   if (colon != std::string::npos) {
     const std::string subject = alarm.substr(colon + 1);
-    return subject == one.subject || subject == one.subject + "_bridge";
+    return subject == one.subject || subject == one.subject + "_bridge" || subject + "_bridge" == one.subject;
   }
   if (alarm.starts_with("alignment"))
     return one.kind == Kind::not_aligned || one.kind == Kind::alignment_lost;
   if (alarm.starts_with("nav_state")) return one.kind == Kind::state_gap;
   return !one.subject.empty() && alarm.starts_with(one.subject + "_");
+}
+
+/// When what an alarm tells of began: monitors wait before they raise it, each kind as long as it has to.
+TimeNs began_ns(const AlarmRow& row) {
+  const TimeNs since_ns = row.alarm.since_ns;
+  return since_ns > 0 && since_ns <= row.log_ns ? since_ns : row.log_ns;
+}
+
+/// Whether a finding was under way when something began, within the second of a life sign and those after
+/// which a missed one is noticed.
+bool covers(const Finding& one, TimeNs at_ns) {
+  return one.begin_ns <= at_ns + LifeSign::kSilence_ns && one.end_ns + LifeSign::kSilence_ns >= at_ns;
 }
 
 }  // namespace
@@ -84,15 +104,19 @@ std::vector<std::size_t> under_way(const Findings& all, TimeNs at_ns) {
 }
 
 std::optional<std::size_t> behind(const Findings& all, const AlarmRow& alarm) {
-  const TimeNs at_ns = alarm.log_ns;
+  const TimeNs at_ns = began_ns(alarm);
   const std::string name = alarm.alarm.alarm.str();
-  // What concerns it before what was merely under way; of those the one that stands first.
-  for (const bool own : {true, false})
+  // What concerns it before what touches everything; of those what began last.
+  for (const bool own : {true, false}) {
+    std::optional<std::size_t> best;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (!at_the_time(all[i], at_ns)) continue;
-      if (own ? concerns(name, all[i]) : !all[i].follows_from && named(all[i]))
-        return all[i].follows_from ? all[i].follows_from : i;
+      if (!covers(all[i], at_ns)) continue;
+      if (own ? !concerns(name, all[i]) : all[i].follows_from || !named(all[i]) || !touches_all(all[i]))
+        continue;
+      if (!best || began_nearer(all[i], all[*best], at_ns)) best = i;
     }
+    if (best) return all[*best].follows_from.value_or(*best);
+  }
   return std::nullopt;
 }
 

@@ -12,23 +12,17 @@ namespace {
 constexpr DurationNs kBefore_ns = 3 * kNsPerSecond;
 constexpr DurationNs kAfter_ns = 15 * kNsPerSecond;
 
-/// Causes that touch every source.
-bool touches_all(const Finding& cause) {
-  switch (cause.kind) {
-    case Kind::restart:
-    case Kind::stalled:
-    case Kind::takeover:
-    case Kind::imu_late:
-    case Kind::imu_gap:
-    case Kind::not_aligned:
-    case Kind::wrong_heading:
-      return true;
-    case Kind::clock_jump:
-    case Kind::second_writer:
-      return cause.word == "imu" || cause.subject == "imu";
-    default:
-      return false;
-  }
+/// The role of a bridge, with which the names of its sensors begin; empty: it is none.
+std::string_view role_of(const Finding& cause) {
+  constexpr std::string_view kBridge = "_bridge";
+  const std::string_view name = cause.subject;
+  if (!name.ends_with(kBridge)) return {};
+  return name.substr(0, name.size() - kBridge.size());
+}
+
+/// An instrument itself was silent.
+bool is_silence(const Finding& one) {
+  return (one.kind == Kind::lost || one.kind == Kind::imu_gap) && one.word == "silent";
 }
 
 bool is_effect(Kind kind) {
@@ -37,9 +31,9 @@ bool is_effect(Kind kind) {
 }
 
 bool may_bring_about(const Finding& cause, const Finding& effect) {
-  // A thing again is the same thing.
-  const bool again =
-      cause.kind == effect.kind && cause.subject == effect.subject && cause.begin_ns < effect.begin_ns;
+  // A thing again is the same thing; a source may be lost again for another reason.
+  const bool again = cause.kind == effect.kind && cause.subject == effect.subject &&
+                     cause.begin_ns < effect.begin_ns && effect.kind != Kind::lost && !is_silence(effect);
   if (cause.kind >= effect.kind && !again) return false;
   if (cause.weight == Weight::note && effect.weight != Weight::note) return false;
   if (cause.kind == Kind::clock_set) return false;  // stamps are not moved by it
@@ -52,12 +46,13 @@ bool may_bring_about(const Finding& cause, const Finding& effect) {
     return cause.kind == Kind::takeover && effect.subject == cause.word;
   // A service that is none of fusion's touches its own sensors, whose names begin as its own does.
   if ((cause.kind == Kind::restart || cause.kind == Kind::stalled) && !(cause.figure("fusion") > 0.0)) {
-    constexpr std::string_view kBridge = "_bridge";
-    if (!cause.subject.ends_with(kBridge)) return false;
-    const std::string role = cause.subject.substr(0, cause.subject.size() - kBridge.size());
+    const std::string_view role = role_of(cause);
+    if (role.empty()) return false;
     return effect.subject.starts_with(role) || (role == "imu" && effect.kind != Kind::lost) ||
            is_effect(effect.kind);
   }
+  // Whether an instrument talks is no matter of who listens, nor of what it said before.
+  if (is_silence(effect)) return cause.subject == effect.subject && cause.kind < Kind::not_aligned;
   if (is_effect(effect.kind)) return cause.kind != Kind::interference || effect.kind != Kind::state_gap;
   return touches_all(cause) || cause.subject == effect.subject;
 }
@@ -71,16 +66,27 @@ void weigh(Findings& all) {
     }
 }
 
+/// Whether a cause explains an effect better than another one does.
+bool is_better(const Finding& cause, const Finding& other, const Finding& effect) {
+  const auto under_way = [&](const Finding& one) { return one.end_ns + kBefore_ns >= effect.begin_ns; };
+  // Of those that touch everything the one that was under way, before one that was just over.
+  if (touches_all(cause) && touches_all(other) && under_way(cause) != under_way(other))
+    return under_way(cause);
+  // Then the one that comes first in the order of causes, and the nearest before of one kind.
+  if (cause.kind != other.kind) return cause.kind < other.kind;
+  // What navigation does is rather of a service that touches all than of the bridge of one sensor.
+  if (is_effect(effect.kind) && touches_all(cause) != touches_all(other) && under_way(cause) &&
+      under_way(other))
+    return touches_all(cause);
+  return began_nearer(cause, other, effect.begin_ns);
+}
+
 void link(Findings& all) {
   for (std::size_t i = 0; i < all.size(); ++i) {
+    auto& chosen = all[i].follows_from;
     for (std::size_t k = 0; k < all.size(); ++k) {
       if (!may_bring_about(all[k], all[i])) continue;
-      // Of several the one that comes first in the order of causes, and the nearest before of one kind.
-      const auto& chosen = all[i].follows_from;
-      if (!chosen || all[k].kind < all[*chosen].kind ||
-          (all[k].kind == all[*chosen].kind && all[k].begin_ns > all[*chosen].begin_ns &&
-           all[k].begin_ns <= all[i].begin_ns))
-        all[i].follows_from = k;
+      if (!chosen || is_better(all[k], all[*chosen], all[i])) chosen = k;
     }
   }
   // An effect of an effect is one of its cause.
@@ -97,7 +103,9 @@ Findings in_order(Findings all) {
     const Finding& one = all[i];
     // Takeover and restart stand beside each other: what came first goes first.
     const Kind kind = one.kind == Kind::restart ? Kind::takeover : one.kind;
-    return std::tuple(one.follows_from.has_value(), one.weight, kind, one.begin_ns);
+    // An inertial unit that is silent now goes before what was the matter with it earlier.
+    const bool over = !(one.kind == Kind::imu_gap && one.figure("to_end") > 0.0);
+    return std::tuple(one.follows_from.has_value(), one.weight, kind, over, one.begin_ns);
   };
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return rank(a) < rank(b); });
@@ -112,6 +120,25 @@ Findings in_order(Findings all) {
 }
 
 }  // namespace
+
+bool touches_all(const Finding& cause) {
+  switch (cause.kind) {
+    case Kind::restart:
+    case Kind::stalled:
+      return cause.figure("fusion") > 0.0 || role_of(cause) == "imu";
+    case Kind::takeover:
+    case Kind::imu_late:
+    case Kind::imu_gap:
+    case Kind::not_aligned:
+    case Kind::wrong_heading:
+      return true;
+    case Kind::clock_jump:
+    case Kind::second_writer:
+      return cause.word == "imu" || cause.subject == "imu";
+    default:
+      return false;
+  }
+}
 
 Findings findings(const History& history) {
   const Track track(history);

@@ -17,4 +17,7 @@ namespace fathom::explain {
   return finding.weight != Weight::note && !finding.follows_from;
 }
 
+/// Whether it touches every source and navigation, whatever it is about itself.
+[[nodiscard]] bool touches_all(const Finding& finding);
+
 }  // namespace fathom::explain

@@ -32,4 +32,10 @@ double Finding::figure(std::string_view name) const {
   return kUnknown;
 }
 
+bool began_nearer(const Finding& one, const Finding& other, TimeNs at_ns) {
+  const auto before = [&](const Finding& it) { return it.begin_ns <= at_ns + kNsPerSecond; };
+  if (before(one) != before(other)) return before(one);
+  return before(one) ? one.begin_ns > other.begin_ns : one.begin_ns < other.begin_ns;
+}
+
 }  // namespace fathom::explain

@@ -75,6 +75,7 @@ struct Finding {
   TimeNs begin_ns = 0;
   TimeNs end_ns = 0;
   std::string word{};  ///< what the sentence needs besides, by kind; e.g. the reason of a loss
+  std::string said{};  ///< of a silent instrument: what its bridge said of it
   std::vector<Figure> figures{};
   std::vector<Evidence> evidence{};
   std::vector<Agreeing> agreeing{};  ///< of two that contradict each other they tell which is wrong
@@ -86,5 +87,9 @@ struct Finding {
 };
 
 using Findings = std::vector<Finding>;
+
+/// Of two that may have brought about what began at an instant: whether `one` began nearer before it than
+/// `other`, instants being those of whole seconds; or less long after it, where none began before it.
+[[nodiscard]] bool began_nearer(const Finding& one, const Finding& other, TimeNs at_ns);
 
 }  // namespace fathom::explain
