@@ -65,7 +65,10 @@ void History::forget() {
   cut(noise_, by_arrival);
   cut(biases_, by_arrival);
   cut(orders_, by_arrival);
-  for (Stream& stream : streams_) cut(stream.seconds, [](const Second& row) { return row.at_ns; });
+  for (Stream& stream : streams_) {
+    cut(stream.seconds, [](const Second& row) { return row.at_ns; });
+    cut(stream.pauses, [](const Pause& row) { return row.to_ns; });
+  }
   // What holds until something new is said stays, whatever its age: the last of each.
   while (alignment_.size() > 1 && (alignment_[1].log_ns < from_ns_ || alignment_.size() > limits_.rows))
     alignment_.pop_front();
@@ -132,6 +135,8 @@ void History::heard(SourceKind kind, const SampleHeader& header, const Arrival& 
   second->age_sum_s += age_s;
   second->bus_low_s = std::min(second->bus_low_s, bus_s);
   if (stream.samples++ > 0) {
+    if (arrival.log_ns - stream.last_log_ns > Pause::kLeast_ns)
+      stream.pauses.push_back({stream.last_log_ns, arrival.log_ns, header.stamp_ns - stream.last_stamp_ns});
     const double step_s = to_seconds(header.stamp_ns - stream.last_stamp_ns);
     const double arrival_s = to_seconds(header.received_ns - stream.last_received_ns);
     if (step_s > second->stamp_step_s) {
@@ -144,6 +149,7 @@ void History::heard(SourceKind kind, const SampleHeader& header, const Arrival& 
   }
   stream.last_stamp_ns = header.stamp_ns;
   stream.last_received_ns = header.received_ns;
+  stream.last_log_ns = arrival.log_ns;
 }
 
 void History::fix(const GpsSample& sample) {

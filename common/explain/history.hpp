@@ -47,16 +47,28 @@ struct Second {
   [[nodiscard]] double age_s() const { return age_sum_s / count; }
 };
 
+/// A time in which nothing of an instrument arrived.
+struct Pause {
+  /// Shorter ones are no rows; the monitor misses nothing sooner.
+  static constexpr DurationNs kLeast_ns = kNsPerSecond;
+
+  TimeNs from_ns = 0;        ///< arrival of the sample before
+  TimeNs to_ns = 0;          ///< arrival of the sample after
+  DurationNs stamps_ns = 0;  ///< by how much the stamps stepped
+};
+
 /// One instrument of the vehicle.
 struct Stream {
   SourceKind kind = SourceKind::imu;
   Name sensor;
   std::uint64_t samples = 0;
   std::deque<Second> seconds;  ///< by arrival; of several writers one behind the other
+  std::deque<Pause> pauses;    ///< by arrival, of all writers together
 
   // of the sample before
   TimeNs last_stamp_ns = 0;
   TimeNs last_received_ns = 0;
+  TimeNs last_log_ns = 0;
 };
 
 struct StateRow {

@@ -88,6 +88,7 @@ std::string lost(const Finding& f) {
   const std::string time = lasting(f.figure("for_s"));
   if (f.word == "silent") {
     text = f.subject + " fell silent for " + time;
+    if (!f.said.empty()) text += " (" + f.said + ")";
     if (known(f.figure("afterwards")))
       text +=
           " (" + counted(f.figure("afterwards"), "measurement", "measurements") + " of it came afterwards)";
@@ -98,6 +99,8 @@ std::string lost(const Finding& f) {
            (static_cast<SourceKind>(static_cast<int>(f.figure("kind"))) == SourceKind::dvl
                 ? " (no lock on the bottom)"
                 : "");
+  } else if (f.word == "not_judged") {
+    text = f.subject + " went on for " + time + ", and fusion judged none of its measurements";
   } else if (f.word == "source_disabled") {
     text = f.subject + " was switched off for " + time;
   } else {
@@ -118,10 +121,25 @@ std::string refused(const Finding& f) {
       f.subject + ": " + brief(f.figure("count")) + " of " + brief(f.figure("of")) + " measurements ";
   if (f.word == "late") return head + "came too late to be used.";
   if (f.word == "duplicate") return head + "came twice.";
+  if (f.figure("imu_silent") > 0.0)
+    return head + "could not be used: the inertial samples that they wait for were silent.";
   if (f.word == "from_the_future")
     return head + "were stamped ahead of the inertial samples by more than clocks may differ.";
   if (f.word == "unknown_frame") return head + "were in a frame that is not configured.";
   return head + "were refused as " + f.word + ".";
+}
+
+std::string imu_gap(const Finding& f) {
+  if (f.word == "silent") {
+    const std::string at = to_iso8601(f.begin_ns, 1);
+    return f.subject + " fell silent at " + at.substr(at.find('T') + 1) +
+           (f.figure("to_end") > 0.0 ? " and stays so, " + lasting(f.figure("for_s")) + " up to the end"
+                                     : " for " + lasting(f.figure("for_s"))) +
+           (f.said.empty() ? "" : ". " + f.said) + ".";
+  }
+  return "Inertial samples of " + f.subject + " are missing " + counted(f.figure("gaps"), "time", "times") +
+         ", at most " + brief(f.figure("longest_s")) + " s; usual is a step of " +
+         brief(1e3 * f.figure("step_s")) + " ms.";
 }
 
 std::string not_aligned(const Finding& f) {
@@ -211,9 +229,7 @@ std::string sentence(const Finding& f) {
              " s after their instant, usual are " + brief(f.figure("usual_s")) +
              " s: the navigation state was late by as much, and aiding waited for them.";
     case Kind::imu_gap:
-      return "Inertial samples of " + f.subject + " are missing " +
-             counted(f.figure("gaps"), "time", "times") + ", at most " + brief(f.figure("longest_s")) +
-             " s; usual is a step of " + brief(1e3 * f.figure("step_s")) + " ms.";
+      return imu_gap(f);
     case Kind::not_aligned:
     case Kind::alignment_lost:
       return not_aligned(f);
@@ -260,7 +276,8 @@ std::string sentence(const Finding& f) {
     case Kind::refused:
       return refused(f);
     case Kind::state_gap:
-      return "The navigation state was silent for " + brief(f.figure("for_s")) + " s.";
+      return "The navigation state was silent for " + brief(f.figure("for_s")) + " s" +
+             (f.figure("to_end") > 0.0 ? ", up to the end." : ".");
     case Kind::reset:
       return "The position stepped by " + brief(f.figure("step_m")) +
              " m without motion: navigation was put right at once. Its sigma before was " +
@@ -287,6 +304,7 @@ std::string advice(const Finding& f) {
       return "Look at the log of " + (f.kind == Kind::takeover ? f.word : f.subject) + " just before.";
     case Kind::imu_late:
     case Kind::imu_gap:
+      if (!f.said.empty()) return "Look at what the bridge says: the port, its cable and the unit behind it.";
       return "Look at the cable, the bridge and the load of the machine.";
     case Kind::wrong_heading:
       return "Look at currents and iron near the compass, at its calibration and at its variation.";
@@ -319,6 +337,7 @@ std::string advice(const Finding& f) {
         return "Look at the instrument, its link and its bridge; fathom doctor tells which is there.";
       return "";
     case Kind::refused:
+      if (f.figure("imu_silent") > 0.0) return "";
       if (f.word == "late") return "Look at the link's delay, or raise horizon_s of the fusion service.";
       if (f.word == "unknown_frame") return "Look at the instrument's frame and at its configuration.";
       return "Look at the instrument's clock and its bridge.";

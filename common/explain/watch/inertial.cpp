@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/median.hpp"
+#include "explain/watch/silence.hpp"
 #include "explain/watch/watches.hpp"
 
 namespace fathom::explain {
@@ -67,6 +68,53 @@ void late(const Stream& stream, Findings& out) {
   close();
 }
 
+// As of other instruments: shorter ones are gaps and counted, for a loose plug makes many of them.
+constexpr DurationNs kSilence_ns = 5 * kNsPerSecond;
+
+void silent(const History& history, const Stream& stream, Findings& out) {
+  const double step_s = usual_step_s(stream);
+  const DurationNs least_ns =
+      std::max(Pause::kLeast_ns, std::isfinite(step_s) ? from_seconds(kGapSteps * step_s) : DurationNs{0});
+  for (const Silence& one : silences(history, stream, least_ns)) {
+    // What came afterwards, all at once, was late. Whether one that goes on will be short is not known.
+    if (!one.to_end && std::min(one.length_ns(), one.stamps_ns) < kSilence_ns) continue;
+    out.push_back({.kind = Kind::imu_gap,
+                   .weight = Weight::bad,
+                   .subject = stream.sensor.str(),
+                   .begin_ns = one.begin_ns,
+                   .end_ns = one.end_ns,
+                   .word = "silent",
+                   .said = bridge_said(history, stream.sensor.str(), one.begin_ns, one.end_ns),
+                   .figures = {{"for_s", to_seconds(one.length_ns())}, {"to_end", one.to_end ? 1.0 : 0.0}},
+                   .evidence = {{"fathom/v1/imu", 0, "no samples in this time"}}});
+  }
+}
+
+/// No inertial sample in all the time, while fusion waits for them.
+void none(const History& history, Findings& out) {
+  const auto waits = [](const VerdictRow& row) { return row.kind == VerdictKind::from_the_future; };
+  if (!history.states().empty() || std::none_of(history.verdicts().begin(), history.verdicts().end(), waits))
+    return;
+  const std::string sensor(to_string(SourceKind::imu));
+  out.push_back({.kind = Kind::imu_gap,
+                 .weight = Weight::bad,
+                 .subject = sensor,
+                 .begin_ns = history.from_ns(),
+                 .end_ns = history.to_ns(),
+                 .word = "silent",
+                 .said = bridge_said(history, sensor, history.from_ns(), history.to_ns()),
+                 .figures = {{"for_s", to_seconds(history.to_ns() - history.from_ns())}, {"to_end", 1.0}},
+                 .evidence = {{"fathom/v1/imu", 0, "no samples in this time"}}});
+}
+
+/// Whether the first sample after a silence that is told came in this second.
+bool ends_silence(const Second& second, const Stream& stream, const Findings& out) {
+  return std::any_of(out.begin(), out.end(), [&](const Finding& one) {
+    return one.kind == Kind::imu_gap && one.word == "silent" && one.subject == stream.sensor.view() &&
+           one.end_ns >= second.at_ns && one.end_ns < second.at_ns + kNsPerSecond;
+  });
+}
+
 void gaps(const Stream& stream, Findings& out) {
   const double step_s = usual_step_s(stream);
   std::uint64_t count = 0;
@@ -75,6 +123,7 @@ void gaps(const Stream& stream, Findings& out) {
   for (const Second& one : stream.seconds) {
     // The instants of recorded steps are those of stamps.
     if (!(one.stamp_step_s > kGapSteps * step_s)) continue;
+    if (ends_silence(one, stream, out)) continue;
     if (count++ == 0) found.begin_ns = one.stamp_before_ns;
     found.end_ns = one.stamp_before_ns + from_seconds(one.stamp_step_s);
     longest_s = std::max(longest_s, one.stamp_step_s);
@@ -89,14 +138,19 @@ void gaps(const Stream& stream, Findings& out) {
 }  // namespace
 
 void watch_inertial(const History& history, Findings& out) {
+  bool any = false;
   for (const Stream& stream : history.streams()) {
-    if (stream.kind != SourceKind::imu || stream.seconds.size() < 3) continue;
+    if (stream.kind != SourceKind::imu) continue;
+    any = any || stream.samples > 0;
+    silent(history, stream, out);
+    if (stream.seconds.size() < 3) continue;
     const bool jumped = std::any_of(out.begin(), out.end(), [&](const Finding& one) {
       return one.kind == Kind::clock_jump && one.subject == stream.sensor.view();
     });
     if (!jumped) late(stream, out);
     gaps(stream, out);
   }
+  if (!any) none(history, out);
 }
 
 }  // namespace fathom::explain

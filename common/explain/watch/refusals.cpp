@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <boost/math/distributions/binomial.hpp>
 
@@ -26,6 +27,7 @@ constexpr std::size_t kFrozenInARow = 3;  // as the monitor's watch over fixes
 constexpr double kManyRefused = 0.01;     // of all; fewer late or doubled ones are everyday
 constexpr std::uint64_t kManyCount = 5;
 constexpr DurationNs kApart_ns = 5 * kNsPerSecond;
+constexpr DurationNs kTravel_ns = kNsPerSecond;  // no sample that is used is on its way for longer
 
 /// The largest of the first components in their sigmas, squared, over the gate's limit: above 1 it lies
 /// beyond what the gate believes, whatever weight a robust noise gave it in the end.
@@ -262,23 +264,43 @@ class Refusals {
          .evidence = {{"fathom/v1/verdict", lone_.size(), "beyond the gate, alone or few at a time"}}});
   }
 
+  /// Which silence of the inertial samples a row fell into; -1: none.
+  [[nodiscard]] std::ptrdiff_t silence_of(const VerdictRow& row) const {
+    for (std::size_t i = 0; i < out_.size(); ++i) {
+      const Finding& one = out_[i];
+      if (one.kind != Kind::imu_gap || one.word != "silent") continue;
+      // Stamps are as much older than the arrival as samples take to come.
+      if (row.stamp_ns >= one.begin_ns - kTravel_ns && row.stamp_ns <= one.end_ns + kTravel_ns)
+        return static_cast<std::ptrdiff_t>(i);
+    }
+    return -1;
+  }
+
   void refused(VerdictKind kind) {
-    std::uint64_t count = 0;
-    std::uint64_t close = 0;
-    Finding found{
-        .kind = Kind::refused, .subject = stream_.sensor.str(), .word = std::string(to_string(kind))};
+    // While the inertial samples are silent all that comes is ahead of them: no clock is wrong.
+    std::map<std::ptrdiff_t, Finding> found;
+    std::map<std::ptrdiff_t, std::uint64_t> counts;
     for (const VerdictRow* row : rows_) {
       if (row->kind != kind) continue;
-      if (count++ == 0) found.begin_ns = row->stamp_ns;
-      if (count > 1 && row->stamp_ns - found.end_ns <= kApart_ns) ++close;
-      found.end_ns = row->stamp_ns;
+      const std::ptrdiff_t silence = kind == VerdictKind::from_the_future ? silence_of(*row) : -1;
+      Finding& one = found[silence];
+      if (counts[silence]++ == 0) one.begin_ns = row->stamp_ns;
+      one.end_ns = row->stamp_ns;
     }
-    if (count < kManyCount || static_cast<double>(count) < kManyRefused * static_cast<double>(rows_.size()))
-      return;
-    found.weight = 5 * count > rows_.size() ? Weight::bad : Weight::caution;
-    found.figures = {{"count", static_cast<double>(count)}, {"of", static_cast<double>(rows_.size())}};
-    found.evidence = {{"fathom/v1/verdict", count, found.word}};
-    out_.push_back(std::move(found));
+    for (auto& [silence, one] : found) {
+      const std::uint64_t count = counts[silence];
+      if (count < kManyCount || static_cast<double>(count) < kManyRefused * static_cast<double>(rows_.size()))
+        continue;
+      one.kind = Kind::refused;
+      one.subject = stream_.sensor.str();
+      one.word = std::string(to_string(kind));
+      one.weight = 5 * count > rows_.size() ? Weight::bad : Weight::caution;
+      one.figures = {{"count", static_cast<double>(count)},
+                     {"of", static_cast<double>(rows_.size())},
+                     {"imu_silent", silence < 0 ? 0.0 : 1.0}};
+      one.evidence = {{"fathom/v1/verdict", count, one.word}};
+      out_.push_back(std::move(one));
+    }
   }
 
   const History& history_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "explain/watch/silence.hpp"
 #include "explain/watch/watches.hpp"
 
 namespace fathom::explain {
@@ -12,20 +13,25 @@ constexpr double kTimes = 2.0;
 constexpr double kLeastStep_m = 1.0;
 
 void gaps(const History& history, Findings& out) {
+  const auto say = [&](const StateRow& before, TimeNs end_ns, bool to_end) {
+    out.push_back({.kind = Kind::state_gap,
+                   .weight = Weight::bad,
+                   .subject = history.name(before.instance),
+                   .begin_ns = before.log_ns,
+                   .end_ns = end_ns,
+                   .figures = {{"for_s", to_seconds(end_ns - before.log_ns)}, {"to_end", to_end ? 1.0 : 0.0}},
+                   .evidence = {{"fathom/v1/nav_state", 0, "no states in this time"}}});
+  };
   const StateRow* last = nullptr;
   for (const StateRow& row : history.states()) {
     const StateRow* before = std::exchange(last, &row);
     if (before == nullptr) continue;
-    const double silent_s = to_seconds(row.log_ns - before->log_ns);
-    if (silent_s < kSilence_s) continue;
-    out.push_back({.kind = Kind::state_gap,
-                   .weight = Weight::bad,
-                   .subject = history.name(row.instance),
-                   .begin_ns = before->log_ns,
-                   .end_ns = row.log_ns,
-                   .figures = {{"for_s", silent_s}},
-                   .evidence = {{"fathom/v1/nav_state", 0, "no states in this time"}}});
+    if (to_seconds(row.log_ns - before->log_ns) >= kSilence_s) say(*before, row.log_ns, false);
   }
+  // Up to the end: of a fusion that was not told to stop.
+  if (last != nullptr && history.to_ns() - last->log_ns > LifeSign::kSilence_ns &&
+      goes_on(history, history.name(last->instance)))
+    say(*last, history.to_ns(), true);
 }
 
 void resets(const History& history, const Track& track, Findings& out) {

@@ -12,6 +12,7 @@
 #include "cli/explain/read.hpp"
 #include "explain/account.hpp"
 #include "explain/sentence.hpp"
+#include "explain/watch/silence.hpp"
 #include "explain/watch/watches.hpp"
 
 namespace fathom::test {
@@ -93,6 +94,33 @@ TEST(History, OnlyTheSpanIsKept) {
 
 TEST(Findings, NothingIsFoundInNothing) {
   EXPECT_TRUE(explain::findings(History{}).empty());
+}
+
+/// The silences of a receiver that ends 10 s before the log, beside a compass that ends later by `later_s`.
+std::vector<explain::Silence> silences_at_the_end(ServiceState last, double later_s) {
+  History history;
+  for (int i = 0; i <= 50 + static_cast<int>(later_s); ++i) {
+    history.add(at<HeadingSample>(i, "heading"), arrival(i, "heading_bridge"));
+    if (i > 50) continue;
+    history.add(at<GpsSample>(i, "gps"), arrival(i, "gps_bridge"));
+    auto sign = at<ServiceStatus>(i, "gps_bridge");
+    sign.state = i < 50 ? ServiceState::healthy : last;
+    history.add(sign, arrival(i));
+  }
+  history.add(state(60.0, 1.0), arrival(60.0));
+  return explain::silences(history, history.streams()[1], 2 * kNsPerSecond);
+}
+
+TEST(Silences, WhoIsToldToStopIsNotMissedAtTheEndOfTheMission) {
+  EXPECT_TRUE(silences_at_the_end(ServiceState::stopping, 3.0).empty());
+  // But in the middle of it.
+  const auto stopped = silences_at_the_end(ServiceState::stopping, 8.0);
+  ASSERT_EQ(stopped.size(), 1U);
+  EXPECT_NEAR(to_seconds(stopped[0].length_ns()), 8.0, 1e-9);
+  const auto unheard = silences_at_the_end(ServiceState::healthy, 0.0);
+  ASSERT_EQ(unheard.size(), 1U);
+  EXPECT_TRUE(unheard[0].to_end);
+  EXPECT_NEAR(to_seconds(unheard[0].length_ns()), 10.0, 1e-9);
 }
 
 /// How many second writers are found where each of these gives a fix ten times in a second, for so long.

@@ -191,7 +191,8 @@ void Stage::life() {
       continue;
     ServiceStatus status;
     status.header = {"auv", Name(name), now_ns_, now_ns_, ++sequence_};
-    status.state = ServiceState::healthy;
+    status.text = unwell_[name];
+    status.state = status.text.empty() ? ServiceState::healthy : ServiceState::degraded;
     status.version = "test";
     status.host = "vehicle";
     status.pid = service.pid;

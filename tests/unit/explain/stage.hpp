@@ -41,6 +41,8 @@ class Stage {
   void start_fusion(bool resumed);
   void kill_bridge(const std::string& service) { silent_[service] = true; }
   void start_bridge(const std::string& service);
+  /// What a service says of itself from now on, in its life signs; empty: it is well.
+  void let_say(const std::string& service, const std::string& text) { unwell_[service] = text; }
   void set_clock(double step_s) { utc_offset_ns_ += from_seconds(step_s); }
   void add_standby();
   void take_over();
@@ -76,6 +78,7 @@ class Stage {
   std::vector<std::byte> kept_;
   std::map<std::string, Service> services_;
   std::map<std::string, bool> silent_;
+  std::map<std::string, std::string> unwell_;
   DurationNs utc_offset_ns_ = 0;
   TimeNs now_ns_ = kEpochNs;
   std::uint32_t next_pid_ = 1000;

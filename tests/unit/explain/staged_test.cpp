@@ -89,6 +89,14 @@ void aside(GpsSample& fix, double north_m, double east_m) {
   fix.longitude_rad += east_m / (geo::kSemiMajorAxis_m * std::cos(fix.latitude_rad));
 }
 
+const std::string kGone = "serial /dev/ttyS0: No such file or directory";
+
+/// The port of the inertial unit goes, for good; its bridge stays and says so.
+void unplug_imu(Stage& stage) {
+  stage.spoil = spoil<ImuSample>([](ImuSample&, double t) { return t < kFault_s; });
+  stage.at(kFault_s + 1.0, [&stage] { stage.let_say("imu_bridge", "imu: " + kGone); });
+}
+
 std::vector<Case> cases() {
   std::vector<Case> out;
   out.push_back({"frozen_gps", Kind::frozen, "gps", 240, surface, [](Stage& stage) {
@@ -182,6 +190,7 @@ std::vector<Case> cases() {
                      return true;
                    });
                  }});
+  out.push_back({"imu_unplugged", Kind::imu_gap, "imu", 160, surface, unplug_imu});
   out.push_back({"second_writer", Kind::second_writer, "gps", 240, surface, [](Stage& stage) {
                    stage.besides = [](const AnySample& sample, double t) {
                      std::vector<AnySample> more;
@@ -298,6 +307,105 @@ TEST_P(Staged, TheCauseIsNamedFirst) {
 
 INSTANTIATE_TEST_SUITE_P(All, Staged, ::testing::ValuesIn(cases()),
                          [](const auto& info) { return info.param.name; });
+
+/// What is said of the one of a kind of a subject that begins near a time; nullptr: there is none.
+const Finding* near(const Findings& all, Kind kind, const std::string& subject, double t_s) {
+  for (const Finding& one : all)
+    if (one.kind == kind && one.subject == subject &&
+        std::abs(to_seconds(one.begin_ns - Stage::kEpochNs) - t_s) < 3.0)
+      return &one;
+  return nullptr;
+}
+
+/// The finding that led to the alarm of a name that was raised after a time.
+const Finding* behind(const Findings& all, const explain::History& history, const std::string& alarm,
+                      double after_s) {
+  for (const explain::AlarmRow& row : history.alarms()) {
+    if (!row.alarm.active || row.alarm.alarm.str() != alarm) continue;
+    if (to_seconds(row.log_ns - Stage::kEpochNs) < after_s) continue;
+    const auto cause = explain::behind(all, row);
+    return cause ? &all[*cause] : nullptr;
+  }
+  ADD_FAILURE() << "no alarm " << alarm;
+  return nullptr;
+}
+
+TEST(Silence, OfTheInertialUnitIsNoFaultOfTheClocksOfOthers) {
+  Stage stage(surface(), 1);
+  unplug_imu(stage);
+  explain::History history;
+  const Findings all = explained(stage, 160.0, history);
+  SCOPED_TRACE(told(all, history));
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all.front().said, "imu_bridge said: " + kGone);
+  EXPECT_NE(explain::sentence(all.front()).find("fell silent at 22:15:2"), std::string::npos);
+  EXPECT_NE(explain::sentence(all.front()).find("and stays so"), std::string::npos);
+  std::size_t ahead = 0;
+  for (const Finding& one : all) {
+    if (one.kind != Kind::refused) continue;
+    ++ahead;
+    EXPECT_EQ(one.follows_from, 0U) << explain::sentence(one);
+    EXPECT_EQ(explain::sentence(one).find("clocks"), std::string::npos);
+    EXPECT_EQ(explain::advice(one), "");
+  }
+  EXPECT_GT(ahead, 0U);
+  for (const char* alarm : {"sensor_missing:imu", "nav_state_missing", "service_unwell:imu_bridge"})
+    EXPECT_EQ(behind(all, history, alarm, kFault_s), &all.front()) << alarm;
+}
+
+TEST(Silence, IsNotOfInstrumentsThatAFusionDidNotHear) {
+  Stage stage(surface(), 1);
+  stage.at(kFault_s, [&stage] { stage.kill_fusion(); });
+  stage.at(kFault_s + 9.0, [&stage] { stage.start_fusion(true); });
+  stage.at(kFault_s + 30.0, [&stage] { stage.kill_bridge("imu_bridge"); });
+  stage.at(kFault_s + 45.0, [&stage] { stage.start_bridge("imu_bridge"); });
+  explain::History history;
+  const Findings all = explained(stage, 200.0, history);
+  SCOPED_TRACE(told(all, history));
+  for (const Finding& one : all)
+    if (one.kind == Kind::lost) {
+      EXPECT_NE(one.word, "silent") << explain::sentence(one);
+    }
+  // Each alarm is led to by what was under way when it began.
+  const Finding* fusion = near(all, Kind::restart, "fusion", kFault_s);
+  const Finding* bridge = near(all, Kind::restart, "imu_bridge", kFault_s + 30.0);
+  ASSERT_NE(fusion, nullptr);
+  ASSERT_NE(bridge, nullptr);
+  EXPECT_EQ(behind(all, history, "nav_state_missing", kFault_s), fusion);
+  EXPECT_EQ(behind(all, history, "service_missing:fusion", kFault_s), fusion);
+  for (const char* alarm : {"nav_state_missing", "sensor_missing:imu", "service_missing:imu_bridge",
+                            "refused:gps", "refused:dvl", "gps_outage"})
+    EXPECT_EQ(behind(all, history, alarm, kFault_s + 30.0), bridge) << alarm;
+}
+
+TEST(Silence, ComesInSpellsOfTheirOwnReasons) {
+  Stage stage(surface(), 1);
+  stage.spoil = spoil<GpsSample>([](GpsSample& fix, double t) {
+    if (t >= kFault_s && t < kFault_s + 16.0) fix.fix = GpsFix::none;
+    const bool gone = t >= kFault_s + 30.0 && t < kFault_s + 46.0;
+    return !gone && !(t >= kFault_s + 58.0 && t < kFault_s + 70.0);
+  });
+  const std::string garbage = "garbage: 4820 of the last 4820 bytes belong to no good frame";
+  stage.at(kFault_s + 31.0, [&stage] { stage.let_say("gps_bridge", "gps: " + kGone); });
+  stage.at(kFault_s + 46.0, [&stage] { stage.let_say("gps_bridge", ""); });
+  stage.at(kFault_s + 60.0, [&] { stage.let_say("gps_bridge", "other: slow; gps: " + garbage + "; x: y"); });
+  stage.at(kFault_s + 70.0, [&stage] { stage.let_say("gps_bridge", ""); });
+  explain::History history;
+  const Findings all = explained(stage, 220.0, history);
+  SCOPED_TRACE(told(all, history));
+  const Finding* blind = near(all, Kind::lost, "gps", kFault_s);
+  const Finding* gone = near(all, Kind::lost, "gps", kFault_s + 30.0);
+  const Finding* babble = near(all, Kind::lost, "gps", kFault_s + 58.0);
+  ASSERT_TRUE(blind != nullptr && gone != nullptr && babble != nullptr);
+  EXPECT_EQ(blind->word, "no_fix");
+  EXPECT_EQ(blind->said, "");
+  EXPECT_EQ(gone->said, "gps_bridge said: " + kGone);
+  EXPECT_EQ(babble->said, "gps_bridge said: " + garbage);
+  EXPECT_FALSE(blind->follows_from || gone->follows_from || babble->follows_from);
+  EXPECT_NEAR(to_seconds(gone->end_ns - gone->begin_ns), 16.0, 2.0);
+  EXPECT_EQ(behind(all, history, "sensor_missing:gps", kFault_s), gone);
+  EXPECT_EQ(behind(all, history, "sensor_missing:gps", kFault_s + 55.0), babble);
+}
 
 class Quiet : public ::testing::TestWithParam<std::string> {};
 
