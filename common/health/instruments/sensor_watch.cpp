@@ -57,7 +57,7 @@ void SensorWatch::report(AlarmBook& book, const Instant& now) const {
     const bool unseen = !stream.ever_heard();
     const double limit_s =
         unseen ? std::max(startup_s_, stream.limits().missing_s) : stream.limits().missing_s;
-    const double silent_s = stream.silent_s(now.monotonic_ns);
+    const double silent_s = stream.outage_s(now.monotonic_ns);
     const Name& name = sensor.what.name;
     book.set(unseen ? silent_s > limit_s : stream.presence() == Presence::missing,
              {.key = alarm_key("sensor_missing", name.view()),

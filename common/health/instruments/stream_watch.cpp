@@ -31,6 +31,7 @@ void StreamWatch::heard(TimeNs monotonic_ns) {
     presence_ = Presence::present;
   } else {
     run_ = to_seconds(monotonic_ns - last_ns_) <= limits_.stale_s ? run_ + 1 : 1;
+    outage_ns_ = presence_ == Presence::present ? 0 : std::max(outage_ns_, monotonic_ns - last_ns_);
     if (presence_ != Presence::present && run_ >= limits_.recover_samples) {
       presence_ = Presence::present;
       present_since_ns_ = monotonic_ns;
@@ -67,6 +68,11 @@ void StreamWatch::evaluate(TimeNs monotonic_ns) {
 
 double StreamWatch::silent_s(TimeNs monotonic_ns) const {
   return to_seconds(std::max<DurationNs>(0, monotonic_ns - last_ns_));
+}
+
+double StreamWatch::outage_s(TimeNs monotonic_ns) const {
+  const double ended_s = presence_ == Presence::present ? 0.0 : to_seconds(outage_ns_);
+  return std::max(ended_s, silent_s(monotonic_ns));
 }
 
 double StreamWatch::age_s(TimeNs monotonic_ns) const {

@@ -34,6 +34,8 @@ class StreamWatch {
   [[nodiscard]] bool ever_heard() const { return presence_ != Presence::never_seen; }
   /// Time since the last message, or since the start when there was none.
   [[nodiscard]] double silent_s(TimeNs monotonic_ns) const;
+  /// The longest silence since the stream was present last, also while it comes back but is not trusted yet.
+  [[nodiscard]] double outage_s(TimeNs monotonic_ns) const;
   /// Time since the last message; NaN when there was none.
   [[nodiscard]] double age_s(TimeNs monotonic_ns) const;
   /// Rate over the last seconds (longer for slow streams); NaN until enough messages arrived.
@@ -53,6 +55,7 @@ class StreamWatch {
   TimeNs present_since_ns_ = 0;
   Presence presence_ = Presence::never_seen;
   int run_ = 0;
+  DurationNs outage_ns_ = 0;  ///< the longest silence that ended since the stream was present last
   bool slow_ = false;
   DurationNs bucket_ns_;
   std::array<std::int64_t, kBuckets> bucket_id_{};

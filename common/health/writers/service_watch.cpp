@@ -12,6 +12,22 @@ StreamLimits life_sign_limits(const ServiceWatchConfig& config) {
   return {kUnknown, std::min(2.0, config.missing_s), config.missing_s, 1};
 }
 
+std::string reason_of(const std::string& text) {
+  if (text.empty()) return "without giving a reason";
+  std::string reason = text.substr(0, 120);
+  if (reason.back() == '.') reason.pop_back();
+  return reason;
+}
+
+/// Whether two reasons differ in more than their numbers.
+bool is_another(const std::string& one, const std::string& other) {
+  const auto words = [](std::string text) {
+    std::erase_if(text, [](char c) { return (c >= '0' && c <= '9') || c == '.'; });
+    return text;
+  };
+  return words(one) != words(other);
+}
+
 }  // namespace
 
 ServiceWatch::ServiceWatch(const std::vector<ExpectedService>& expected, const ServiceWatchConfig& config,
@@ -92,16 +108,22 @@ void ServiceWatch::report_missing(const Service& service, AlarmBook& book, const
            now);
 }
 
-void ServiceWatch::report_unwell(const Service& service, AlarmBook& book, const Instant& now) const {
+void ServiceWatch::report_unwell(Service& service, AlarmBook& book, const Instant& now) const {
   const double for_s = service.unwell ? to_seconds(now.monotonic_ns - service.unwell_since_ns) : 0.0;
   const bool present = service.stream.presence() == Presence::present;
   const Name key = alarm_key("service_unwell", service.what.name.view());
   if (!service.unwell || !present || for_s < config_.degraded_hold_s) {
+    service.first_reason.clear();
     book.release(key, now);
     return;
   }
-  std::string why = service.text.empty() ? "without giving a reason" : service.text.substr(0, 120);
-  if (why.back() == '.') why.pop_back();
+  // A service that recovers has milder reasons in the end. The alarm keeps what began it.
+  std::string why = reason_of(service.text);
+  if (service.first_reason.empty() || !is_another(service.first_reason, why)) {
+    service.first_reason = why;
+  } else {
+    why = service.first_reason.substr(0, 80) + ", then " + why.substr(0, 60);
+  }
   book.hold({.key = key,
              .severity = Severity::warning,
              .text = sentence("Service %s has been unwell for %s: %s.", service.what.name.c_str(),

@@ -49,11 +49,12 @@ class ServiceWatch {
     TimeNs started_ns = 0;
     bool unwell = false;
     TimeNs unwell_since_ns = 0;
-    bool restarted = false;  ///< since the last report
+    std::string first_reason{};  ///< why it was unwell when the alarm was raised; empty: there is no alarm
+    bool restarted = false;      ///< since the last report
   };
 
   void report_missing(const Service& service, AlarmBook& book, const Instant& now) const;
-  void report_unwell(const Service& service, AlarmBook& book, const Instant& now) const;
+  void report_unwell(Service& service, AlarmBook& book, const Instant& now) const;
 
   ServiceWatchConfig config_;
   double startup_s_;

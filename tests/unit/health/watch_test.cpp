@@ -85,6 +85,25 @@ TEST(SensorWatch, MissingAfterTheLimitBackAfterARunAndNeverFlapping) {
   EXPECT_FALSE(alarmed(book, "sensor_missing:dvl"));
 }
 
+TEST(SensorWatch, AnAlarmThatEndsKeepsTheLengthOfTheOutage) {
+  const std::vector<ExpectedSensor> expected{{"gps", SourceKind::gps, 5.0, 0.0, Severity::warning}};
+  SensorWatch watch(expected, 15.0, at(0.0));
+  AlarmBook book;
+  const auto step = [&](double t) { watch.evaluate(at(t)), watch.report(book, at(t)); };
+  for (double t = 0.0; t < 20.05; t += 0.2) watch.heard(SourceKind::gps, "gps", at(t)), step(t);
+  for (double t = 20.5; t < 36.9; t += 0.5) step(t);
+  for (double t = 37.0; t < 40.0; t += 0.2)
+    watch.heard(SourceKind::gps, "gps", at(t)), step(t), step(t + 0.1);
+  ASSERT_FALSE(alarmed(book, "sensor_missing:gps"));
+  EXPECT_NE(book.find("sensor_missing:gps")->text.find("for 17.0 s (limit 2.0 s)"), std::string::npos)
+      << book.find("sensor_missing:gps")->text;
+  EXPECT_NEAR(book.find("sensor_missing:gps")->value, 17.0, 0.05);
+  // The next outage is measured on its own.
+  step(43.0);
+  ASSERT_TRUE(alarmed(book, "sensor_missing:gps"));
+  EXPECT_NEAR(book.find("sensor_missing:gps")->value, 3.2, 0.25);
+}
+
 TEST(SensorWatch, NeverHeardIsAnAlarmAfterTheStartAndUnexpectedSensorsAreOnlyListed) {
   SensorWatch watch({{"imu", SourceKind::imu, 100.0, 0.0, Severity::critical}}, 15.0, at(0.0));
   AlarmBook book;
@@ -161,6 +180,30 @@ TEST(ServiceWatch, DegradedOnlyWhenItLasts) {
   for (int i = 60; i < 70; ++i) watch.add(status, at(i)), watch.report(book, at(i));
   ASSERT_TRUE(alarmed(book, "service_unwell:dvl_bridge"));
   EXPECT_NE(book.find("service_unwell:dvl_bridge")->text.find("the source is silent"), std::string::npos);
+}
+
+TEST(ServiceWatch, AnAlarmThatEndsKeepsWhatBeganIt) {
+  ServiceWatch watch({{"gps_bridge"}}, {}, 15.0, at(0.0));
+  AlarmBook book;
+  ServiceStatus status = life_sign("gps_bridge", 0, ServiceState::degraded);
+  const auto say = [&](int i, const std::string& text) {
+    status.text = text;
+    watch.add(status, at(i));
+    watch.evaluate(at(i));
+    watch.report(book, at(i));
+  };
+  for (int i = 0; i < 17; ++i) say(i, "gps: no usable sample for " + std::to_string(i) + ".5 s");
+  EXPECT_NE(book.find("service_unwell:gps_bridge")->text.find("sample for 16.5 s."), std::string::npos)
+      << "its numbers are the last ones: " << book.find("service_unwell:gps_bridge")->text;
+  for (int i = 17; i < 20; ++i) say(i, "gps: slow: 1.75 Hz");
+  status.state = ServiceState::healthy;
+  say(20, "");
+  say(21, "");
+  ASSERT_FALSE(alarmed(book, "service_unwell:gps_bridge"));
+  EXPECT_NE(book.find("service_unwell:gps_bridge")
+                ->text.find("gps: no usable sample for 16.5 s, then gps: slow: 1.75 Hz."),
+            std::string::npos)
+      << book.find("service_unwell:gps_bridge")->text;
 }
 
 TEST(ServiceWatch, AnOrderlyEndIsSaidToBeOne) {
