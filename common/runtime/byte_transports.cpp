@@ -21,6 +21,7 @@
 #include <termios.h>
 
 #include "runtime/byte_source_impl.hpp"
+#include "runtime/serial_holders.hpp"
 #include "runtime/serial_line.hpp"
 
 namespace fathom::runtime {
@@ -44,6 +45,15 @@ void keep_alive(tcp::socket& socket) {
   set(TCP_KEEPIDLE, 5);
   set(TCP_KEEPINTVL, 2);
   set(TCP_KEEPCNT, 3);
+}
+
+// A line of its own for this process. What the system says of it is put in words.
+asio::serial_port open_line(asio::io_context& io, const std::string& path, int baud) {
+  try {
+    return open_serial_line(io, path, baud);
+  } catch (const std::system_error& error) {
+    throw std::runtime_error(serial_trouble(path, error.code()));
+  }
 }
 
 // Another than 8N1.
@@ -79,7 +89,8 @@ asio::awaitable<void> ByteSource::Impl::read_all(Stream& stream) {
 }
 
 asio::awaitable<void> ByteSource::Impl::serve_serial() {
-  asio::serial_port port = open_serial_line(io, config.path, config.baud);
+  asio::serial_port port = open_line(io, config.path, config.baud);
+  SerialClaim claim(port.native_handle(), config.path);
   if (config.framing != Framing::n8_1) set_framing(port, config.framing);
   tcflush(port.native_handle(), TCIFLUSH);
   still_there = [this, &port] {
@@ -88,7 +99,10 @@ asio::awaitable<void> ByteSource::Impl::serve_serial() {
     return stat(config.path.c_str(), &at_path) == 0 && fstat(port.native_handle(), &opened) == 0 &&
            at_path.st_rdev == opened.st_rdev;
   };
-  break_connection = [&port] { port.close(); };
+  break_connection = [&port, &claim] {
+    claim.release();
+    port.close();
+  };
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": open");
   co_await read_all(port);
@@ -100,11 +114,20 @@ asio::awaitable<void> ByteSource::Impl::serve_tcp_client() {
                              static_cast<asio::ip::port_type>(config.port));
   // An address that nobody answers for would hold the attempt for minutes.
   asio::steady_timer timeout(io, std::chrono::nanoseconds(from_seconds(kConnectTimeout_s)));
-  timeout.async_wait([socket](const asio::error_code& error) {  // it may run after an attempt that has failed
-    asio::error_code ignored;
-    if (!error) socket->close(ignored);
-  });
-  co_await socket->async_connect(device, asio::use_awaitable);
+  const auto late = std::make_shared<bool>(false);
+  timeout.async_wait(
+      [socket, late](const asio::error_code& error) {  // it may run after an attempt that failed
+        asio::error_code ignored;
+        if (error) return;
+        *late = true;
+        socket->close(ignored);
+      });
+  try {
+    co_await socket->async_connect(device, asio::use_awaitable);
+  } catch (const asio::system_error&) {
+    if (*late) throw std::runtime_error("no answer");
+    throw;
+  }
   timeout.cancel();
   keep_alive(*socket);
   last_byte_ns = clock.monotonic_ns();

@@ -104,7 +104,9 @@ void report(const std::vector<Heard>& heard, const std::vector<Proposal>& propos
   for (const Heard& one : heard) {
     if (one.recognition) continue;
     const std::string port = runtime::describe_source(one.port);
-    if (one.bytes == 0)
+    if (one.bytes == 0 && !one.trouble.empty())
+      std::printf("%s\n", one.trouble.c_str());
+    else if (one.bytes == 0)
       std::printf("%s: nothing was heard; is it there, has it power, does it speak without being asked?\n",
                   port.c_str());
     else
@@ -205,8 +207,12 @@ ExitCode run_init(InitOptions options) {
     throw Failure(ExitCode::bad_configuration, "init: --name " + options.name + ": expected " + kNameForm);
   write_text(options.out + ".new", "");  // what cannot be written is better known before
   std::filesystem::remove(options.out + ".new");
-  std::printf("Listening to %zu ports for up to %.0f s, writing to none ...\n", ports.size(),
-              options.seconds);
+  refuse_ports_in_use(ports);
+  if (ports.size() == 1)
+    std::printf("Listening to 1 port for up to %.0f s, writing nothing ...\n", options.seconds);
+  else
+    std::printf("Listening to %zu ports for up to %.0f s, writing to none ...\n", ports.size(),
+                options.seconds);
   std::fflush(stdout);
   const SystemClock clock;
   const std::vector<Heard> heard = listen(ports, options.seconds, clock);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "cli/command.hpp"
+#include "runtime/serial_holders.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -100,8 +101,10 @@ class Listening {
   }
 
   [[nodiscard]] Heard heard() {
+    const runtime::SourceStatus status = source_->status();
     source_.reset();
-    Heard out{port_.port, bytes_before_ + recognizer_->bytes(), recognizer_->best()};
+    Heard out{port_.port, bytes_before_ + recognizer_->bytes(), recognizer_->best(), ""};
+    if (status.state == runtime::SourceState::lost) out.trouble = status.detail;
     if (const auto framing = seven_bits_.framing(); !out.recognition && seven_bits_.best()) {
       out.recognition = seven_bits_.best();
       out.port.framing = *framing;
@@ -216,6 +219,19 @@ std::vector<PortToHear> serial_ports_here() {
     out.push_back(std::move(port));
   }
   return out;
+}
+
+void refuse_ports_in_use(const std::vector<PortToHear>& ports) {
+  for (const PortToHear& one : ports) {
+    if (one.port.type != runtime::SourceType::serial) continue;
+    const std::string occupant = runtime::serial_occupant(one.port.path);
+    if (!occupant.empty())
+      throw Failure(
+          ExitCode::bad_configuration,
+          "init: " + one.port.path + ": is in use by " + occupant +
+              ", from which listening would take bytes; expected a port that nobody else reads: end "
+              "that first, or name other ports with --serial");
+  }
 }
 
 std::vector<Heard> listen(const std::vector<PortToHear>& ports, double most_s, const Clock& clock) {

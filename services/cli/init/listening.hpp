@@ -24,6 +24,10 @@ struct PortToHear {
 /// The serial ports of this host, by names that stay the same where there are such.
 [[nodiscard]] std::vector<PortToHear> serial_ports_here();
 
+/// Throws Failure where another process has one of the serial ports open: a reader would take bytes from it,
+/// and its rate would be changed under it.
+void refuse_ports_in_use(const std::vector<PortToHear>& ports);
+
 /// Listens to all ports at once and writes to none: until each was recognised and heard for some seconds, or
 /// for `most_s`. A serial port whose bytes no codec understands is tried at the next rate; one that is silent
 /// is not, because silence is the same at every rate.

@@ -16,6 +16,7 @@ struct Heard {
   runtime::ByteSourceConfig port;
   std::uint64_t bytes = 0;
   std::optional<Recognition> recognition;
+  std::string trouble;  ///< why it is not open, at the end; empty: it is
 };
 
 /// An instrument as far as its bytes tell, and what a person has to say of it.
