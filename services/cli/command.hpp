@@ -53,7 +53,7 @@ void add_plot(CLI::App& app, ExitCode& exit_code);
 void add_record(CLI::App& app, ExitCode& exit_code);
 void add_replay(CLI::App& app, ExitCode& exit_code);
 
-/// All of them. No option takes a number that is none, is endless or does not fit.
+/// All of them. No option takes a number that is none, is endless or does not fit, and none an empty text.
 void add_commands(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli

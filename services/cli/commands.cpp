@@ -23,13 +23,20 @@ std::string count_complaint(const std::string& text) {
   return fits ? "" : "is " + text + ", expected a whole number from 0 to 18446744073709551615";
 }
 
-void check_numbers(CLI::App& app) {
+/// What is wrong with the name of a file or of anything else: an empty one is that of a variable which nobody
+/// has set.
+std::string text_complaint(const std::string& text) {
+  return text.empty() ? "is empty, expected a value" : "";
+}
+
+void check_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options()) {
     const std::string type = option->get_type_name();
+    if (type.starts_with("TEXT")) option->check(text_complaint, "", "");
     if (type.starts_with("FLOAT")) option->check(float_complaint, "", "");
     if (type.starts_with("UINT")) option->check(count_complaint, "", "");
   }
-  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) check_numbers(*command);
+  for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) check_values(*command);
 }
 
 }  // namespace
@@ -54,7 +61,7 @@ void add_commands(CLI::App& app, ExitCode& exit_code) {
   add_plot(app, exit_code);
   add_record(app, exit_code);
   add_replay(app, exit_code);
-  check_numbers(app);
+  check_values(app);
 }
 
 }  // namespace fathom::cli

@@ -94,6 +94,12 @@ int serve(int argc, char** argv, const ServiceInfo& info, const std::function<st
       ->excludes(own)
       ->excludes(of_vehicle);
   app.add_option("--set", request.sets, "override: key.sub=value, may be repeated")->allow_extra_args(false);
+  for (CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    if (type.starts_with("TEXT"))
+      option->check([](const std::string& text) { return text.empty() ? "is empty, expected a value" : ""; },
+                    "", "");
+  }
   app.add_flag("--check", check, "check the configuration and exit");
   app.add_flag("--explain", explains,
                "print the keys of the configuration with unit, range, default and meaning, and exit");

@@ -77,5 +77,17 @@ TEST_F(Commands, NoCountMayBeNegativeOrTooLarge) {
   EXPECT_TRUE(names.contains("study --seed"));
 }
 
+TEST_F(Commands, NoTextMayBeEmpty) {
+  std::set<std::string> names;
+  for (const auto& [name, option] : options_of("TEXT")) {
+    names.insert(name);
+    const bool may_have_no_value = option->get_expected_min() == 0;
+    EXPECT_EQ(takes(*option, ""), may_have_no_value) << name;
+  }
+  for (const char* name : {"record --recover", "record --out", "solve --vehicle", "solve directory",
+                           "config show --folder", "status --profiles", "init --serial", "decode file"})
+    EXPECT_TRUE(names.contains(name)) << name;
+}
+
 }  // namespace
 }  // namespace fathom::cli
