@@ -45,16 +45,6 @@ void pause_for(double seconds) {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
 
-int terminal_width() {
-  winsize size{};
-  if (isatty(STDOUT_FILENO) != 0 && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
-    return size.ws_col;
-  }
-  const char* columns = std::getenv("COLUMNS");
-  const int width = columns != nullptr ? std::atoi(columns) : 0;
-  return width > 0 ? width : 120;
-}
-
 bool wants_colour() {
   return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
 }
@@ -63,7 +53,8 @@ void print(const StatusView& view, bool json) {
   if (json) {
     std::puts(status::json_line(view).c_str());
   } else {
-    for (const std::string& line : table(view, terminal_width(), wants_colour())) std::puts(line.c_str());
+    for (const std::string& line : table(view, width_of(STDOUT_FILENO), wants_colour()))
+      std::puts(line.c_str());
   }
   std::fflush(stdout);
 }
@@ -105,7 +96,7 @@ StatusView watch(const StatusListener& listener, const StatusOptions& options) {
   while (interrupted == 0) {
     view = listener.view();
     if (full_screen) {
-      screen.draw(table(view, terminal_width(), wants_colour()));
+      screen.draw(table(view, width_of(STDOUT_FILENO), wants_colour()));
     } else {
       print(view, options.json);
       if (!options.json) std::puts("");

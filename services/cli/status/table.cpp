@@ -4,8 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string_view>
 #include <tuple>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include "base/units.hpp"
 #include "health/text.hpp"
@@ -360,7 +364,8 @@ class Table {
     put(line().add("ALARM", Style::title).tab(20).add("SEVERITY").tab(32).add("SINCE").tab(44).add("WHAT"));
     for (const Alarm& alarm : sorted_alarms(view_)) {
       Line line = this->line();
-      line.add(alarm.alarm.view().substr(0, 19), style_of(alarm)).tab(20);
+      const std::size_t room = width_ == kUncut ? Name::kCapacity : 19;
+      line.add(alarm.alarm.view().substr(0, room), style_of(alarm)).tab(20);
       line.add(to_string(alarm.severity), style_of(alarm)).tab(32);
       line.add(to_iso8601(alarm.since_ns, 0).substr(11)).tab(44);
       line.add(alarm.active ? "" : "(over) ")
@@ -377,6 +382,15 @@ class Table {
 };
 
 }  // namespace
+
+int width_of(int descriptor) {
+  if (isatty(descriptor) == 0) return kUncut;
+  winsize size{};
+  if (ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  const char* columns = std::getenv("COLUMNS");
+  const int width = columns != nullptr ? std::atoi(columns) : 0;
+  return width > 0 ? width : 120;
+}
 
 std::vector<std::string> table(const StatusView& view, int width, bool colour) {
   return Table(view, width, colour).build();

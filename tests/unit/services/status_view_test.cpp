@@ -1,9 +1,14 @@
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <pty.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include "cli/status/table.hpp"
 #include "status/json.hpp"
@@ -101,6 +106,32 @@ TEST(StatusView, TheTableNamesEverythingAndKeepsToItsWidth) {
       EXPECT_LE(line.size(), static_cast<std::size_t>(width));
   }
   EXPECT_NE(joined(view, 120, true).find("\x1b[32m"), std::string::npos);
+}
+
+TEST(StatusView, WithoutATerminalNothingIsCut) {
+  StatusView view = healthy_view();
+  Alarm alarm;
+  alarm.alarm = "service_unwell:gps_bridge_two";
+  alarm.active = true;
+  alarm.text = "Service gps_bridge_two has been unwell for 3 min 20 s: " + std::string(170, 'x') + " end.";
+  view.alarms[alarm.alarm] = alarm;
+  std::array<int, 2> ends{};
+  ASSERT_EQ(pipe(ends.data()), 0);
+  setenv("COLUMNS", "80", 1);
+  const std::string text = joined(view, width_of(ends[1]), false);
+  unsetenv("COLUMNS");
+  EXPECT_NE(text.find("service_unwell:gps_bridge_two "), std::string::npos) << text;
+  EXPECT_NE(text.find(alarm.text), std::string::npos) << text;
+  close(ends[0]);
+  close(ends[1]);
+  int device = -1;
+  int line = -1;
+  winsize size{};
+  size.ws_col = 72;
+  ASSERT_EQ(openpty(&device, &line, nullptr, nullptr, &size), 0);
+  EXPECT_EQ(width_of(line), 72);
+  close(device);
+  close(line);
 }
 
 TEST(StatusView, TheAlignmentUnderWayShowsEachConditionAndWhatWouldHelp) {
