@@ -42,6 +42,27 @@ std::string describe_source(const ByteSourceConfig& config) {
   return "file " + config.path;
 }
 
+bool collide(const ByteSourceConfig& one, const ByteSourceConfig& other) {
+  if (one.type != other.type) return false;
+  if (one.type == SourceType::serial) return !one.path.empty() && one.path == other.path;
+  if (one.type != SourceType::udp && one.type != SourceType::tcp_server) return false;
+  if (one.port == 0 || one.port != other.port) return false;
+  // Any number of readers may join one group.
+  if (!one.multicast.empty() && !other.multicast.empty()) return false;
+  const auto bound = [](const ByteSourceConfig& each) {
+    return each.multicast.empty() ? each.address : each.multicast;
+  };
+  const auto is_any = [](const std::string& address) { return address == "0.0.0.0" || address == "::"; };
+  return bound(one) == bound(other) || is_any(bound(one)) || is_any(bound(other));
+}
+
+bool is_multicast_address(const std::string& text) {
+  in_addr four{};
+  in6_addr six{};
+  if (inet_pton(AF_INET, text.c_str(), &four) == 1) return IN_MULTICAST(ntohl(four.s_addr));
+  return inet_pton(AF_INET6, text.c_str(), &six) == 1 && IN6_IS_ADDR_MULTICAST(&six);
+}
+
 bool is_numeric_address(const std::string& text) {
   std::array<unsigned char, sizeof(in6_addr)> out{};
   return inet_pton(AF_INET, text.c_str(), out.data()) == 1 ||

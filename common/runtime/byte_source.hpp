@@ -105,6 +105,12 @@ class ByteSource {
 /// "serial /dev/ttyUSB0", "tcp 10.0.0.7:5000": the source as people name it.
 [[nodiscard]] std::string describe_source(const ByteSourceConfig& config);
 
+/// Whether two sources, open at once, would take bytes from each other or keep each other from opening.
+[[nodiscard]] bool collide(const ByteSourceConfig& one, const ByteSourceConfig& other);
+
+/// Whether the text is the numeric address of a multicast group.
+[[nodiscard]] bool is_multicast_address(const std::string& text);
+
 /// Whether the text is a numeric IPv4 or IPv6 address.
 [[nodiscard]] bool is_numeric_address(const std::string& text);
 

@@ -13,6 +13,11 @@
 
 namespace fathom::config {
 
+/// What the port of an instrument should be where another has it.
+[[nodiscard]] inline std::string port_of_its_own(const std::string& other) {
+  return "a port of its own: " + other + " reads from it as well";
+}
+
 template <class Sensor>
 void describe(Schema<BridgeConfig<Sensor>>& s) {
   using Config = BridgeConfig<Sensor>;
@@ -24,6 +29,14 @@ void describe(Schema<BridgeConfig<Sensor>>& s) {
     for (const Sensor& each : config.sensors) {
       if (!names.insert(each.sensor.name.str()).second)
         return {"sensors", "different names for its instruments"};
+    }
+    for (std::size_t i = 0; i < config.sensors.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const SensorConfig& one = config.sensors[i].sensor;
+        const SensorConfig& other = config.sensors[k].sensor;
+        if (runtime::collide(one.source, other.source))
+          return {"sensors." + std::to_string(i) + ".source", port_of_its_own(other.name.str())};
+      }
     }
     return {};
   });

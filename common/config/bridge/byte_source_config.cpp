@@ -74,9 +74,14 @@ void describe(Schema<ByteSourceConfig>& s) {
     if (!by_path && c.port == 0) return {"port", "1 to 65535, because the type is tcp or udp"};
     if (!by_path && !runtime::is_numeric_address(c.address))
       return {"address", "a numeric IPv4 or IPv6 address"};
-    if (!c.multicast.empty() && !runtime::is_numeric_address(c.multicast)) {
-      return {"multicast", "a numeric IPv4 or IPv6 address, or empty"};
+    if (!c.multicast.empty() && !runtime::is_multicast_address(c.multicast)) {
+      return {"multicast",
+              "the address of a group, 224.0.0.0 to 239.255.255.255 or one of IPv6 that begins with ff, or "
+              "empty"};
     }
+    // A group of IPv4 is joined at an address of IPv4.
+    if (c.multicast.find('.') != std::string::npos && c.address.find(':') != std::string::npos)
+      return {"address", "one of IPv4, as the group is"};
     if (c.backoff_most_s < c.backoff_first_s) return {"backoff_most_s", "at least backoff_first_s"};
     return {};
   });

@@ -5,6 +5,7 @@
 
 #include "base/nearest.hpp"
 #include "base/units.hpp"
+#include "config/bridge/bridge_schema.hpp"
 #include "config/bridge/byte_source_config.hpp"
 #include "config/scenario/sensor_schema.hpp"
 #include "config/service_schema.hpp"
@@ -24,7 +25,7 @@ std::vector<std::string> words_of(std::initializer_list<SourceKind> kinds) {
 
 std::string one_of(const std::string& text, const std::vector<std::string>& known) {
   const auto meant = nearest(text, known);
-  return (meant ? "the nearest is " + *meant + "; " : "") + "one of " + list_words(known);
+  return "one of " + list_words(known) + (meant ? "; the nearest is " + *meant : "");
 }
 
 bool turns(const nlohmann::json& angles) {
@@ -49,6 +50,33 @@ std::string second_mounting(const VehicleInstrument& one) {
     }
   }
   return "";
+}
+
+/// Two enabled instruments whose ports collide. What one device measures for one bridge, by one name, comes
+/// from one port.
+Violation shared_port(const std::vector<VehicleInstrument>& instruments) {
+  for (std::size_t i = 0; i < instruments.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const VehicleInstrument& one = instruments[i];
+      const VehicleInstrument& other = instruments[k];
+      const bool same_device = one.name == other.name && one.role() == other.role();
+      if (!one.enabled || !other.enabled || !one.port || !other.port || same_device) continue;
+      if (runtime::collide(*one.port, *other.port))
+        return {"instruments." + std::to_string(i) + ".port", port_of_its_own(other.name.str())};
+    }
+  }
+  return {};
+}
+
+/// A name that nothing in this vehicle can have.
+Violation unknown_expected(const VehicleRoles& roles) {
+  std::vector<std::string> known = all_services();
+  for (const FusionRole& role : roles.fusion) known.push_back(role.name.str());
+  for (std::size_t i = 0; i < roles.expected.size(); ++i) {
+    if (std::find(known.begin(), known.end(), roles.expected[i]) == known.end())
+      return {"roles.expected." + std::to_string(i), one_of(roles.expected[i], known)};
+  }
+  return {};
 }
 
 }  // namespace
@@ -170,6 +198,8 @@ void describe(Schema<VehicleConfig>& s) {
       if (const std::string where = second_mounting(one); !where.empty())
         return {key + "mounting_rpy_deg", "[0, 0, 0] because " + key + where + " turns the same instrument"};
     }
+    if (const Violation port = shared_port(vehicle.instruments); !port.first.empty()) return port;
+    if (const Violation name = unknown_expected(vehicle.roles); !name.first.empty()) return name;
     if (!inertial) return {"instruments", "an enabled one of kind imu among them"};
     for (const auto& [service, keys] : vehicle.services) {
       const auto known = all_services();

@@ -197,6 +197,21 @@ TEST(Recorder, SaysThatItCannotWriteAndLivesOn) {
   EXPECT_NE(recorder.err().find("cannot be written"), std::string::npos) << recorder.err();
 }
 
+TEST(Recorder, RefusesATopicThatIsNone) {
+  const TemporaryFolder folder;
+  std::vector<std::string> arguments =
+      recorder_arguments(folder / "recordings", {R"(topics=["fathom/v1/nav_state", "fathom/v1/nav_stat"])"});
+  arguments.emplace_back("--check");
+  Process recorder("fathom-recorder", arguments);
+  EXPECT_EQ(recorder.wait(), 2);
+  EXPECT_NE(recorder.err().find("topics.1: is \"fathom/v1/nav_stat\", expected one of "), std::string::npos)
+      << recorder.err();
+  EXPECT_NE(recorder.err().find("; the nearest is fathom/v1/nav_state"), std::string::npos);
+  arguments[arguments.size() - 2] = R"(topics=["fathom/v1/nav_state"])";
+  Process right("fathom-recorder", arguments);
+  EXPECT_EQ(right.wait(), 0) << right.err();
+}
+
 std::vector<std::string> explain_arguments(const std::string& listen_s) {
   return {"explain", "--live", "--domain", std::to_string(kDomain), "--listen", listen_s, "--json"};
 }

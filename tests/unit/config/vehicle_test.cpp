@@ -294,7 +294,61 @@ TEST_F(Vehicle, FurtherKeysOfAService) {
   file["services"]["recorder"] = {{"quota", 1}};
   EXPECT_THAT(complaint(), HasSubstr("vehicle.json: services.recorder.quota: is 1, expected no such key"));
   file["services"] = {{"recoder", json::object()}};
-  EXPECT_THAT(complaint(), HasSubstr("services.recoder: is {}, expected the nearest is recorder"));
+  EXPECT_THAT(complaint(), HasSubstr("services.recoder: is {}, expected one of imu_bridge, "));
+}
+
+TEST_F(Vehicle, PortsThatCollideAreRefused) {
+  const json good = file;
+  const auto said = [&](const std::string& name, const json& port) {
+    instrument(name)["port"] = port;
+    return complaint();
+  };
+  const auto udp = [](const char* address, int port, const char* group) {
+    return json{{"type", "udp"}, {"address", address}, {"port", port}, {"multicast", group}};
+  };
+  const json serial = {{"type", "serial"}, {"path", "/dev/ttyS7"}, {"baud", 9600}};
+  EXPECT_EQ(said("imu", serial), "");
+  EXPECT_THAT(said("gps", serial), HasSubstr("expected a port of its own: imu reads from it as well"));
+  EXPECT_THAT(complaint(), HasSubstr("instruments.1.port"));
+  instrument("gps")["enabled"] = false;
+  EXPECT_EQ(complaint(), "") << "what is left out reads nothing";
+  file = good;
+  EXPECT_EQ(said("imu", udp("127.0.0.1", 5000, "")), "");
+  EXPECT_EQ(said("gps", udp("127.0.0.2", 5000, "")), "");
+  EXPECT_THAT(said("gps", udp("127.0.0.1", 5000, "")), HasSubstr("a port of its own"));
+  EXPECT_THAT(said("gps", udp("0.0.0.0", 5000, "")), HasSubstr("a port of its own"));
+  EXPECT_EQ(said("gps", udp("0.0.0.0", 5001, "")), "");
+  EXPECT_EQ(said("gps", udp("0.0.0.0", 5000, "239.1.2.3")), "");
+  EXPECT_EQ(said("imu", udp("0.0.0.0", 5000, "239.1.2.3")), "") << "any number may join a group";
+  EXPECT_THAT(said("gps", udp("0.0.0.0", 5001, "10.1.2.3")),
+              HasSubstr("instruments.1.port.multicast: is \"10.1.2.3\", expected the address of a group"));
+  EXPECT_EQ(said("gps", udp("::", 5001, "ff02::1")), "");
+  EXPECT_THAT(said("gps", udp("::", 5001, "239.1.2.3")), HasSubstr("port.address: is \"::\""));
+}
+
+TEST_F(Vehicle, OfOneBridgeNoTwoInstrumentsShareAPort) {
+  json twin = instrument("gps");
+  twin["name"] = "gps_two";
+  file["instruments"].push_back(twin);
+  const std::string both = complaint();
+  EXPECT_THAT(both, HasSubstr(".port: is ")) << "gps reads from it";
+}
+
+TEST_F(Vehicle, WhatIsExpectedCanBeThere) {
+  file["roles"]["expected"] = {"recorder", "console"};
+  EXPECT_EQ(complaint(), "");
+  file["roles"]["expected"] = {"recorder", "consol"};
+  EXPECT_THAT(complaint(), HasSubstr("roles.expected.1: is \"consol\", expected one of"));
+  EXPECT_THAT(complaint(), HasSubstr("; the nearest is console"));
+}
+
+TEST_F(Vehicle, AnInertialUnitSpeaksWhatItsModelSpeaks) {
+  instrument("imu")["model"] = "vectornav_vn100";
+  instrument("imu")["protocol"] = "vectornav";
+  EXPECT_EQ(complaint(), "");
+  instrument("imu")["protocol"] = "mavlink";
+  EXPECT_THAT(complaint(), HasSubstr("instruments.0.protocol: is \"mavlink\", expected \"vectornav\", which "
+                                     "vectornav_vn100 speaks"));
 }
 
 TEST_F(Vehicle, ComplaintsNameTheKeyOfTheVehicle) {
