@@ -106,6 +106,16 @@ std::string ConfigFiles::text() const {
 
 config::LoadedConfig<config::FusionConfig> configuration_for(const std::string& log, const ConfigFiles& files,
                                                              const std::vector<std::string>& sets) {
+  std::error_code error;
+  const auto status = std::filesystem::status(log, error);
+  if (!is_recording(log) && !std::filesystem::is_directory(status)) {
+    const std::string what = std::filesystem::exists(status) ? "is no folder"
+                             : error && status.type() == std::filesystem::file_type::none
+                                 ? error.message()
+                                 : "No such file or directory";
+    throw Failure(ExitCode::bad_input,
+                  log + ": " + what + ", expected the folder of a data set or a recording, FILE.mcap");
+  }
   if (files.none() && !is_recording(log))
     throw Failure(
         ExitCode::bad_configuration,

@@ -10,6 +10,7 @@
 #include "blackbox/enclosures.hpp"
 #include "bus/topics.hpp"
 #include "cli/command.hpp"
+#include "config/json/error.hpp"
 #include "config/vehicle/vehicle_config.hpp"
 
 namespace fathom::cli {
@@ -75,6 +76,7 @@ class Folder {
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
 
+  [[nodiscard]] std::string path() const { return path_.string(); }
   /// `name` relative to the folder, and inside of it.
   fs::path put(const fs::path& name, const record::Bytes& bytes) {
     const fs::path path = path_ / name;
@@ -90,6 +92,19 @@ class Folder {
  private:
   fs::path path_;
 };
+
+/// The same of another place.
+config::ConfigError said_anew(const config::ConfigError& error, const std::string& place) {
+  if (error.key().empty()) return {place, std::string(error.what()).substr(error.file().size() + 2)};
+  return {place, error.key(), error.value(), error.expectation()};
+}
+
+/// A file stands in the recording, not where it was put for reading.
+config::ConfigError in_the_recording(const config::ConfigError& error, const std::string& put,
+                                     const std::string& place) {
+  if (!error.file().starts_with(put)) return error;
+  return said_anew(error, place + error.file().substr(put.size() + 1));
+}
 
 /// What was enclosed of one service at one time, with its command line.
 config::LoadedConfig<config::FusionConfig> load_enclosed(record::Reader& reader, const std::string& file,
@@ -120,10 +135,23 @@ config::LoadedConfig<config::FusionConfig> load_enclosed(record::Reader& reader,
   }
   const auto line = blackbox::command_line_from(record::text_of(content(command)));
   if (!line) throw failed("command.json: is no command line");
-  request.sets = line->values_of("--set");
-  request.sets.insert(request.sets.end(), sets.begin(), sets.end());
-  if (!vehicle.empty()) request = config::with_vehicle(std::move(request), vehicle, "fusion");
-  return config::load_service_config<config::FusionConfig>(request);
+  const auto load = [&](const std::vector<std::string>& further) {
+    config::LoadRequest whole = request;
+    whole.sets = line->values_of("--set");
+    whole.sets.insert(whole.sets.end(), further.begin(), further.end());
+    if (!vehicle.empty()) whole = config::with_vehicle(std::move(whole), vehicle, "fusion");
+    return config::load_service_config<config::FusionConfig>(whole);
+  };
+  try {
+    return load(sets);
+  } catch (const config::ConfigError& error) {
+    try {
+      (void)load({});
+    } catch (const config::ConfigError&) {
+      throw in_the_recording(error, files.path(), file + ": " + folder);
+    }
+    throw said_anew(error, "--set");  // without the overrides it is well
+  }
 }
 
 /// Command lines of a service beside which its configuration is there.

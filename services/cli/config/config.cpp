@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -83,10 +84,19 @@ void print_json(const ShowOptions& options, const std::vector<config::Provenance
   std::printf("%s\n", out.dump().c_str());
 }
 
-ExitCode run_show(const ShowOptions& options) {
+/// A service may be called as its program is: gps-bridge or fathom-gps-bridge for gps_bridge.
+std::string service_named(std::string text) {
+  constexpr std::string_view kProgram = "fathom-";
+  if (text.starts_with(kProgram)) text.erase(0, kProgram.size());
+  std::replace(text.begin(), text.end(), '-', '_');
+  return text;
+}
+
+ExitCode run_show(ShowOptions options) {
   if (options.vehicle.empty() && options.file.empty() && options.folder.empty())
     throw Failure(ExitCode::bad_configuration,
                   "config show: --vehicle, --config or --folder is required; see --help");
+  options.service = service_named(options.service);
   const config::ConfigKind& kind = kind_of(options.service);
   config::LoadRequest request{options.file, options.sets};
   if (!options.folder.empty())

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,11 @@ struct ReplayOptions {
 volatile std::sig_atomic_t replay_stopped = 0;
 
 ExitCode replay(const ReplayOptions& options) {
+  if (options.to_s > 0.0 && options.to_s <= options.from_s) {
+    std::ostringstream range;
+    range << "--to " << options.to_s << ": expected more than --from, which is " << options.from_s;
+    throw Failure(ExitCode::bad_configuration, range.str());
+  }
   std::vector<record::Reader> readers;
   for (const std::string& file : options.files) readers.push_back(open_recording(file));
   blackbox::PlayOptions play;

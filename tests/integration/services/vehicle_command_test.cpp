@@ -89,6 +89,10 @@ TEST_F(VehicleCommand, AFileOfTheServicesOwnGoesBefore) {
 TEST_F(VehicleCommand, WhatIsWrongIsNamedWhereItWasWritten) {
   EXPECT_EQ(run("fathom", {"config", "show", "fusio", "--vehicle", path("vehicle.json")}), 2);
   EXPECT_THAT(err, HasSubstr("fusio: no such service; nearest is fusion"));
+  for (const char* program : {"gps-bridge", "fathom-gps-bridge"})
+    EXPECT_EQ(run("fathom", {"config", "show", program, "--vehicle", path("vehicle.json")}), 0) << err;
+  EXPECT_EQ(run("fathom-gps-bridge", {"--vehicle", path("vehicle.json"), "--config", "", "--check"}), 2);
+  EXPECT_THAT(err, HasSubstr("--config: is empty, expected a value"));
   EXPECT_EQ(run("fathom", {"config", "show", "usbl_bridge", "--vehicle", path("vehicle.json")}), 2);
   EXPECT_THAT(err, HasSubstr("vehicle.json: instruments: is without any for usbl_bridge"));
   for (const auto& [text, complaint] :
@@ -141,8 +145,12 @@ TEST_F(VehicleCommand, InitWritesNothingWithoutAnInertialUnit) {
   EXPECT_EQ(
       run("fathom", {"init", "--udp", "127.0.0.1:20399", "--seconds", "1", "--out", path("found.json")}), 1);
   EXPECT_THAT(out, HasSubstr("nothing was heard"));
+  EXPECT_THAT(out, HasSubstr("Listening to 1 port for"));
   EXPECT_THAT(err, HasSubstr("no inertial unit was recognised"));
   EXPECT_FALSE(fs::exists(folder / "found.json"));
+  EXPECT_EQ(run("fathom", {"init", "--serial", "/etc/passwd", "--seconds", "1", "--out", path("found.json")}),
+            1);
+  EXPECT_THAT(out, HasSubstr("serial /etc/passwd: is no serial port"));
 }
 
 }  // namespace

@@ -164,7 +164,8 @@ TEST_F(SchemaTest, MissingFileIsNamed) {
     (void)load<Outer>({"/nowhere/x.json", {}});
     FAIL() << "loaded a file that does not exist";
   } catch (const ConfigError& error) {
-    EXPECT_THAT(error.what(), ::testing::HasSubstr("/nowhere/x.json: cannot be read"));
+    EXPECT_THAT(error.what(),
+                ::testing::HasSubstr("/nowhere/x.json: cannot be read: No such file or directory, expected"));
   }
 }
 
