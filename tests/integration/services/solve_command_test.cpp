@@ -223,7 +223,7 @@ TEST_F(SolveTest, ATruncatedArchiveIsNamed) {
 
 TEST_F(SolveTest, NoFolderAndAnEmptyOneEndWithThree) {
   EXPECT_EQ(solve({}), 3);
-  EXPECT_NE(err.find("data: is not a folder, expected a data set"), std::string::npos) << err;
+  EXPECT_NE(err.find("data: No such file or directory, expected the folder"), std::string::npos) << err;
   fs::create_directory(path("data"));
   EXPECT_EQ(solve({}), 3);
   EXPECT_NE(err.find("data/imu.csv: is not there, nor is imu.csv.gz; expected the inertial samples"),
