@@ -6,7 +6,6 @@
 #include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/gps_velocity.hpp"
 #include "estimation/aiding/heading.hpp"
-#include "estimation/navigator/start/correlate.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -86,17 +85,8 @@ StartConditions Starter::conditions(const StartInputs& in) const {
   c.slow = !(in.estimate.since(gps_seen_ns_) <= kFreshFix_s && gps_speed_m_s_ > config.max_speed_m_s);
   c.heading = config.heading_source == HeadingSource::given ||
               config.heading_source == HeadingSource::gyrocompass || window_.headings() > 0;
-  c.position = start_position(in).has_value() || usbl_places(in);
+  c.position = place(in).has_value();
   return c;
-}
-
-std::optional<geo::Geodetic> Starter::start_position(const StartInputs& in) const {
-  const AlignmentConfig& config = in.setup.config.alignment;
-  if (in.estimate.since(gps_seen_ns_) <= kFreshFix_s) return gps_position_;
-  if (in.ordered.is_set) return in.ordered.position;
-  if (config.position_given)
-    return geo::Geodetic{config.given_latitude_rad, config.given_longitude_rad, config.given_altitude_m};
-  return std::nullopt;
 }
 
 bool Starter::align(const StartInputs& in, bool released, const ImuStep& step, Estimate& estimate,
@@ -140,50 +130,6 @@ bool Starter::align(const StartInputs& in, bool released, const ImuStep& step, E
   estimate.state.nav.q_NB = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), 0.0)) * rest.q_start_now;
   alignment.enter(late ? AlignmentPhase::timed_out : AlignmentPhase::coarse, now_ns);
   return c.position && start_at_rest(in, estimate);
-}
-
-void Starter::begin(const StartInputs& in, const FilterState& state, std::array<double, kMaxStates> sigma,
-                    Estimate& estimate) const {
-  const Setup& setup = in.setup;
-  FilterState start = state;
-  // The position is that of the antenna or of the point set; the IMU lies a lever away from it.
-  const bool from_gps = in.estimate.since(gps_seen_ns_) <= kFreshFix_s;
-  const bool from_usbl = usbl_places(in);
-  Vector3d lever = Vector3d::Zero();
-  Vector3d position_sigma = Vector3d::Constant(setup.config.alignment.position_sigma_m);
-  if (from_gps) {
-    lever = lever_of_gps_B_m(setup);
-    position_sigma = gps_sigma_N_m_;
-  } else if (from_usbl) {
-    const double carried_m = in.estimate.since(under_way_.usbl_ns) * sigma[3];
-    const double fix_m = std::max(under_way_.usbl_sigma_m, setup.config.alignment.position_sigma_m);
-    const double horizontal = std::hypot(fix_m, carried_m);
-    lever = under_way_.usbl_lever_B_m;
-    position_sigma = {horizontal, horizontal,
-                      std::hypot(horizontal, setup.config.states.surface_altitude_sigma_m)};
-  } else {
-    lever = geo::vec(setup.config.output_lever_B_m);
-    if (in.ordered.is_set) position_sigma.setConstant(in.ordered.sigma_m);
-  }
-  start.nav.position = geo::moved_by(start.nav.position, -(geo::to_matrix(start.nav.q_NB) * lever));
-  for (int i = 0; i < 3; ++i) sigma[static_cast<std::size_t>(i)] = position_sigma(i);
-  const int surface = setup.index.of(Group::surface_altitude);
-  if (surface >= 0) {
-    // On the surface, unless an acoustic fix has just said how deep below it.
-    start.x[static_cast<std::size_t>(surface)] =
-        from_usbl ? setup.config.states.surface_altitude_m : start.nav.position.altitude_m;
-  }
-  estimate.begin(start, sigma);
-  if (from_usbl) correlate_usbl(setup, under_way_.usbl_turned_N_m, estimate.filter);
-  const int bias = setup.index.of(Group::gps_position_bias);
-  if (from_gps && bias >= 0) {
-    // (ALN-7): a position taken from GPS carries the whole of its slow error.
-    for (int i = 0; i < 3; ++i) {
-      const double variance = estimate.filter(bias + i, bias + i);
-      estimate.filter.widen(i, variance);
-      estimate.filter.set(i, bias + i, variance);
-    }
-  }
 }
 
 StartHeading::Column start_error(const StateIndex& index, bool by_compass) {

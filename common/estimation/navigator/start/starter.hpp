@@ -14,6 +14,8 @@ namespace fathom::estimation {
 
 /// A fix that is older does not place the vehicle any more.
 inline constexpr double kFreshFix_s = 5.0;
+/// A velocity or a heading that is older is not that of now any more.
+inline constexpr double kFreshVelocity_s = 1.0;
 
 /// The filter's errors are small angles: a heading that is worse is none to begin with.
 inline constexpr double kCoarsestHeading_rad = 0.3;
@@ -25,6 +27,16 @@ struct StartConditions {
   bool slow = false;
   bool heading = false;
   bool position = false;
+};
+
+/// Where a vehicle is that starts, and what says so.
+struct StartPlace {
+  enum class By : std::uint8_t { gps, order, configuration, acoustics };
+  By by = By::gps;
+  geo::Geodetic position;  ///< of the point at `lever_B_m`
+  Eigen::Vector3d lever_B_m = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_N_m = Eigen::Vector3d::Zero();
+  double age_s = 0.0;  ///< it was there so long ago; 0 where nobody says when
 };
 
 /// What a start is made from, beside what the starter itself remembers.
@@ -80,11 +92,15 @@ class Starter {
  private:
   void collect_gps(const Setup& setup, const Estimate& estimate, const SensorConfig& config,
                    const GpsSample& gps);
-  /// Begins with `state`, at the position of what said it.
-  void begin(const StartInputs& in, const FilterState& state, std::array<double, kMaxStates> sigma,
-             Estimate& estimate) const;
-  /// By GPS, by an order or as it is given.
-  [[nodiscard]] std::optional<geo::Geodetic> start_position(const StartInputs& in) const;
+
+  // starter_place.cpp
+  [[nodiscard]] std::optional<StartPlace> place(const StartInputs& in) const;
+  /// Begins with `state`, whose position is that of `place`, carried on to now.
+  void begin(const StartInputs& in, const StartPlace& place, const FilterState& state,
+             std::array<double, kMaxStates> sigma, Estimate& estimate) const;
+  /// A fix at `place` now may be right if the one before was, and the other way round.
+  [[nodiscard]] bool agrees(const Setup& setup, const Estimate& estimate, const geo::Geodetic& place,
+                            double sigma_m) const;
 
   // starter_rest.cpp
   [[nodiscard]] bool start_at_rest(const StartInputs& in, Estimate& estimate) const;
@@ -120,13 +136,6 @@ class Starter {
   /// By the velocities of GPS; heading from the course where none is given.
   [[nodiscard]] bool start_moving_by(const StartInputs& in, std::optional<double> heading_rad,
                                      double heading_sigma_rad, Estimate& estimate) const;
-  /// A fix at `place` now may be right if the one before was, and the other way round.
-  [[nodiscard]] bool agrees(const Setup& setup, const Estimate& estimate, const geo::Geodetic& place,
-                            double sigma_m) const;
-  /// Only acoustic fixes, of which the last two agree, say where the vehicle is.
-  [[nodiscard]] bool usbl_places(const StartInputs& in) const;
-  /// Of the transponder, by the last of them.
-  [[nodiscard]] geo::Geodetic usbl_position(const Setup& setup) const;
 
   RestWindow window_;
   Eigen::Vector3d smooth_force_ = Eigen::Vector3d::Zero();

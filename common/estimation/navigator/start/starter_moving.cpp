@@ -16,15 +16,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kFreshVelocity_s = 1.0;
 constexpr double kVelocitySigma_m_s = 0.3;
 /// A DVL's velocity this old is still that of the vehicle, but for what it may have gained meanwhile.
 constexpr double kSameMotion_s = 0.5;
 constexpr double kGain_m_s2 = 0.2;
-/// A fix that is so much older than the next one says nothing of it.
-constexpr double kPairOfFixes_s = 60.0;
-/// Two fixes that are further apart for their noise are not both right.
-constexpr double kSameFix_sigmas = 3.0;
 
 /// (ALN-6): the errors of velocity and attitude have causes in common. The filter's velocity error is the
 /// estimate less the truth (KF-4), that of the start the truth less what was found.
@@ -96,19 +91,6 @@ void Starter::collect_under_way(const Setup& setup, const Estimate& estimate, co
     under_way_.usbl_turned_N_m = usbl_turned_N_m(config, *usbl, *place, surface_m);
     under_way_.usbl_ns = estimate.now_ns;
   }
-}
-
-bool Starter::agrees(const Setup& setup, const Estimate& estimate, const geo::Geodetic& place,
-                     double sigma_m) const {
-  // (ALN-21)
-  const double apart_s = estimate.since(under_way_.usbl_ns);
-  if (!(apart_s <= kPairOfFixes_s)) return false;
-  const bool dvl = estimate.since(under_way_.dvl_ns) <= kFreshVelocity_s;
-  const double speed_m_s =
-      std::max(setup.config.alignment.max_speed_m_s, dvl ? under_way_.dvl_velocity_B_m_s.norm() : 0.0);
-  const geo::Geodetic before{under_way_.usbl_latitude_rad, under_way_.usbl_longitude_rad, place.altitude_m};
-  return geo::difference_N(before, place).head<2>().norm() <=
-         kSameFix_sigmas * std::hypot(sigma_m, under_way_.usbl_sigma_m) + speed_m_s * apart_s;
 }
 
 Starter::Course Starter::course(const Setup& setup, TimeNs stamp_ns, const Vector3d& v_N_m_s,
@@ -202,8 +184,9 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   FilterState start;
   start.nav.q_NB = found->q_NB;
   start.nav.v_N_m_s = found->v_N_m_s;
-  start.nav.position = geo::moved_by(gps_position_, in.estimate.since(gps_seen_ns_) * found->v_N_m_s);
-  begin(in, start, setup.initial_sigma, estimate);
+  const StartPlace at = *place(in);
+  start.nav.position = geo::moved_by(at.position, at.age_s * found->v_N_m_s);
+  begin(in, at, start, setup.initial_sigma, estimate);
   if (heading_rad) estimate.start_heading.begin(start_error(setup.index, !under_way_.two_antenna));
   correlate_moving(setup, *found, estimate.filter);
   if (by_dvl) correlate_dvl(setup, *found, estimate.filter);
@@ -219,17 +202,7 @@ bool Starter::can_start_under_way(const StartInputs& in) const {
   // At rest the levelling of a longer window is the better start.
   const double speed_m_s = gps ? gps_speed_m_s_ : dvl ? under_way_.dvl_velocity_B_m_s.norm() : 0.0;
   if (gps && !velocities_.complete()) return false;
-  return speed_m_s > config.max_speed_m_s && (start_position(in).has_value() || usbl_places(in));
-}
-
-bool Starter::usbl_places(const StartInputs& in) const {
-  return !start_position(in).has_value() && under_way_.usbl_agrees &&
-         in.estimate.since(under_way_.usbl_ns) <= kFreshFix_s;
-}
-
-geo::Geodetic Starter::usbl_position(const Setup& setup) const {
-  return {under_way_.usbl_latitude_rad, under_way_.usbl_longitude_rad,
-          setup.config.states.surface_altitude_m - under_way_.usbl_depth_m};
+  return speed_m_s > config.max_speed_m_s && place(in).has_value();
 }
 
 bool Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
@@ -243,21 +216,14 @@ bool Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
   start.nav.q_NB = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), under_way_.heading_rad));
   const Matrix3d c = geo::to_matrix(start.nav.q_NB);
   start.nav.v_N_m_s = c * under_way_.dvl_velocity_B_m_s;
-  double age_s = 0.0;
-  if (usbl_places(in)) {
-    age_s = in.estimate.since(under_way_.usbl_ns);
-    start.nav.position = usbl_position(in.setup);
-  } else {
-    age_s = in.estimate.since(gps_seen_ns_) <= kFreshFix_s ? in.estimate.since(gps_seen_ns_) : 0.0;
-    start.nav.position = *start_position(in);
-  }
-  start.nav.position = geo::moved_by(start.nav.position, age_s * start.nav.v_N_m_s);
+  const StartPlace at = *place(in);
+  start.nav.position = geo::moved_by(at.position, at.age_s * start.nav.v_N_m_s);
   std::array<double, kMaxStates> sigma = in.setup.initial_sigma;
   const double turned = start.nav.v_N_m_s.norm() * under_way_.heading_sigma_rad;
   for (std::size_t i = 0; i < 3; ++i) sigma[3 + i] = std::hypot(kVelocitySigma_m_s, turned);
   sigma[6] = sigma[7] = config.in_motion_tilt_sigma_rad;
   sigma[8] = std::hypot(under_way_.heading_sigma_rad, 0.5 * config.in_motion_tilt_sigma_rad);
-  begin(in, start, sigma, estimate);
+  begin(in, at, start, sigma, estimate);
   StartHeading::Column column = start_error(in.setup.index, !under_way_.two_antenna);
   column[3] = start.nav.v_N_m_s.y();
   column[4] = -start.nav.v_N_m_s.x();

@@ -66,11 +66,11 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
   const ImuConfig& imu = setup.config.imu;
   const StateIndex& index = setup.index;
   const RestResult rest = window_.result();
-  const geo::Geodetic position = usbl_places(in) ? usbl_position(setup) : *start_position(in);
+  const StartPlace at = *place(in);
   const Eigen::Vector2d tilt = level(rest.force_start_m_s2);
   const double rate_noise = std::hypot(rest.rate_sigma_rad_s.maxCoeff(),
                                        imu.angle_random_walk_rad_sqrt_s / std::sqrt(rest.duration_s));
-  const double earth_rate = horizontal_earth_rate(position.latitude_rad);
+  const double earth_rate = horizontal_earth_rate(at.position.latitude_rad);
   const double gyro_sigma = std::hypot(imu.gyro_bias_sigma_rad_s, rate_noise) / earth_rate;
   const std::optional<Heading> heading = heading_at_rest(setup, rest, tilt, gyro_sigma);
   if (!heading) return false;
@@ -79,9 +79,9 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
   const geo::Quaternion q_start = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), heading->heading_rad));
   // (ALN-18): the gyro turned the axes back against the stars, and N has turned with the Earth since the
   // middle.
-  const Vector3d turned_N = 0.5 * rest.duration_s * geo::earth_rate_N(position.latitude_rad);
+  const Vector3d turned_N = 0.5 * rest.duration_s * geo::earth_rate_N(at.position.latitude_rad);
   start.nav.q_NB = geo::normalized(geo::exp(-turned_N) * q_start * rest.q_start_now);
-  start.nav.position = position;
+  start.nav.position = at.position;
   std::array<double, kMaxStates> sigma = setup.initial_sigma;
   const double oblique = index.has(Group::accel_misalignment) ? 0.0 : imu.accel_misalignment_sigma_rad;
   const double tilt_noise = std::hypot(config.tilt_sigma_floor_rad, rest.tilt_sigma_rad, oblique);
@@ -94,7 +94,7 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
   if (!heading->from_gyro) {
     // (ALN-4): the mean rate less the Earth's is the bias, as far as the vehicle was quiet.
     const Vector3d measured =
-        rest.mean_rate_B_rad_s - c.transpose() * geo::earth_rate_N(position.latitude_rad);
+        rest.mean_rate_B_rad_s - c.transpose() * geo::earth_rate_N(at.position.latitude_rad);
     const int bias = index.of(Group::gyro_bias);
     for (int i = 0; i < 3; ++i) {
       const double prior = imu.gyro_bias_sigma_rad_s * imu.gyro_bias_sigma_rad_s;
@@ -105,17 +105,17 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
       sigma[static_cast<std::size_t>(bias + i)] = std::sqrt((1.0 - bias_gain) * prior);
     }
   }
-  begin(in, start, sigma, estimate);
+  begin(in, at, start, sigma, estimate);
   if (!heading->from_gyro) {
     StartHeading::Column column = start_error(index, heading->from_compass);
     const Vector3d turned_B =
-        c.transpose() * geo::cross(Vector3d::UnitZ(), geo::earth_rate_N(position.latitude_rad));
+        c.transpose() * geo::cross(Vector3d::UnitZ(), geo::earth_rate_N(at.position.latitude_rad));
     for (int i = 0; i < 3; ++i)
       column[static_cast<std::size_t>(index.of(Group::gyro_bias) + i)] = bias_gain * turned_B(i);
     estimate.start_heading.begin(column);
   }
-  correlate_level(setup, position, c, estimate.filter);
-  if (heading->from_gyro) correlate_gyrocompass(setup, position.latitude_rad, c, estimate.filter);
+  correlate_level(setup, at.position, c, estimate.filter);
+  if (heading->from_gyro) correlate_gyrocompass(setup, at.position.latitude_rad, c, estimate.filter);
   return true;
 }
 
