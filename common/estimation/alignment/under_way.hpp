@@ -26,6 +26,8 @@ struct UnderWay {
   bool usbl_agrees = false;  ///< with the fix before it
   /// What the place is wrong by, per radian that the transceiver is turned about its axes.
   Eigen::Matrix3d usbl_turned_N_m = Eigen::Matrix3d::Zero();
+  TimeNs depth_ns = 0;
+  double depth_m = kUnknown;
 };
 
 }  // namespace fathom::estimation

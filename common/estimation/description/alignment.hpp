@@ -17,7 +17,8 @@ void describe(Walk<AlignmentConfig>& s) {
               {"given", HeadingSource::given},
               {"gyrocompass", HeadingSource::gyrocompass},
               {"two_antenna", HeadingSource::two_antenna}});
-  s.field("given_heading_deg", &C::given_heading_rad, "heading taken where heading_source is \"given\"")
+  s.field("given_heading_deg", &C::given_heading_rad,
+          "heading of the first start where heading_source is \"given\"")
       .unit("deg")
       .range(-360, 360)
       .scaled(kRadPerDeg);
@@ -93,7 +94,9 @@ void describe(Walk<AlignmentConfig>& s) {
   s.field("timeout_s", &C::timeout_s, "waiting and averaging for longer is reported as timed out")
       .unit("s")
       .range(1, 1e6);
-  s.field("position_given", &C::position_given, "start at the given position when no GPS fix is at hand");
+  s.field("position_given", &C::position_given,
+          "begin at the given position when no GPS fix is at hand; a later start is where the vehicle was "
+          "seen last");
   s.field("given_latitude_deg", &C::given_latitude_rad, "latitude for position_given")
       .unit("deg")
       .range(-90, 90)

@@ -94,6 +94,9 @@ void fields(Archive& archive, Self& self) {
   if (!archive.since(17)) return;
   archive("usbl_agrees", self.usbl_agrees);
   archive("usbl_turned_N_m", self.usbl_turned_N_m, fathom::archive::finite());
+  if (!archive.since(18)) return;
+  archive("depth_ns", self.depth_ns, fathom::archive::kInstant);
+  archive("depth_m", self.depth_m, kOrUnknown);
 }
 
 template <class Archive, class Self>

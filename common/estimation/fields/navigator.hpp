@@ -255,8 +255,26 @@ void Starter::fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, LastPlace>
+void fields(Archive& archive, Self& self) {
+  archive("seen_ns", self.seen_ns, fathom::archive::kInstant);
+  archive("position", self.position);
+  archive("surface_altitude_m", self.surface_altitude_m, fathom::archive::finite());
+  archive("surface_sigma_m", self.surface_sigma_m, fathom::archive::at_least_zero());
+  archive("sigma_N_m", self.sigma_N_m, fathom::archive::at_least_zero());
+  archive("speed_m_s", self.speed_m_s, fathom::archive::at_least_zero());
+}
+
+template <class Archive, class Self>
 void Starter::later_fields(Archive& archive, Self& self) {
   archive("velocities", self.velocities_);
+}
+
+template <class Archive, class Self>
+void Starter::place_fields(Archive& archive, Self& self) {
+  archive("gps_lever_B_m", self.gps_lever_B_m_, fathom::archive::finite());
+  archive("last_place", self.last_);
+  archive("out_of_sight", self.out_of_sight_);
 }
 
 template <class Archive, class Self>
@@ -286,6 +304,9 @@ void fields(Archive& archive, Self& self) {
   if (!archive.since(2)) return;
   archive("held_ns", self.held_ns, fathom::archive::kInstant);
   archive("held_position", self.held_position);
+  if (!archive.since(18)) return;
+  archive("set_ns", self.set_ns, fathom::archive::kInstant);
+  archive("set_depth_m", self.depth_m, fathom::archive::or_unknown(fathom::archive::finite()));
 }
 
 /// Precondition of reading: `self` is a navigator of the setup that wrote it,
@@ -334,6 +355,12 @@ void Navigator::fields(Archive& archive, Self& self) {
     self.estimate_.bias_prior.begin(self.estimate_.state, self.estimate_.filter);
   }
   if (archive.since(16)) archive("motion_noise", self.estimate_.motion_noise);
+  if (archive.since(18)) {
+    Starter::place_fields(archive, self.starter_);
+  } else if constexpr (Archive::kReads) {
+    self.starter_.forget_fix();
+    self.ordered_.set_ns = self.estimate_.now_ns;
+  }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

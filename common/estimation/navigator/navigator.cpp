@@ -25,6 +25,7 @@ void Navigator::finish(const ImuStep& step) {
     descent_.advance(*setup_, step, estimate_, alignment_);
     return;
   }
+  if (step.passes_tick(kJudged_ns)) starter_.see(*setup_, estimate_);
   if (setup_->velocity_model) model_.predict(*setup_, step, estimate_);
   if (constraints_.apply(*setup_, step, estimate_)) usage_.velocity_used_ns = estimate_.now_ns;
   // On a grid of its own: whatever comes late puts strides elsewhere, and the phase must not hang on that.
@@ -36,7 +37,10 @@ void Navigator::finish_gap(double gap_s) {
   estimate_.follow(*setup_);
   usage_.gap_ns = estimate_.now_ns;
   if (gap_s > setup_->config.imu.lost_gap_s) {
-    if (!descent_.resume(*setup_, gap_s, estimate_, alignment_)) lose_attitude();
+    if (!descent_.resume(*setup_, gap_s, estimate_, alignment_)) {
+      lose_attitude();
+      starter_.lose_sight();
+    }
   } else if (estimate_.navigating) {
     const GapSigma sigma(setup_->config.imu, gap_s);
     estimate_.widen(sigma);
@@ -108,7 +112,7 @@ void Navigator::realign() {
 
 Judgement Navigator::place(const Command& command) {
   if (!estimate_.navigating) {
-    ordered_.keep(*setup_, estimate_, command);
+    ordered_.keep(estimate_, command);
     Judgement done;
     done.kind = VerdictKind::used;
     return done;
@@ -186,6 +190,7 @@ void Navigator::lose_attitude() {
 
 void Navigator::lose_all() {
   lose_attitude();
+  starter_.lose_sight();
   const TimeNs now_ns = estimate_.now_ns;
   FilterTape* const tape = estimate_.filter.tape();
   estimate_ = Estimate(*setup_);
@@ -195,7 +200,8 @@ void Navigator::lose_all() {
 
 bool Navigator::waits_for_state() const {
   const StartMode mode = setup_->config.alignment.mode;
-  return mode == StartMode::given || (mode == StartMode::air_drop && !descent_.released());
+  return (mode == StartMode::given && !starter_.has_lost_sight()) ||
+         (mode == StartMode::air_drop && !descent_.released());
 }
 
 Vector3d Navigator::rpy_sigma_rad() const {

@@ -20,9 +20,11 @@ geo::Geodetic wanted_by(const Command& command, const Setup& setup, const Estima
 
 }  // namespace
 
-void OrderedPosition::keep(const Setup& setup, const Estimate& estimate, const Command& command) {
+void OrderedPosition::keep(const Estimate& estimate, const Command& command) {
   is_set = true;
-  position = wanted_by(command, setup, estimate);
+  set_ns = estimate.now_ns;
+  position = {command.latitude_rad, command.longitude_rad, 0.0};
+  depth_m = command.depth_m;
   sigma_m = command.sigma_m;
 }
 

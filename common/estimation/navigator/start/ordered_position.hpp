@@ -7,8 +7,11 @@ namespace fathom::estimation {
 
 /// Positions that a person orders: kept for a start, or held until they are confirmed.
 struct OrderedPosition {
-  bool is_set = false;  ///< for a start
-  geo::Geodetic position;
+  // For a start, of the point that is published.
+  bool is_set = false;
+  TimeNs set_ns = 0;
+  geo::Geodetic position;  ///< without altitude
+  double depth_m = kUnknown;
   double sigma_m = 0.0;
   TimeNs held_ns = 0;           ///< of one that waits for its confirmation; 0: none
   geo::Geodetic held_position;  ///< without altitude
@@ -21,12 +24,13 @@ struct OrderedPosition {
     Judgement judgement;
   };
   /// Before navigation: the position is kept for the start.
-  void keep(const Setup& setup, const Estimate& estimate, const Command& command);
+  void keep(const Estimate& estimate, const Command& command);
   /// While it navigates: `used` when the order may act, `rejected` when it is held.
   [[nodiscard]] Step propose(const Setup& setup, const Estimate& estimate, const Command& command);
 
   template <class Self, class Visit>
   static void for_each_instant(Self& self, Visit&& visit) {
+    visit(self.set_ns);
     visit(self.held_ns);
   }
 

@@ -51,6 +51,7 @@ void Starter::collect_gps(const Setup& setup, const Estimate& estimate, const Se
   const bool fast = fast_m_s > 0.0 && speed > fast_m_s && speed < kMostGpsSpeed_m_s;
   fast_fixes_ = fast ? fast_fixes_ + 1 : 0;
   gps_seen_ns_ = estimate.now_ns;
+  gps_lever_B_m_ = geo::vec(config.lever_B_m);
   const bool high = std::abs(gps.altitude_m) < kMostAltitude_m;  // false where it is unknown
   gps_position_ = {gps.latitude_rad, gps.longitude_rad, high ? gps.altitude_m : 0.0};
   gps_velocity_N_ = {v.x(), v.y(), std::isfinite(v.z()) ? v.z() : 0.0};
@@ -75,6 +76,11 @@ void Starter::forget() {
   fast_fixes_ = 0;
 }
 
+HeadingSource Starter::heading_source(const Setup& setup) const {
+  const HeadingSource source = setup.config.alignment.heading_source;
+  return source == HeadingSource::given && out_of_sight_ ? HeadingSource::automatic : source;
+}
+
 StartConditions Starter::conditions(const StartInputs& in) const {
   const AlignmentConfig& config = in.setup.config.alignment;
   StartConditions c;
@@ -83,8 +89,9 @@ StartConditions Starter::conditions(const StartInputs& in) const {
             window_.force_spread_m_s2() <= config.force_spread_m_s2;
   // Without a fresh speed there is nothing to say against rest.
   c.slow = !(in.estimate.since(gps_seen_ns_) <= kFreshFix_s && gps_speed_m_s_ > config.max_speed_m_s);
-  c.heading = config.heading_source == HeadingSource::given ||
-              config.heading_source == HeadingSource::gyrocompass || window_.headings() > 0;
+  const HeadingSource source = heading_source(in.setup);
+  c.heading =
+      source == HeadingSource::given || source == HeadingSource::gyrocompass || window_.headings() > 0;
   c.position = place(in).has_value();
   return c;
 }
@@ -139,12 +146,6 @@ StartHeading::Column start_error(const StateIndex& index, bool by_compass) {
   const int bias = index.of(Group::heading_bias);
   if (by_compass && bias >= 0) column[static_cast<std::size_t>(bias)] = -1.0;
   return column;
-}
-
-Vector3d lever_of_gps_B_m(const Setup& setup) {
-  for (const SensorConfig& one : setup.config.sensors)
-    if (one.kind == SourceKind::gps) return geo::vec(one.lever_B_m);
-  return Vector3d::Zero();
 }
 
 void begin_given(const Setup& setup, const InitialState& initial, TimeNs now_ns, Estimate& estimate) {

@@ -8,6 +8,7 @@
 #include "estimation/navigator/estimate.hpp"
 #include "estimation/navigator/measurement.hpp"
 #include "estimation/navigator/start/alignment_watch.hpp"
+#include "estimation/navigator/start/last_place.hpp"
 #include "estimation/navigator/start/ordered_position.hpp"
 
 namespace fathom::estimation {
@@ -31,12 +32,14 @@ struct StartConditions {
 
 /// Where a vehicle is that starts, and what says so.
 struct StartPlace {
-  enum class By : std::uint8_t { gps, order, configuration, acoustics };
+  enum class By : std::uint8_t { gps, order, configuration, acoustics, memory };
   By by = By::gps;
   geo::Geodetic position;  ///< of the point at `lever_B_m`
   Eigen::Vector3d lever_B_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_N_m = Eigen::Vector3d::Zero();
-  double age_s = 0.0;  ///< it was there so long ago; 0 where nobody says when
+  double age_s = 0.0;                    ///< by which it is to be carried on
+  double surface_altitude_m = kUnknown;  ///< unknown: it is on the surface
+  double surface_sigma_m = kUnknown;     ///< unknown: as configured
 };
 
 /// What a start is made from, beside what the starter itself remembers.
@@ -63,6 +66,14 @@ class Starter {
   }
   /// The attitude was lost: what was averaged belongs to another one.
   void forget();
+  /// GPS has to be heard anew.
+  void forget_fix() { gps_seen_ns_ = 0; }
+  /// Remembers where a vehicle is that navigates.
+  void see(const Setup& setup, const Estimate& estimate) { last_.see(setup, estimate); }
+  /// Nothing was measured for so long that the vehicle may have turned anywhere: it does not begin as the
+  /// configuration says any more.
+  void lose_sight() { out_of_sight_ = true; }
+  [[nodiscard]] bool has_lost_sight() const { return out_of_sight_; }
 
   [[nodiscard]] StartConditions conditions(const StartInputs& in) const;
   [[nodiscard]] const RestWindow& window() const { return window_; }
@@ -80,14 +91,18 @@ class Starter {
     visit(self.under_way_.heading_ns);
     visit(self.under_way_.dvl_ns);
     visit(self.under_way_.usbl_ns);
+    visit(self.under_way_.depth_ns);
+    visit(self.last_.seen_ns);
   }
 
   /// For archives: see fields/navigator.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
-  /// Those that came with version 5.
+  /// Those that came with version 5, and with version 18.
   template <class Archive, class Self>
   static void later_fields(Archive& archive, Self& self);
+  template <class Archive, class Self>
+  static void place_fields(Archive& archive, Self& self);
 
  private:
   void collect_gps(const Setup& setup, const Estimate& estimate, const SensorConfig& config,
@@ -95,6 +110,13 @@ class Starter {
 
   // starter_place.cpp
   [[nodiscard]] std::optional<StartPlace> place(const StartInputs& in) const;
+  [[nodiscard]] StartPlace ordered_place(const StartInputs& in) const;
+  [[nodiscard]] StartPlace given_place(const StartInputs& in) const;
+  [[nodiscard]] StartPlace acoustic_place(const StartInputs& in) const;
+  /// Where navigation or a fix saw it last, as far as it may have moved since.
+  [[nodiscard]] StartPlace remembered_place(const StartInputs& in) const;
+  /// Below the surface, by a depth that was just heard; none otherwise.
+  [[nodiscard]] std::optional<double> heard_depth_m(const Estimate& estimate) const;
   /// Begins with `state`, whose position is that of `place`, carried on to now.
   void begin(const StartInputs& in, const StartPlace& place, const FilterState& state,
              std::array<double, kMaxStates> sigma, Estimate& estimate) const;
@@ -127,6 +149,8 @@ class Starter {
   /// By `v_N_m_s` of GPS at `stamp_ns`.
   [[nodiscard]] Course course(const Setup& setup, TimeNs stamp_ns, const Eigen::Vector3d& v_N_m_s,
                               const Eigen::Vector3d& sigma_m_s, const Eigen::Vector3d& rate_B_rad_s) const;
+  /// As configured; a heading that was given is that of the first start.
+  [[nodiscard]] HeadingSource heading_source(const Setup& setup) const;
   [[nodiscard]] bool hears_compass(const StartInputs& in) const;
   [[nodiscard]] bool can_start_in_motion(const StartInputs& in) const;
   /// False, with nothing done, where what was measured gives no attitude.
@@ -144,19 +168,19 @@ class Starter {
   geo::Geodetic gps_position_;
   Eigen::Vector3d gps_velocity_N_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d gps_sigma_N_m_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gps_lever_B_m_ = Eigen::Vector3d::Zero();  ///< of the receiver that said so
   double gps_speed_m_s_ = kUnknown;
   static constexpr int kFastFixes = 2;
   int fast_fixes_ = 0;
   VelocityWindow velocities_;
   UnderWay under_way_;
+  LastPlace last_;
+  bool out_of_sight_ = false;
 };
 
 /// What a start is wrong by, per radian that its heading is (GATE-9); `by_compass`: that is wrong by the same
 /// from then on.
 [[nodiscard]] StartHeading::Column start_error(const StateIndex& index, bool by_compass);
-
-/// Of the first receiver; zero without one.
-[[nodiscard]] Eigen::Vector3d lever_of_gps_B_m(const Setup& setup);
 
 /// Starts at `now_ns` from a given state: where it was measured somewhere else than at the IMU, or earlier,
 /// it is carried there.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimation/aiding/dvl_velocity.hpp"
+#include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/heading.hpp"
 #include "estimation/aiding/usbl_station.hpp"
 #include "estimation/alignment/moving_start.hpp"
@@ -75,6 +76,10 @@ void Starter::collect_under_way(const Setup& setup, const Estimate& estimate, co
     under_way_.dvl_sigma_m_s = sigma_of(std::hypot(own, config.proportional_sigma * v_D.norm()),
                                         dvl->sigma_m_s, config.use_sample_sigma);
     under_way_.dvl_ns = estimate.now_ns;
+  } else if (const auto* depth = std::get_if<DepthSample>(&measurement.sample)) {
+    if (!(std::abs(depth->depth_m) < kMostAltitude_m)) return;
+    under_way_.depth_m = depth->depth_m;
+    under_way_.depth_ns = estimate.now_ns;
   } else if (const auto* usbl = std::get_if<UsblSample>(&measurement.sample)) {
     const double surface_m = setup.config.states.surface_altitude_m;
     const auto place = usbl_place(config, *usbl, surface_m);
@@ -126,7 +131,7 @@ double Starter::course_sigma_rad(const StartInputs& in) const {
 }
 
 bool Starter::hears_compass(const StartInputs& in) const {
-  const HeadingSource source = in.setup.config.alignment.heading_source;
+  const HeadingSource source = heading_source(in.setup);
   return source != HeadingSource::given && source != HeadingSource::gyrocompass &&
          in.estimate.since(under_way_.heading_ns) <= kFreshVelocity_s;
 }
@@ -159,7 +164,7 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   MovingStartInputs inputs;
   inputs.gravity_N_m_s2 =
       earth.gravity_N() - geo::cross(2.0 * earth.earth_rate_N + earth.transport_rate_N(v), v);
-  inputs.lever_B_m = lever_of_gps_B_m(setup);
+  inputs.lever_B_m = gps_lever_B_m_;
   inputs.heading_rad = heading_rad;
   inputs.heading_sigma_rad = heading_sigma_rad;
   bool by_dvl = false;

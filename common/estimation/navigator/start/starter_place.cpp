@@ -1,4 +1,4 @@
-// Where a start is: by GPS, an order or the configuration, else by acoustic fixes.
+// Where a start is: by GPS, an order or the configuration, by acoustic fixes, or where it was seen last.
 #include <algorithm>
 #include <cmath>
 
@@ -18,31 +18,97 @@ constexpr double kSameFix_sigmas = 3.0;
 }  // namespace
 
 std::optional<StartPlace> Starter::place(const StartInputs& in) const {
-  using By = StartPlace::By;
+  const double gps_age_s = in.estimate.since(gps_seen_ns_);
+  if (gps_age_s <= kFreshFix_s)
+    return StartPlace{StartPlace::By::gps, gps_position_, gps_lever_B_m_, gps_sigma_N_m_, gps_age_s};
+  if (in.ordered.is_set) return ordered_place(in);
+  const bool seen = gps_seen_ns_ != 0 || last_.seen_ns != 0;
+  if (in.setup.config.alignment.position_given && !seen && !out_of_sight_) return given_place(in);
+  if (under_way_.usbl_agrees && in.estimate.since(under_way_.usbl_ns) <= kFreshFix_s)
+    return acoustic_place(in);
+  if (seen) return remembered_place(in);
+  return std::nullopt;
+}
+
+StartPlace Starter::ordered_place(const StartInputs& in) const {
   const EngineConfig& config = in.setup.config;
-  const AlignmentConfig& alignment = config.alignment;
-  const Vector3d output_lever_B_m = geo::vec(config.output_lever_B_m);
-  if (const double age_s = in.estimate.since(gps_seen_ns_); age_s <= kFreshFix_s)
-    return StartPlace{By::gps, gps_position_, lever_of_gps_B_m(in.setup), gps_sigma_N_m_, age_s};
-  if (in.ordered.is_set)
-    return StartPlace{By::order, in.ordered.position, output_lever_B_m,
-                      Vector3d::Constant(in.ordered.sigma_m)};
-  if (alignment.position_given)
-    return StartPlace{
-        By::configuration,
-        {alignment.given_latitude_rad, alignment.given_longitude_rad, alignment.given_altitude_m},
-        output_lever_B_m,
-        Vector3d::Constant(alignment.position_sigma_m)};
-  const double age_s = in.estimate.since(under_way_.usbl_ns);
-  if (!under_way_.usbl_agrees || !(age_s <= kFreshFix_s)) return std::nullopt;
+  const OrderedPosition& ordered = in.ordered;
+  const bool navigated = last_.seen_ns != 0;
+  const double drifted_m = config.alignment.max_speed_m_s * in.estimate.since(ordered.set_ns);
+  StartPlace out;
+  out.by = StartPlace::By::order;
+  out.position = ordered.position;
+  out.lever_B_m = geo::vec(config.output_lever_B_m);
+  out.sigma_N_m.setConstant(std::hypot(ordered.sigma_m, drifted_m));
+  out.surface_altitude_m = navigated ? last_.surface_altitude_m : config.states.surface_altitude_m;
+  out.surface_sigma_m = navigated ? last_.surface_sigma_m : config.states.surface_altitude_sigma_m;
+  const auto heard_m = heard_depth_m(in.estimate);
+  if (heard_m || known(ordered.depth_m) || !navigated) {
+    out.position.altitude_m =
+        out.surface_altitude_m - (known(ordered.depth_m) ? ordered.depth_m : heard_m.value_or(0.0));
+    out.sigma_N_m.z() = std::hypot(out.sigma_N_m.z(), out.surface_sigma_m);
+  } else {
+    const StartPlace seen = remembered_place(in);
+    out.position.altitude_m = seen.position.altitude_m;
+    out.sigma_N_m.z() = seen.sigma_N_m.z();
+  }
+  return out;
+}
+
+StartPlace Starter::given_place(const StartInputs& in) const {
+  const AlignmentConfig& config = in.setup.config.alignment;
+  StartPlace out;
+  out.by = StartPlace::By::configuration;
+  out.position = {config.given_latitude_rad, config.given_longitude_rad, config.given_altitude_m};
+  out.lever_B_m = geo::vec(in.setup.config.output_lever_B_m);
+  out.sigma_N_m.setConstant(config.position_sigma_m);
+  if (const auto depth_m = heard_depth_m(in.estimate))
+    out.surface_altitude_m = config.given_altitude_m + *depth_m;
+  return out;
+}
+
+StartPlace Starter::acoustic_place(const StartInputs& in) const {
   // (ALN-21)
-  const double sigma_m = std::max(under_way_.usbl_sigma_m, alignment.position_sigma_m);
-  return StartPlace{By::acoustics,
-                    {under_way_.usbl_latitude_rad, under_way_.usbl_longitude_rad,
-                     config.states.surface_altitude_m - under_way_.usbl_depth_m},
-                    under_way_.usbl_lever_B_m,
-                    Vector3d::Constant(sigma_m),
-                    age_s};
+  const EngineConfig& config = in.setup.config;
+  StartPlace out;
+  out.by = StartPlace::By::acoustics;
+  out.surface_altitude_m = config.states.surface_altitude_m;
+  out.position = {under_way_.usbl_latitude_rad, under_way_.usbl_longitude_rad,
+                  out.surface_altitude_m - under_way_.usbl_depth_m};
+  out.lever_B_m = under_way_.usbl_lever_B_m;
+  out.sigma_N_m.setConstant(std::max(under_way_.usbl_sigma_m, config.alignment.position_sigma_m));
+  out.age_s = in.estimate.since(under_way_.usbl_ns);
+  return out;
+}
+
+StartPlace Starter::remembered_place(const StartInputs& in) const {
+  // (ALN-22)
+  const bool by_gps = gps_seen_ns_ > last_.seen_ns;
+  const double slow_m_s = in.setup.config.alignment.max_speed_m_s;
+  StartPlace out;
+  out.by = StartPlace::By::memory;
+  double speed_m_s = slow_m_s;
+  if (by_gps) {
+    out.position = gps_position_;
+    out.lever_B_m = gps_lever_B_m_;
+    out.sigma_N_m = gps_sigma_N_m_;
+    if (known(gps_speed_m_s_)) speed_m_s = std::max(slow_m_s, gps_speed_m_s_);
+    out.surface_altitude_m = gps_position_.altitude_m;
+  } else {
+    out.position = last_.position;
+    out.sigma_N_m = last_.sigma_N_m;
+    speed_m_s = std::max(slow_m_s, last_.speed_m_s);
+    out.surface_altitude_m = last_.surface_altitude_m;
+    out.surface_sigma_m = last_.surface_sigma_m;
+  }
+  const double moved_m = speed_m_s * in.estimate.since(by_gps ? gps_seen_ns_ : last_.seen_ns);
+  for (int i = 0; i < 3; ++i) out.sigma_N_m(i) = std::hypot(out.sigma_N_m(i), moved_m);
+  return out;
+}
+
+std::optional<double> Starter::heard_depth_m(const Estimate& estimate) const {
+  if (!(estimate.since(under_way_.depth_ns) <= kFreshFix_s)) return std::nullopt;
+  return under_way_.depth_m;
 }
 
 void Starter::begin(const StartInputs& in, const StartPlace& place, const FilterState& state,
@@ -61,9 +127,9 @@ void Starter::begin(const StartInputs& in, const StartPlace& place, const Filter
   for (int i = 0; i < 3; ++i) sigma[static_cast<std::size_t>(i)] = position_sigma(i);
   const int surface = setup.index.of(Group::surface_altitude);
   if (surface >= 0) {
-    // On the surface, unless an acoustic fix has just said how deep below it.
     start.x[static_cast<std::size_t>(surface)] =
-        from_usbl ? setup.config.states.surface_altitude_m : start.nav.position.altitude_m;
+        known(place.surface_altitude_m) ? place.surface_altitude_m : start.nav.position.altitude_m;
+    if (known(place.surface_sigma_m)) sigma[static_cast<std::size_t>(surface)] = place.surface_sigma_m;
   }
   estimate.begin(start, sigma);
   if (from_usbl) correlate_usbl(setup, under_way_.usbl_turned_N_m, estimate.filter);

@@ -45,7 +45,8 @@ std::optional<Starter::Heading> Starter::heading_at_rest(const Setup& setup, con
     if (!gyro_good) return std::nullopt;
     return Heading{gyrocompass(tilt, rest.mean_rate_B_rad_s), gyro_sigma, true};  // (ALN-3)
   };
-  switch (config.heading_source) {
+  const HeadingSource source = heading_source(setup);
+  switch (source) {
     case HeadingSource::given:
       return Heading{config.given_heading_rad, config.given_heading_sigma_rad};
     case HeadingSource::gyrocompass:
@@ -57,7 +58,7 @@ std::optional<Starter::Heading> Starter::heading_at_rest(const Setup& setup, con
   }
   if (window_.headings() > 0)
     return Heading{window_.heading_start_rad(), window_.heading_sigma_rad(), false, !window_.two_antenna()};
-  return config.heading_source == HeadingSource::automatic ? from_gyro() : std::nullopt;
+  return source == HeadingSource::automatic ? from_gyro() : std::nullopt;
 }
 
 bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
