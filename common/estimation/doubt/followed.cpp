@@ -37,16 +37,17 @@ Evidence<N>::Evidence(const FollowedErrors<N>& errors, const Observation& observ
 }
 
 template <std::size_t N>
-void Evidence<N>::add_considered(std::size_t j, const InnovationStatistics& statistics,
-                                 const ErrorFilter& filter, double* sums) const {
+template <std::size_t M>
+void Considered<N>::add(std::size_t i, const Evidence<M>& evidence, std::size_t j,
+                        const InnovationStatistics& statistics, const ErrorFilter& filter) {
   for (int c = filter.estimated(); c < filter.size(); ++c) {
     const double variance = filter(c, c);
     if (!(variance > 0.0)) continue;
     double shared = 0.0;
-    for (int i = 0; i < statistics.rows; ++i)
-      shared += weighed(i, static_cast<Eigen::Index>(j)) *
-                statistics.ph[static_cast<std::size_t>(i * kMaxStates + c)];
-    sums[c] += shared / std::sqrt(variance);
+    for (int row = 0; row < statistics.rows; ++row)
+      shared += evidence.weighed(row, static_cast<Eigen::Index>(j)) *
+                statistics.ph[static_cast<std::size_t>(row * kMaxStates + c)];
+    sums[i * kMaxStates + static_cast<std::size_t>(c)] += shared / std::sqrt(variance);
   }
 }
 
@@ -97,5 +98,10 @@ template struct Evidence<6>;
 template void follow<6>(const NavTransition&, const ProcessNoise&, FollowedErrors<6>&);
 template void follow<6>(const Evidence<6>&, const InnovationStatistics&, int, FollowedErrors<6>&);
 template void follow<6>(const Carry&, FollowedErrors<6>&);
+
+template void Considered<1>::add(std::size_t, const Evidence<1>&, std::size_t, const InnovationStatistics&,
+                                 const ErrorFilter&);
+template void Considered<3>::add(std::size_t, const Evidence<6>&, std::size_t, const InnovationStatistics&,
+                                 const ErrorFilter&);
 
 }  // namespace fathom::estimation

@@ -24,12 +24,27 @@ struct Evidence {
       weighed;  ///< S^-1 H u
   std::array<double, N> gradient{};
   std::array<double, N> curvature{};
+};
 
-  /// Adds to `sums` what one sigma of each error that the filter considers and does not estimate makes of
-  /// gradient `j`. Such an error is the same in all measurements, so that it does not average out: the
-  /// variance of a sum of gradients is that of its curvature and the squares of these sums.
-  void add_considered(std::size_t j, const InnovationStatistics& statistics, const ErrorFilter& filter,
-                      double* sums) const;
+/// What one sigma of each error that the filter considers and does not estimate makes of `N` sums of
+/// gradients. Such an error is the same in all measurements, so that it does not average out.
+template <std::size_t N>
+struct Considered {
+  std::array<double, N* static_cast<std::size_t>(kMaxStates)> sums{};
+
+  /// To sum `i` has been added the gradient `j` of `evidence`.
+  template <std::size_t M>
+  void add(std::size_t i, const Evidence<M>& evidence, std::size_t j, const InnovationStatistics& statistics,
+           const ErrorFilter& filter);
+  void fade(double kept) {
+    for (double& one : sums) one *= kept;
+  }
+  /// Of sum `i`, which would be `own` without them: for gradients their curvature.
+  [[nodiscard]] double variance(std::size_t i, double own) const {
+    double out = own;
+    for (std::size_t c = i * kMaxStates; c < (i + 1) * kMaxStates; ++c) out += sums[c] * sums[c];
+    return out;
+  }
 };
 
 // What the filter does, in its order.

@@ -53,19 +53,13 @@ void MotionNoise::updated(const Observation& observation, const InnovationStatis
     Block& block = blocks_[j / kAxes];
     block.gradient[j % kAxes] += evidence.gradient[j];
     block.curvature[j % kAxes] += evidence.curvature[j];
-    evidence.add_considered(j, statistics, filter, block.considered.data() + j % kAxes * kMaxStates);
+    block.considered.add(j % kAxes, evidence, j, statistics, filter);
   }
   follow(evidence, statistics, estimated_, now_);
 }
 
 void MotionNoise::carried(const Carry& carry) {
   follow<kErrors>(carry, now_);
-}
-
-double MotionNoise::Block::variance(std::size_t axis) const {
-  double out = curvature[axis];
-  for (std::size_t c = 0; c < kMaxStates; ++c) out += std::pow(considered[axis * kMaxStates + c], 2);
-  return out;
 }
 
 double MotionNoise::share(std::size_t kind, std::size_t axis, double said) const {

@@ -76,11 +76,12 @@ class MotionNoise {
     double age_s = 0.0;
     std::array<double, kAxes> gradient{};
     std::array<double, kAxes> curvature{};
-    /// What one sigma of each error that is considered and not estimated adds to each gradient.
-    std::array<double, kAxes * kMaxStates> considered{};
+    Considered<kAxes> considered;  ///< in each gradient
 
     /// Of the gradient of an axis, where the noise is as is said.
-    [[nodiscard]] double variance(std::size_t axis) const;
+    [[nodiscard]] double variance(std::size_t axis) const {
+      return considered.variance(axis, curvature[axis]);
+    }
     template <class Archive, class Self>
     static void fields(Archive& archive, Self& self);
   };

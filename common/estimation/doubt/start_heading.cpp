@@ -30,7 +30,7 @@ void StartHeading::propagated(const NavTransition& step, const ProcessNoise& noi
   const double kept = std::exp(-step.dt_s() / kMemory_s);
   gradient_ *= kept;
   curvature_ *= kept;
-  for (double& one : considered_) one *= kept;
+  considered_.fade(kept);
   for (double& one : scatter_.sums) one *= kept * kept;
   together_s_ += step.dt_s();
   if (together_s_ >= kTogether_s) {
@@ -49,14 +49,13 @@ void StartHeading::add(const Evidence<1>& evidence, const InnovationStatistics& 
   if (!(std::abs(turn_rad_s) < kStraight_rad_s)) return;
   together_[0] += evidence.gradient[0];
   together_[1] += evidence.curvature[0];
-  evidence.add_considered(0, statistics, filter, considered_.data());
+  considered_.add(0, evidence, 0, statistics, filter);
 }
 
 double StartHeading::variance_rad2() const {
   // By how the measurements scatter about what they say together, too: they may be worse than their sigmas.
-  double shared = 0.0;
-  for (const double one : considered_) shared += one * one;
-  return (std::max(1.0, scatter_.about(error_rad()) / curvature_) + shared / curvature_) / curvature_;
+  const double scatter = std::max(1.0, scatter_.about(error_rad()) / curvature_);
+  return (scatter + considered_.variance(0, 0.0) / curvature_) / curvature_;
 }
 
 void StartHeading::updated(const Observation& observation, const InnovationStatistics& statistics,

@@ -70,10 +70,8 @@ class StartHeading {
   double curvature_ = 0.0;            ///< and how fast that falls
   std::array<double, 2> together_{};  ///< gradient and curvature of the last measurements
   double together_s_ = 0.0;
-  Scatter scatter_;  ///< of those that were taken together
-  /// What one sigma of each error that is considered and not estimated adds to the gradient: it is the same
-  /// in all measurements and does not average out.
-  std::array<double, kMaxStates> considered_{};
+  Scatter scatter_;           ///< of those that were taken together
+  Considered<1> considered_;  ///< in the gradient
   Column column_{};
 };
 

@@ -153,7 +153,7 @@ void StartHeading::fields(Archive& archive, Self& self) {
   archive("together_s", self.together_s_, fathom::archive::within(0.0, 10.0));
   archive("scatter", self.scatter_.sums, fathom::archive::within(-kMost * kMost, kMost * kMost));
   archive("column", self.column_, fathom::archive::within(-kMost, kMost));
-  if (archive.since(17)) archive("considered", self.considered_, fathom::archive::within(-kMost, kMost));
+  if (archive.since(17)) archive("considered", self.considered_.sums, fathom::archive::within(-kMost, kMost));
 }
 
 template <class Archive, class Self>
@@ -193,7 +193,7 @@ void MotionNoise::Block::fields(Archive& archive, Self& self) {
   archive("age_s", self.age_s, fathom::archive::at_least_zero());
   archive("gradient", self.gradient, fathom::archive::finite());
   archive("curvature", self.curvature, fathom::archive::at_least_zero());
-  if (archive.since(17)) archive("considered", self.considered, fathom::archive::finite());
+  if (archive.since(17)) archive("considered", self.considered.sums, fathom::archive::finite());
 }
 
 template <class Archive, class Self>
