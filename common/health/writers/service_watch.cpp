@@ -74,9 +74,9 @@ bool ServiceWatch::all_heard() const {
 
 void ServiceWatch::report(AlarmBook& book, const Instant& now) {
   for (Service& service : services_) {
+    report_unwell(service, book, now);
     if (service.expected) {
       report_missing(service, book, now);
-      report_unwell(service, book, now);
       if (service.restarted) {
         book.event({.key = alarm_key("service_restarted", service.what.name.view()),
                     .severity = Severity::notice,

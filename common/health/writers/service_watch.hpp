@@ -22,7 +22,8 @@ struct ServiceWatchConfig {
   double degraded_hold_s = 5.0;  ///< how long a service must call itself unwell before that is an alarm
 };
 
-/// A watch over every service by its life signs. Unexpected services are listed too, without alarms.
+/// A watch over every service by its life signs. One that nobody expects may come and go, but what it says of
+/// itself is an alarm as well.
 class ServiceWatch {
  public:
   static constexpr std::size_t kMaxServices = 32;
@@ -34,7 +35,8 @@ class ServiceWatch {
   void evaluate(const Instant& now);
   /// Whether each expected service has been heard at least once.
   [[nodiscard]] bool all_heard() const;
-  /// "service_missing:<name>", "service_unwell:<name>", and the momentary notice "service_restarted:<name>".
+  /// "service_unwell:<name>" of every service; of those expected "service_missing:<name>", and the momentary
+  /// notice "service_restarted:<name>".
   void report(AlarmBook& book, const Instant& now);
   [[nodiscard]] std::vector<WatchedItem> items(const Instant& now) const;
 

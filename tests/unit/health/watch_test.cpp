@@ -182,6 +182,34 @@ TEST(ServiceWatch, DegradedOnlyWhenItLasts) {
   EXPECT_NE(book.find("service_unwell:dvl_bridge")->text.find("the source is silent"), std::string::npos);
 }
 
+TEST(ServiceWatch, WhatAServiceSaysOfItselfIsAnAlarmThoughNobodyExpectsIt) {
+  ServiceWatch watch({{"fusion"}}, {}, 15.0, at(0.0));
+  AlarmBook book;
+  ServiceStatus status = life_sign("recorder", 0, ServiceState::degraded);
+  status.text = "nothing is recorded: No space left on device";
+  const auto step = [&](int i, bool heard) {
+    watch.add(life_sign("fusion", i), at(i));
+    if (heard) watch.add(status, at(i));
+    watch.evaluate(at(i));
+    watch.report(book, at(i));
+  };
+  for (int i = 0; i < 10; ++i) step(i, true);
+  ASSERT_TRUE(alarmed(book, "service_unwell:recorder"));
+  EXPECT_NE(book.find("service_unwell:recorder")->text.find("No space left on device"), std::string::npos);
+  status.state = ServiceState::healthy;
+  for (int i = 10; i < 15; ++i) step(i, true);
+  EXPECT_FALSE(alarmed(book, "service_unwell:recorder"));
+  status.state = ServiceState::degraded;
+  for (int i = 15; i < 25; ++i) step(i, true);
+  ASSERT_TRUE(alarmed(book, "service_unwell:recorder"));
+  for (int i = 25; i < 35; ++i) step(i, false);
+  EXPECT_FALSE(alarmed(book, "service_unwell:recorder")) << "it is gone, and nobody expects it";
+  EXPECT_EQ(book.find("service_missing:recorder"), nullptr);
+  status.pid += 1;
+  step(35, true);
+  EXPECT_EQ(book.find("service_restarted:recorder"), nullptr);
+}
+
 TEST(ServiceWatch, AnAlarmThatEndsKeepsWhatBeganIt) {
   ServiceWatch watch({{"gps_bridge"}}, {}, 15.0, at(0.0));
   AlarmBook book;
