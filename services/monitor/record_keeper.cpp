@@ -1,5 +1,6 @@
 #include "monitor/record_keeper.hpp"
 
+#include <chrono>
 #include <utility>
 
 #include <unistd.h>
@@ -10,10 +11,8 @@
 namespace fathom::monitor {
 namespace {
 
-using std::chrono::steady_clock;
-
-constexpr std::chrono::seconds kRetry{10};  // of a journal that could not be opened
-constexpr std::chrono::seconds kHangs{5};   // a card that tidies itself up takes a second or two
+constexpr DurationNs kRetry_ns = 10 * kNsPerSecond;  // of a journal that could not be opened
+constexpr DurationNs kHangs_ns = 5 * kNsPerSecond;   // a card that tidies itself up takes a second or two
 
 }  // namespace
 
@@ -40,10 +39,15 @@ std::vector<Alarm> RecordKeeper::take_latched() {
   return std::exchange(latched_, {});
 }
 
+bool RecordKeeper::passed(DurationNs host_ns, TimeNs since_ns) const {
+  return static_cast<double>(clock_.monotonic_ns() - since_ns) >=
+         static_cast<double>(host_ns) * clock_.rate();
+}
+
 RecordKeeper::State RecordKeeper::state() const {
   const std::lock_guard lock(mutex_);
   State out = state_;
-  if (waits_since_ && steady_clock::now() - *waits_since_ > kHangs)
+  if (waits_since_ns_ && passed(kHangs_ns, *waits_since_ns_))
     out.trouble = "journal " + path_ + ": the disk does not answer; " + std::to_string(work_.lines.size()) +
                   " lines wait, and " + std::to_string(state_.dropped) + " were dropped";
   return out;
@@ -83,14 +87,15 @@ void RecordKeeper::run() {
     Work work;
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, kRetry, [this] { return stop_ || !work_.lines.empty() || work_.books; });
+      wake_.wait_for(lock, std::chrono::nanoseconds(kRetry_ns),
+                     [this] { return stop_ || !work_.lines.empty() || work_.books; });
       last = stop_;
       work = std::exchange(work_, {});
-      waits_since_ = steady_clock::now();
+      waits_since_ns_ = clock_.monotonic_ns();
     }
     write(work);
     const std::lock_guard lock(mutex_);
-    waits_since_.reset();
+    waits_since_ns_.reset();
   }
   // Nobody else is left.
   if (finished_ && journal_.is_open())
@@ -98,7 +103,7 @@ void RecordKeeper::run() {
 }
 
 void RecordKeeper::write(const Work& work) {
-  if (!journal_.is_open() && steady_clock::now() - tried_ >= kRetry) open();
+  if (!journal_.is_open() && passed(kRetry_ns, tried_ns_)) open();
   for (const Line& line : work.lines) {
     journal_.append(line.transition, line.utc_ns);
     answered();
@@ -116,7 +121,7 @@ void RecordKeeper::write(const Work& work) {
 
 void RecordKeeper::open() {
   if (path_.empty()) return;
-  tried_ = steady_clock::now();
+  tried_ns_ = clock_.monotonic_ns();
   const TimeNs utc_ns = clock_.utc_ns();
   if (journal_.open(utc_ns)) {
     const auto repaired = journal_.counters().repaired_bytes;
@@ -140,7 +145,7 @@ void RecordKeeper::answered() {
   const std::lock_guard lock(mutex_);
   state_.journal = journal_.counters();
   state_.trouble = journal_.error();
-  if (waits_since_) waits_since_ = steady_clock::now();
+  if (waits_since_ns_) waits_since_ns_ = clock_.monotonic_ns();
 }
 
 void RecordKeeper::complain(const std::string& trouble, std::string& known) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -65,6 +64,9 @@ class RecordKeeper {
   void run();
   void write(const Work& work);
   void open();
+  /// Whether so many seconds of the host have passed since then: a disk is no faster on a vehicle whose clock
+  /// runs faster.
+  [[nodiscard]] bool passed(DurationNs host_ns, TimeNs since_ns) const;
   /// The disk has answered: the journal's counters and trouble are as they are now.
   void answered();
   void complain(const std::string& trouble, std::string& known);
@@ -80,7 +82,7 @@ class RecordKeeper {
   OutageFile outages_;
   std::string journal_trouble_;
   std::string outages_trouble_;
-  std::chrono::steady_clock::time_point tried_;
+  TimeNs tried_ns_ = 0;  ///< of the clock that no step moves, as waits_since_ns_ is
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;
@@ -89,8 +91,8 @@ class RecordKeeper {
   Work work_;
   std::vector<Alarm> latched_;
   State state_;
-  std::optional<std::chrono::steady_clock::time_point> waits_since_;  ///< for the disk
-  std::thread thread_;                                                ///< last: it uses everything above
+  std::optional<TimeNs> waits_since_ns_;  ///< for the disk
+  std::thread thread_;                    ///< last: it uses everything above
 };
 
 }  // namespace fathom::monitor
