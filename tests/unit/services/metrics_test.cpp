@@ -1,17 +1,20 @@
 #include "monitor/metrics.hpp"
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <prometheus/text_serializer.h>
 #include <sys/socket.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "support/free_port.hpp"
@@ -74,14 +77,24 @@ bool promtool_is_there() {
   return std::system("command -v promtool >/dev/null 2>&1") == 0;
 }
 
-std::string get(int port, const std::string& path) {
+/// A connection to this host; negative where nobody listens. Nobody waits for longer than a minute on it.
+int connected(int port) {
   const int connection = socket(AF_INET, SOCK_STREAM, 0);
+  const timeval patience{60, 0};
+  (void)setsockopt(connection, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (connect(connection, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) return connection;
+  close(connection);
+  return -1;
+}
+
+std::string get(int port, const std::string& path) {
+  const int connection = connected(port);
   std::string answer;
-  if (connect(connection, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0) {
+  if (connection >= 0) {
     const std::string request = "GET " + path + " HTTP/1.0\r\nHost: localhost\r\n\r\n";
     (void)send(connection, request.data(), request.size(), 0);
     char buffer[4096];
@@ -140,6 +153,27 @@ TEST(MetricsServer, AnswersScrapesThatPromtoolAccepts) {
   std::string said;
   EXPECT_EQ(promtool(answer.substr(answer.find("\r\n\r\n") + 4), said), 0) << said;
   EXPECT_EQ(said, "");
+}
+
+TEST(MetricsServer, ConnectionsThatSayNothingHoldUpNoScrape) {
+  MetricsServer server([] { return snapshot(); });
+  const int port = test::free_port(SOCK_STREAM);
+  ASSERT_EQ(server.start("127.0.0.1", port), "");
+  std::vector<int> idle;
+  for (int i = 0; i < 60; ++i) {
+    idle.push_back(connected(port));
+    ASSERT_GE(idle.back(), 0);
+    if (i % 2 == 0) continue;
+    ASSERT_EQ(send(idle.back(), "GET /met", 8, 0), 8) << "half a request is none";
+  }
+  ASSERT_TRUE(get(port, "/metrics").starts_with("HTTP/1.1 200")) << "no answer within a minute";
+  for (const int one : idle) {
+    char byte = 0;
+    errno = 0;
+    while (recv(one, &byte, 1, 0) > 0) continue;  // of the half requests one is told what it lacks
+    ASSERT_NE(errno, EAGAIN) << "it was not let go within a minute";
+    close(one);
+  }
 }
 
 TEST(MetricsServer, ATakenPortIsSaidAndCanBeTriedAgain) {
