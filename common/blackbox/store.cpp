@@ -132,9 +132,13 @@ void Store::enclose_again(TimeNs now_ns) {
       continue;
     }
     Enclosure one = enclosures_.at(due->first);
-    due = again_ns_.erase(due);
     const auto data = read_enclosed(one.path);
-    if (!data) continue;
+    if (!data) {  // it may come: a fusion that has heard no inertial unit has no state yet
+      due->second = now_ns + kSettled_ns;
+      ++due;
+      continue;
+    }
+    due = again_ns_.erase(due);
     one.data = *data;
     one.created_ns = now_ns;
     enclose(one);

@@ -131,6 +131,23 @@ TEST(Store, RepeatsLatchedSamplesAndEnclosuresInEveryFile) {
   EXPECT_EQ(store.counts().samples, 8U);
 }
 
+TEST(Store, EnclosesAFileThatChangesOnceItIsThere) {
+  Disk disk;
+  const test::TemporaryFolder folder;
+  const std::string checkpoint = folder / "checkpoint";
+  Store store(in("/nowhere"), disk.create(), disk.say());
+  add_origins(store);
+  store.add(blackbox::Enclosure{"checkpoint", "application/octet-stream", kBegin, {}, checkpoint});
+  store.add(sample(0, 0.3, 1));
+  store.settle(kBegin + 4 * kNsPerSecond);
+  std::ofstream(checkpoint) << "state";
+  for (int s = 5; s < 20; ++s) store.settle(kBegin + s * kNsPerSecond);
+  store.finish();
+  const Read all = read(disk.files.begin()->second);
+  ASSERT_EQ(all.contents.attachments.size(), 1U) << "once";
+  EXPECT_EQ(all.contents.attachments.front().name, "checkpoint");
+}
+
 TEST(Store, SplitsBySize) {
   Disk disk;
   Options options = in("/nowhere");
