@@ -16,6 +16,7 @@ constexpr std::size_t kMostSamples = 1U << 16U;     // that wait for the list th
 constexpr std::size_t kMostOrders = 4096;
 constexpr std::size_t kMostWaiting = 1U << 20U;  // entries
 constexpr std::size_t kMostKept = 1U << 15U;     // states and verdicts that wait for their like
+constexpr std::size_t kMostNamed = 3;            // samples that are lacking
 constexpr std::size_t kPatience = 20'000;        // samples, while a state is waited for
 /// Lists that come after a verdict: one of them names what it follows from, or nothing does.
 constexpr std::size_t kSettled = 5;
@@ -34,6 +35,7 @@ Proof::Proof(const config::FusionConfig& config, StatePool& pool, Begin begin)
     : engine_(config::engine_config(config)),
       pool_(pool),
       checkpoints_(std::move(begin.checkpoints)),
+      outside_(std::move(begin.outside)),
       under_way_(begin.afresh),
       next_(begin.entry),
       begin_ns_(kBeginning),
@@ -98,11 +100,24 @@ bool Proof::go_on() {
   const std::uint64_t before = next_;
   while (difference_.empty() && !entries_.empty() && entries_.begin()->first == next_) {
     const IntakeEntry& entry = entries_.begin()->second;
-    if (!(under_way_ || entry.kind == IntakeKind::state ? give(entry) : look_for_begin(entry))) break;
+    if (is_lacking(entry))
+      pass(entry);
+    else if (!(under_way_ || entry.kind == IntakeKind::state ? give(entry) : look_for_begin(entry)))
+      break;
     entries_.erase(entries_.begin());
     ++next_;
   }
   return next_ != before;
+}
+
+bool Proof::is_lacking(const IntakeEntry& entry) const {
+  return entry.kind == IntakeKind::sample && outside_ && outside_(entry) && find(entry) == nullptr;
+}
+
+void Proof::pass(const IntakeEntry& entry) {
+  interrupt();
+  whole_from_ns_.reset();
+  if (++lacking_count_ <= kMostNamed) lacking_.push_back(in_words(entry));
 }
 
 bool Proof::give(const IntakeEntry& entry) {
@@ -190,21 +205,29 @@ bool Proof::give_up_waiting() {
   return true;
 }
 
-void Proof::lose(const std::string& why) {
+/// What was under way ends here.
+void Proof::interrupt() {
   if (under_way_) done_.emplace_back(begin_ns_, engine_.nav_state().header.stamp_ns);
   under_way_ = false;
+}
+
+void Proof::lose(const std::string& why) {
+  interrupt();
   if (missing_.empty()) missing_ = why;
 }
 
 void Proof::begin_from(TimeNs stamp_ns, std::span<const std::byte> state) {
-  if (under_way_) done_.emplace_back(begin_ns_, engine_.nav_state().header.stamp_ns);
+  interrupt();
   if (const std::string why = engine_.restore(state); !why.empty()) {
-    under_way_ = false;
     return differ("the state of " + to_iso8601(stamp_ns, 3) +
                   " is none of an engine of this configuration: " + why);
   }
   under_way_ = true;
   begin_ns_ = stamp_ns;
+  if (lacking_count_ > 0 && !whole_from_ns_) {
+    whole_from_ns_ = stamp_ns;
+    states_before_ = states_;
+  }
   nav_states_.renew();
   judgements_.renew();
   duplicates_until_ns_.reset();
@@ -262,14 +285,15 @@ void Proof::finish() {
   }
   // What the engine said last may have been said after the recording's end, and the other way round what was
   // recorded last may follow from what the list names no more.
-  if (under_way_) done_.emplace_back(begin_ns_, engine_.nav_state().header.stamp_ns);
+  interrupt();
   const auto state = nav_states_.unfounded([&](const NavState& one, std::size_t /*when*/) {
     return std::any_of(done_.begin(), done_.end(), [&](const auto& part) {
       return one.header.stamp_ns > part.first && one.header.stamp_ns <= part.second;
     });
   });
   if (state) return differ(cli::in_words(*state) + " follows from nothing that fusion took");
-  if (from_ns_ || !missing_.empty()) return;  // a verdict's time is not that of its stamp
+  if (from_ns_ || lacking_count_ > 0 || !missing_.empty())
+    return;  // a verdict's time is not that of its stamp
   const auto verdict = judgements_.unfounded(
       [&](const Verdict&, std::size_t when) { return ended_ || records_ >= when + kSettled; });
   if (verdict) differ(cli::in_words(*verdict) + " follows from nothing that fusion took");

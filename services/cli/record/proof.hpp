@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -34,6 +35,9 @@ class Proof {
     /// States that the run had under way, by their stamps: where it cannot be done again from its beginning
     /// it is from the first of these whose inertial sample it took.
     std::map<TimeNs, std::vector<std::byte>> checkpoints{};
+    /// Whether a sample came when the recorder did not hear the bridge. Where it is not there the proof goes
+    /// on from the next checkpoint. Empty: never.
+    std::function<bool(const IntakeEntry&)> outside{};
   };
   /// The pool outlives this. `from`: the number of its first entry, and whether it began there.
   Proof(const config::FusionConfig& config, StatePool& pool, Begin begin);
@@ -61,6 +65,17 @@ class Proof {
   [[nodiscard]] std::uint64_t unheard() const;
   /// How often it went on from a state that it had not made itself.
   [[nodiscard]] std::uint64_t taken_up() const { return taken_up_; }
+  /// The samples that are not in the recording because the recorder did not hear their bridges: the first
+  /// ones in words, and how many there are.
+  [[nodiscard]] const std::vector<std::string>& lacking() const { return lacking_; }
+  [[nodiscard]] std::uint64_t lacking_count() const { return lacking_count_; }
+  /// The checkpoint that it went on from after the last of these; nothing where there is none.
+  [[nodiscard]] std::optional<TimeNs> whole_from_ns() const { return whole_from_ns_; }
+  [[nodiscard]] std::uint64_t states_before() const { return states_before_; }  ///< equal before that
+  /// Whether it lacks nothing, or was done again behind all that it lacks.
+  [[nodiscard]] bool is_whole() const {
+    return lacking_count_ == 0 || (whole_from_ns_ && states_ > states_before_);
+  }
   /// From when on it was done again; nothing: from its beginning.
   [[nodiscard]] std::optional<TimeNs> from_ns() const { return from_ns_; }
   /// What could not be done again, in words; empty when nothing is missing but what came before from_ns().
@@ -78,6 +93,10 @@ class Proof {
   bool give_sample(const IntakeEntry& entry);
   bool give_order(const IntakeEntry& entry);
   bool take_up(const IntakeEntry& entry);
+  [[nodiscard]] bool is_lacking(const IntakeEntry& entry) const;
+  /// Goes by a sample that the recording lacks.
+  void pass(const IntakeEntry& entry);
+  void interrupt();
   /// Of a run that is not done again at present: whether it is from this entry on.
   bool look_for_begin(const IntakeEntry& entry);
   void begin_from(TimeNs stamp_ns, std::span<const std::byte> state);
@@ -92,11 +111,16 @@ class Proof {
   estimation::FusionEngine engine_;
   StatePool& pool_;
   std::map<TimeNs, std::vector<std::byte>> checkpoints_;
+  std::function<bool(const IntakeEntry&)> outside_;
   bool under_way_;          ///< the engine is where the run's was
   bool ended_ = false;      ///< the engine's end was among the entries
   std::size_t waited_ = 0;  ///< samples that came while a state was waited for
   std::optional<TimeNs> from_ns_;
   std::string missing_;
+  std::vector<std::string> lacking_;
+  std::uint64_t lacking_count_ = 0;
+  std::optional<TimeNs> whole_from_ns_;
+  std::uint64_t states_before_ = 0;  ///< that were equal before whole_from_ns_
   /// By Key: who published it, and the sample. The last ones.
   std::multimap<Key, std::pair<Name, AnySample>> samples_;
   std::deque<Key> ages_;  // of the samples, the oldest first

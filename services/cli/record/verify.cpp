@@ -14,6 +14,7 @@
 #include "bus/cdr.hpp"
 #include "cli/command.hpp"
 #include "cli/record/proof.hpp"
+#include "cli/record/spans.hpp"
 #include "cli/record/state_pool.hpp"
 #include "cli/recording.hpp"
 #include "runtime/build_info.hpp"
@@ -59,11 +60,8 @@ class Verification {
       run.config_hash = lives_[process].config_hash;
       begin(run);
     }
-    record::Selection selection;
-    for_each_kind([&](auto kind) { selection.topics.emplace_back(kind.kTopic); });
-    for (const char* topic :
-         {"fathom/v1/command", "fathom/v1/intake", "fathom/v1/nav_state", "fathom/v1/verdict"})
-      selection.topics.emplace_back(topic);
+    const record::Selection selection =
+        sensors_and({"fathom/v1/command", "fathom/v1/intake", "fathom/v1/nav_state", "fathom/v1/verdict"});
     record::Outcome all;
     for (File& file : files_) {
       const record::Outcome outcome =
@@ -78,20 +76,46 @@ class Verification {
   }
 
  private:
+  static record::Selection sensors_and(const std::vector<const char*>& topics) {
+    record::Selection out;
+    for_each_kind([&](auto kind) { out.topics.emplace_back(kind.kTopic); });
+    out.topics.insert(out.topics.end(), topics.begin(), topics.end());
+    return out;
+  }
+
+  /// Gives the sample to `take` where the channel is that of a sensor.
+  template <class Take>
+  static void read_sample(const record::Channel& channel, const record::Message& message, Take take) {
+    for_each_kind([&](auto kind) {
+      if (channel.topic != kind.kTopic) return;
+      if (const auto sample = bus::from_cdr<typename decltype(kind)::Sample>(message.data)) take(*sample);
+    });
+  }
+
   void find_runs(File& file) {
-    file.reader.read({{"fathom/v1/intake", "fathom/v1/service_status"}},
+    file.reader.read(sensors_and({"fathom/v1/intake", "fathom/v1/service_status"}),
                      [&](const record::Channel& channel, const record::Message& message) {
-                       if (channel.topic == "fathom/v1/intake") {
-                         if (said_before(message)) return true;
-                         if (const auto intake = bus::from_cdr<IntakeRecord>(message.data))
-                           look(runs_[process_of(channel)], *intake);
-                       } else if (const auto status = bus::from_cdr<ServiceStatus>(message.data)) {
-                         ServiceStatus& kept = lives_[process_of(channel)];
-                         kept.version = status->version;
-                         kept.config_hash = status->config_hash;
-                       }
+                       find_run(channel, message, static_cast<std::size_t>(&file - files_.data()));
                        return true;
                      });
+  }
+
+  void find_run(const record::Channel& channel, const record::Message& message, std::size_t file) {
+    if (channel.topic == "fathom/v1/intake") {
+      if (said_before(message)) return;
+      if (const auto intake = bus::from_cdr<IntakeRecord>(message.data))
+        look(runs_[process_of(channel)], *intake);
+    } else if (channel.topic == "fathom/v1/service_status") {
+      const auto status = bus::from_cdr<ServiceStatus>(message.data);
+      if (!status) return;
+      ServiceStatus& kept = lives_[process_of(channel)];
+      kept.version = status->version;
+      kept.config_hash = status->config_hash;
+    } else {
+      read_sample(channel, message, [&]<class T>(const T& sample) {
+        spans_.note(kSourceOf<T>, sample.header, {process_of(channel), file, Name(writer_of(channel))});
+      });
+    }
   }
 
   /// Before the recorder was there, and kept for it by the writer: the samples of that time are not in the
@@ -122,8 +146,8 @@ class Verification {
       const bool exact = run.config_hash.empty() || loaded.hash == run.config_hash;
       if (!exact && &file != &files_.back()) continue;  // it may be in the next file
       own_hashes_[&run] = loaded.hash;
-      Proof::Begin from{run.first, run.first == 0 && run.first_kind != IntakeKind::state,
-                        checkpoints_of(run)};
+      Proof::Begin from{run.first, run.first == 0 && run.first_kind != IntakeKind::state, checkpoints_of(run),
+                        [this](const IntakeEntry& entry) { return !spans_.hold(entry); }};
       run.proof = std::make_unique<Proof>(loaded.value, pool_, std::move(from));
       run.inertial.clear();
       return;
@@ -168,11 +192,8 @@ class Verification {
         for (auto& [process, run] : runs_) run.proof->add(*order);
     } else {
       const Name name(writer_of(channel));
-      for_each_kind([&](auto kind) {
-        if (channel.topic != kind.kTopic) return;
-        const auto sample = bus::from_cdr<typename decltype(kind)::Sample>(message.data);
-        if (!sample) return;
-        for (auto& [process, run] : runs_) run.proof->add(AnySample(*sample), name);
+      read_sample(channel, message, [&](const auto& sample) {
+        for (auto& [process, run] : runs_) run.proof->add(AnySample(sample), name);
       });
     }
   }
@@ -209,23 +230,44 @@ class Verification {
     return "a sample or what was said of it is not as it was, or the processor computes otherwise";
   }
 
+  static std::string lacks(const Proof& proof) {
+    std::string out = "the recording lacks what fusion took while the recorder did not hear the bridge: ";
+    for (const std::string& one : proof.lacking())
+      out += (&one == &proof.lacking().front() ? "" : ", ") + one;
+    const std::uint64_t more = proof.lacking_count() - proof.lacking().size();
+    return more == 0 ? out : out + " and " + std::to_string(more) + " more";
+  }
+
+  static std::string why_not(const Run& run) {
+    const Proof& proof = *run.proof;
+    if (!proof.missing().empty()) return proof.missing();
+    if (proof.lacking_count() > 0) {
+      const std::string before =
+          proof.states() == 0 ? "" : " (" + std::to_string(proof.states()) + " states before it are equal)";
+      return lacks(proof) + ", and no checkpoint of later is in it" + before;
+    }
+    return "it had taken " + std::to_string(run.first) +
+           " samples before the recording began, and no checkpoint of it is in it";
+  }
+
   std::string line_of(const Run& run, const record::Outcome& outcome) {
     const Proof& proof = *run.proof;
     const std::string states = std::to_string(proof.states());
     if (!proof.difference().empty())
       return proof.difference() + "; " + why(run, outcome) + " (" + states + " states before it are equal)";
-    if (proof.taken() == 0)
-      return "cannot be proved: " +
-             (proof.missing().empty()
-                  ? "it had taken " + std::to_string(run.first) +
-                        " samples before the recording began, and no checkpoint of it is in it"
-                  : proof.missing());
+    if (proof.taken() == 0 || !proof.is_whole()) return "cannot be proved: " + why_not(run);
     std::string line = "equal to the last bit: " + states + " navigation states and " +
                        std::to_string(proof.verdicts()) + " verdicts follow from " +
                        std::to_string(proof.taken()) + " samples and orders";
     if (proof.taken_up() > 0)
       line += ", and " + std::to_string(proof.taken_up()) + " states that it took up from those who had them";
-    if (proof.from_ns()) line += ", from its state of " + to_iso8601(*proof.from_ns()) + " on";
+    const auto from_ns = proof.whole_from_ns() ? proof.whole_from_ns() : proof.from_ns();
+    const bool gap =
+        proof.states_before() > 0;  // they were proved from the beginning on, and go on from there
+    if (from_ns)
+      line += (gap ? ", with a gap before its state of " : ", from its state of ") + to_iso8601(*from_ns) +
+              (gap ? "" : " on");
+    if (proof.lacking_count() > 0) line += "; " + lacks(proof);
     if (proof.unheard() > 0)
       line += "; " + std::to_string(proof.unheard()) + " further states are not in the recording";
     if (!proof.missing().empty()) line += "; not all of it is proved: " + proof.missing();
@@ -239,7 +281,8 @@ class Verification {
       const Proof& proof = *run.proof;
       std::printf("%s: %s (%s): %s\n", name_.c_str(), run.service.c_str(), process.substr(8, 8).c_str(),
                   line_of(run, outcome).c_str());
-      good = good && proof.difference().empty() && proof.missing().empty() && proof.taken() > 0;
+      good = good && proof.difference().empty() && proof.missing().empty() && proof.taken() > 0 &&
+             proof.is_whole();
       states += proof.states();
     }
     return good && states > 0 ? ExitCode::done : ExitCode::no;
@@ -249,6 +292,7 @@ class Verification {
   std::vector<File> files_;
   TimeNs begin_ns_ = std::numeric_limits<TimeNs>::max();  // log time of the first message
   StatePool pool_;
+  Spans spans_;
   std::map<std::string, Run> runs_;             // by process
   std::map<std::string, ServiceStatus> lives_;  // likewise, of all services: version and configuration
   std::map<const Run*, std::string> own_hashes_;

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "archive/digest.hpp"
+#include "cli/record/spans.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "support/vehicles/survey_run.hpp"
 
@@ -295,6 +296,109 @@ TEST(Proof, BeginsFromAStateThatWasSavedBetweenAnyTwoSamples) {
     EXPECT_EQ(proof.from_ns(), part.stamp_ns);
     EXPECT_GT(proof.states(), 500U);
   }
+}
+
+/// The beginning of a run, without the samples of the inertial unit up to the one of this number and without
+/// the first one of the receiver.
+struct Late {
+  Part part;
+  cli::Spans spans;
+
+  explicit Late(std::uint64_t from_number, std::uint64_t and_without = 0) : part(parts({600}).front()) {
+    std::erase_if(part.items, [&](const Item& item) {
+      const auto* sample = std::get_if<AnySample>(&item);
+      if (sample == nullptr) return false;
+      const std::uint64_t number = header_of(*sample).sequence;
+      if (source_of(*sample) == SourceKind::imu) return number < from_number || number == and_without;
+      return source_of(*sample) == SourceKind::gps && number < 2;
+    });
+    for (const Item& item : part.items) {
+      if (const auto* sample = std::get_if<AnySample>(&item))
+        spans.note(source_of(*sample), header_of(*sample), {"process", 0, "bridge"});
+    }
+  }
+  [[nodiscard]] Proof::Begin begin(bool with_checkpoint) const {
+    Proof::Begin out{0, true};
+    if (with_checkpoint) out.checkpoints[part.stamp_ns] = part.state;
+    out.outside = [this](const IntakeEntry& entry) { return !spans.hold(entry); };
+    return out;
+  }
+};
+
+TEST(Proof, GoesOnFromACheckpointBehindSamplesThatTheRecorderWasTooLateFor) {
+  const Late late(3);
+  StatePool pool;
+  Proof proof(configuration(), pool, late.begin(true));
+  put(proof, late.part.items);
+  proof.finish();
+  EXPECT_EQ(proof.difference(), "");
+  EXPECT_EQ(proof.missing(), "");
+  EXPECT_EQ(proof.lacking_count(), 3U);
+  ASSERT_EQ(proof.lacking().size(), 3U);
+  EXPECT_TRUE(proof.lacking().front().starts_with("imu sample imu 1 at ")) << proof.lacking().front();
+  EXPECT_EQ(proof.whole_from_ns(), late.part.stamp_ns);
+  EXPECT_TRUE(proof.is_whole());
+  EXPECT_GT(proof.states(), 500U);
+}
+
+TEST(Proof, FindsWhatDiffersBehindSamplesThatTheRecorderWasTooLateFor) {
+  Late late(2);
+  for (Item& item : late.part.items) {
+    auto* state = std::get_if<NavState>(&item);
+    if (state != nullptr && state->header.stamp_ns > late.part.stamp_ns + kNsPerSecond) {
+      state->velocity_N_m_s[0] = 1e-12;
+      break;
+    }
+  }
+  StatePool pool;
+  Proof proof(configuration(), pool, late.begin(true));
+  put(proof, late.part.items);
+  proof.finish();
+  EXPECT_NE(proof.difference().find("velocity_N_m_s[0]"), std::string::npos) << proof.difference();
+}
+
+TEST(Proof, ChecksNothingWhereTheRecorderWasTooLateAndThereIsNoCheckpoint) {
+  const Late late(2);
+  StatePool pool;
+  Proof proof(configuration(), pool, late.begin(false));
+  put(proof, late.part.items);
+  proof.finish();
+  EXPECT_EQ(proof.difference(), "");
+  EXPECT_EQ(proof.lacking_count(), 2U);
+  EXPECT_FALSE(proof.is_whole());
+  EXPECT_EQ(proof.states(), 0U);
+}
+
+TEST(Proof, ASampleThatIsMissingBehindOthersOfItsBridgeIsADifference) {
+  const Late late(2, 900);
+  StatePool pool;
+  Proof proof(configuration(), pool, late.begin(true));
+  put(proof, late.part.items);
+  proof.finish();
+  EXPECT_TRUE(proof.difference().starts_with("imu sample imu 900 at ")) << proof.difference();
+}
+
+TEST(Spans, AreThoseOfEachProcessInEachFile) {
+  cli::Spans spans;
+  const auto taken = [](TimeNs stamp_ns, std::uint64_t number, Name writer = "bridge") {
+    return IntakeEntry{IntakeKind::sample, SourceKind::gps, "gps", writer, stamp_ns, number, false};
+  };
+  const auto note = [&](TimeNs stamp_ns, std::uint64_t number, const char* process, std::size_t file) {
+    spans.note(SourceKind::gps, {"auv", "gps", stamp_ns, stamp_ns + 1, number}, {process, file, "bridge"});
+  };
+  EXPECT_FALSE(spans.hold(taken(100, 1))) << "there is none of that instrument";
+  note(300, 3, "first", 0);
+  note(900, 9, "first", 0);
+  EXPECT_FALSE(spans.hold(taken(200, 2))) << "found too late";
+  EXPECT_TRUE(spans.hold(taken(500, 5)));
+  EXPECT_FALSE(spans.hold(taken(500, 5, "other")));
+  EXPECT_FALSE(spans.hold(taken(1000, 10))) << "the last one before it was killed";
+  note(1500, 15, "first", 1);
+  EXPECT_FALSE(spans.hold(taken(1000, 10))) << "between two files";
+  note(2200, 2, "second", 1);
+  note(2900, 9, "second", 1);
+  EXPECT_FALSE(spans.hold(taken(2100, 1))) << "of the bridge that was started anew";
+  EXPECT_TRUE(spans.hold(taken(2500, 5)));
 }
 
 }  // namespace
