@@ -1,8 +1,11 @@
 #include "bridge/sensor_channel.hpp"
 
+#include <algorithm>
+#include <cstdio>
 #include <utility>
 #include <vector>
 
+#include "bridge/babble.hpp"
 #include "bridge/backlog.hpp"
 #include "runtime/device_time.hpp"
 
@@ -17,6 +20,10 @@ using runtime::SourceState;
 // A reason that was logged is logged again when it had not occurred for this long.
 constexpr DurationNs kQuiet = 60 * kNsPerSecond;
 
+// So long bytes have to belong to no frame before that is said, of a slow instrument longer: at 4800 baud a
+// frame of 2400 bytes takes as long, and what was connected to in the middle of a frame is over by then.
+constexpr DurationNs kBabble = 5 * kNsPerSecond;
+
 SampleHeader& header_of(AnySample& sample) {
   return std::visit([](auto& value) -> SampleHeader& { return value.header; }, sample);
 }
@@ -29,6 +36,21 @@ runtime::ByteSourceConfig greeting_from(const config::SensorConfig& sensor) {
   runtime::ByteSourceConfig out = sensor.source;
   out.greeting = codec::find_protocol(sensor.protocol)->greeting;
   return out;
+}
+
+std::string sentence(const config::SensorConfig& sensor, const Babble::Report& report) {
+  std::array<char, 96> seen{};
+  std::snprintf(seen.data(), seen.size(), "%llu bytes in %.0f s, and no good frame of ",
+                static_cast<unsigned long long>(report.bytes), report.seconds);
+  std::string out = sensor.name.str() + ": " + seen.data() + sensor.protocol + " among them; they begin " +
+                    report.first_bytes + "; expected " + sensor.protocol;
+  const bool is_serial = sensor.source.type == runtime::SourceType::serial;
+  if (is_serial)
+    out += " at " + std::to_string(sensor.source.baud) + " baud " +
+           std::string(to_string(sensor.source.framing));
+  return out + " from " + runtime::describe_source(sensor.source) +
+         (is_serial ? ": compare the instrument's baud rate and output"
+                    : ": compare the instrument's output");
 }
 
 // Lets the first of a burst through.
@@ -58,6 +80,7 @@ struct SensorChannel::Impl : codec::Sink {
         tracker(plan.sensor.time),
         read_by_read(plan.sensor.time.mode != runtime::TimeMode::device_utc && !paced()),
         backlogs(kSampleKinds, Backlog(plan.intermittent ? 0.0 : plan.sensor.rate_hz)),
+        babble(std::max(kBabble, from_seconds(config::stale_after_s(plan.sensor)))),
         health(plan.intermittent ? 0.0 : plan.sensor.rate_hz, config::stale_after_s(plan.sensor),
                plan.sensor.first_sample_s, clock.monotonic_ns()),
         source(
@@ -82,6 +105,7 @@ struct SensorChannel::Impl : codec::Sink {
   void keep_pace(const DeviceTime& time);
   void note_time(const runtime::Stamp& stamp);
   void add_totals();
+  void judge_line(std::span<const std::uint8_t> bytes);
 
   config::SensorPlan plan;
   const Name vehicle;
@@ -91,7 +115,8 @@ struct SensorChannel::Impl : codec::Sink {
 
   // Of the source's thread alone.
   std::unique_ptr<codec::Codec> codec;
-  codec::Totals before;  ///< of the codec, as already counted
+  codec::Totals before;              ///< of the codec, as already counted
+  std::uint64_t rejected_bytes = 0;  ///< inside frames that were refused, of the present read
   runtime::DeviceTimeTracker tracker;
   Arrival arrival;
   const bool read_by_read;              ///< what arrived together is stamped together
@@ -103,6 +128,7 @@ struct SensorChannel::Impl : codec::Sink {
   std::array<Burst, kRefusals> said_refused;
   Burst said_implausible;
   Burst said_step;
+  Babble babble;
   std::optional<TimeNs> pace_device_ns;  ///< file: what the last frame's clock said ...
   TimeNs pace_clock_ns = 0;              ///< ... and when it was due
 
@@ -126,7 +152,20 @@ void SensorChannel::Impl::on_bytes(std::span<const std::uint8_t> bytes, const Ar
   arrival = at;
   codec->feed(bytes, *this);
   publish_waiting();
+  judge_line(bytes);
+}
+
+void SensorChannel::Impl::judge_line(std::span<const std::uint8_t> bytes) {
+  const codec::Totals last = before;
+  const std::uint64_t refused_bytes = std::exchange(rejected_bytes, 0);
   add_totals();
+  if (before.samples + before.frames_ignored > last.samples + last.frames_ignored) {
+    if (babble.understood()) log.info(plan.sensor.name.str() + ": understood now");
+    return;
+  }
+  const std::uint64_t waste = before.skipped_bytes - last.skipped_bytes + refused_bytes;
+  if (const auto report = babble.not_understood(bytes, waste, arrival.monotonic_ns))
+    log.warning(sentence(plan.sensor, *report));
 }
 
 bool SensorChannel::Impl::paced() const {
@@ -177,6 +216,8 @@ void SensorChannel::Impl::on_event(const SourceEvent& event) {
     tracker.reset();
     for (auto& burst : said_rejected) burst.forget();
     for (auto& burst : said_refused) burst.forget();
+    babble.forget();
+    rejected_bytes = 0;
     is_new = true;
   } else if (event.state == SourceState::connected && std::exchange(is_new, false)) {
     for (Backlog& backlog : backlogs) backlog.begin(clock.monotonic_ns());
@@ -264,6 +305,7 @@ void SensorChannel::Impl::on_rejected(const codec::Rejected& rejected) {
     log.warning(plan.sensor.name.str() + ": frame of " + std::to_string(rejected.length) +
                 " bytes refused: " + std::string(codec::to_string(rejected.reason)));
   }
+  rejected_bytes += rejected.length;
   const std::lock_guard lock(mutex);
   ++counters.rejected[index];
   waste_bytes += rejected.length;

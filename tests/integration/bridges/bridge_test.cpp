@@ -186,8 +186,13 @@ TEST(DepthBridge, AFloodOfGarbageIsCountedAndSurvived) {
   ASSERT_TRUE(eventually([&] {
     for (char& c : garbage) c = static_cast<char>((noise = noise * 1'664'525U + 1'013'904'223U) >> 24);
     device.send(bytes_of(garbage));
-    return is_in_state(status, ServiceState::degraded, "garbage");
+    return is_in_state(status, ServiceState::degraded, "garbage") &&
+           bridge.output().find("no good frame of paroscientific among them; they begin ") !=
+               std::string::npos;
   })) << bridge.output();
+  EXPECT_NE(bridge.output().find("expected paroscientific at 115200 baud 8N1 from serial "),
+            std::string::npos)
+      << bridge.output();
   EXPECT_GT(counter(status, "rejected_length") + counter(status, "rejected_structure") +
                 counter(status, "rejected_field") + counter(status, "skipped_bytes"),
             0U);
@@ -197,6 +202,7 @@ TEST(DepthBridge, AFloodOfGarbageIsCountedAndSurvived) {
     talk();
     return depth.count() > before + 20 && is_in_state(status, ServiceState::healthy);
   })) << bridge.output();
+  EXPECT_NE(bridge.output().find(": understood now"), std::string::npos) << bridge.output();
   EXPECT_NEAR(depth.all().back().depth_m, 42.0, 0.02);
 }
 
