@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +17,7 @@
 #include "bus/writer.hpp"
 #include "console/http/http_server.hpp"
 #include "console/http/precautions.hpp"
+#include "console/orders/awaited_verdicts.hpp"
 #include "console/site.hpp"
 #include "console/view/vehicle_view.hpp"
 #include "console/view/vehicle_view_json.hpp"
@@ -28,6 +32,8 @@ constexpr DurationNs kRetryNs = 3 * kNsPerSecond;
 constexpr DurationNs kDayNs = 24 * std::int64_t{3600} * kNsPerSecond;
 // Ten seconds at ten updates a second: more than a browser that is busy with itself takes to come back.
 constexpr std::size_t kQueueDepth = 100;
+// For navigation's word on a position that was told. It says it at once; a page waits for its answer.
+constexpr std::chrono::seconds kVerdictPatience{3};
 
 int port_of(const config::ConsoleConfig& config) {
   return config.http.port != 0 ? config.http.port : kFirstPort + config.common.bus.domain;
@@ -122,6 +128,7 @@ struct ConsoleService::Impl {
   void listen_to() {
     readers.push_back(
         std::make_shared<bus::Reader<T>>(host.participant(), [this](const T& sample, const bus::SampleInfo&) {
+          if constexpr (std::is_same_v<T, Verdict>) awaited.heard(sample);
           const std::lock_guard lock(mutex);
           view.add(sample, now());
         }));
@@ -179,14 +186,16 @@ struct ConsoleService::Impl {
   OrderJudgement order(const std::string& body, const Identity& who, const std::string& peer) {
     OrderJudgement judgement = judge_order(body, who, config.access.orders);
     const std::string name = who.name.empty() ? "nobody" : who.name;
-    const bool passed_on = judgement.order && pass_on(judgement, name);
+    const bool passed_on = judgement.order && pass_on(judgement, name) && judgement.status < 300;
     // Every order of somebody known leaves a line with who and when, also one that was refused; strangers are
     // counted and said now and then, so that they cannot fill the disk. Tokens are never written.
     const std::string line =
         " an order of " + name + " (" + std::string(to_string(who.role)) + ") from " + peer + ": ";
     if (passed_on) {
       ++orders_given;
-      host.log().info("passed on" + line + describe(*judgement.order));
+      const std::string& verdict = judgement.verdict;
+      host.log().info("passed on" + line + describe(*judgement.order) +
+                      (verdict.empty() ? "" : "; navigation says " + verdict));
     } else {
       ++orders_refused;
       if (who.role != Role::nobody) host.log().warning("refused" + line + judgement.text);
@@ -198,7 +207,12 @@ struct ConsoleService::Impl {
   /// Onto the vehicle network; a position that is told goes there as any other measurement does.
   bool pass_on(OrderJudgement& judgement, const std::string& name) {
     if (const auto* told = std::get_if<orders::ToldFix>(&*judgement.order)) {
-      if (fixes.write(orders::sample_of(*told, host.header(), host.clock().utc_ns()))) return true;
+      const FixSample fix = orders::sample_of(*told, host.header(), host.clock().utc_ns());
+      AwaitedVerdicts::Wait wait(awaited, fix.header);
+      if (fixes.write(fix)) {
+        judgement = judged(std::move(judgement), fix, wait.verdict(kVerdictPatience));
+        return true;
+      }
       judgement = {503, "The vehicle network did not take the position.", {}};
       return false;
     }
@@ -290,6 +304,7 @@ struct ConsoleService::Impl {
   std::atomic<std::uint64_t> orders_given{0};
   std::atomic<std::uint64_t> orders_refused{0};
   std::atomic<std::uint64_t> sequence{0};
+  AwaitedVerdicts awaited;
   FanOut events;
   bus::Writer<Command> commands;
   bus::Writer<FixSample> fixes;

@@ -126,7 +126,9 @@ Answer Site::live(const Asked& asked) const {
 
 Answer Site::order(const Asked& asked) const {
   const OrderJudgement judgement = hooks_.order(asked.request.body, asked.who, asked.peer);
-  return json_answer(judgement.status, {{"text", judgement.text}, {"confirm", judgement.confirm}});
+  nlohmann::json answer{{"text", judgement.text}, {"confirm", judgement.confirm}};
+  if (!judgement.verdict.empty()) answer["verdict"] = judgement.verdict;
+  return json_answer(judgement.status, answer);
 }
 
 Answer Site::tile(const Asked& asked) const {

@@ -37,7 +37,7 @@ void Orders::take(const std::string& text) {
     said = order.error().message;
   } else if (const auto* told = std::get_if<orders::ToldFix>(&order.value())) {
     accepted = fixes_.write(orders::sample_of(*told, host_.header(), host_.clock().utc_ns()));
-    said = accepted ? "Told: " + describe(*told) + "." : kNotTaken;
+    said = accepted ? "Told: " + describe(*told) + ". Navigation has yet to judge it." : kNotTaken;
   } else {
     auto& command = std::get<Command>(order.value());
     command.header = host_.header();

@@ -17,7 +17,7 @@
 #include "bus/writer.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
-#include "cli/fix/telling.hpp"
+#include "orders/telling.hpp"
 #include "samples/nav_state.hpp"
 
 namespace fathom::cli {
@@ -149,7 +149,8 @@ ExitCode run(const FixOptions& options) {
   if (!verdict)
     throw Failure(ExitCode::runtime_failure,
                   "fix: told, but no verdict came, expected one of a fusion service");
-  std::puts(options.json ? json_line(fix, *verdict).c_str() : in_words(fix, *verdict).c_str());
+  std::puts(options.json ? orders::json_line(fix, *verdict).c_str()
+                         : orders::in_words(fix, *verdict).c_str());
   return verdict->kind == VerdictKind::used ? ExitCode::done : ExitCode::no;
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "orders/telling.hpp"
+
 namespace fathom::console {
 
 OrderJudgement judge_order(std::string_view body, const Identity& who, bool orders_enabled) {
@@ -13,10 +15,22 @@ OrderJudgement judge_order(std::string_view body, const Identity& who, bool orde
   if (!order) return {400, order.error().message, {}};
   const bool told = std::holds_alternative<orders::ToldFix>(order.value());
   const std::string words = describe(order.value());
-  return {200,
-          told ? "Told: " + words + ". What navigation says to it stands among the sensors."
-               : "Sent: " + words + ".",
+  return {200, std::string(told ? "Told" : "Sent") + " by " + who.name + ": " + words + ".",
           std::move(order.value())};
+}
+
+OrderJudgement judged(OrderJudgement told, const FixSample& fix, const std::optional<Verdict>& verdict) {
+  if (!verdict) {
+    told.status = 202;
+    told.text += " Navigation has not judged it yet.";
+    return told;
+  }
+  told.verdict = to_string(verdict->kind);
+  told.text +=
+      verdict->kind == VerdictKind::used ? " Navigation has taken it: " : " Navigation has refused it: ";
+  told.text += orders::in_words(fix, *verdict) + ".";
+  if (verdict->kind == VerdictKind::source_disabled) told.status = 409;
+  return told;
 }
 
 }  // namespace fathom::console

@@ -2,7 +2,11 @@
 #include <set>
 
 #include "base/units.hpp"
+#include "bus/reader.hpp"
+#include "bus/writer.hpp"
 #include "console_fixture.hpp"
+#include "samples/position/fix.hpp"
+#include "samples/verdict.hpp"
 
 namespace fathom::test {
 namespace {
@@ -161,6 +165,36 @@ TEST_F(ConsoleTest, OrdersNeedAnOperatorAndLeaveATrace) {
   for (const char* secret : {kOperatorToken, kViewerToken, "wrong-0123456789012"}) {
     EXPECT_EQ(log.find(secret), std::string::npos) << "tokens stay out of the log";
   }
+}
+
+TEST_F(ConsoleTest, WhoTellsAPositionHearsWhatNavigationSaysToIt) {
+  start_and_wait(12, {"access.orders=true"});
+  json fix = {{"kind", "fix"}, {"lat_deg", 34}, {"lon_deg", 126}, {"sigma_m", 20}, {"from", "nobody"}};
+  EXPECT_EQ(order(fix, "").status, 401);
+  const HttpAnswer unheard = order(fix, kOperatorToken);
+  EXPECT_EQ(unheard.status, 202) << unheard.body;
+  EXPECT_NE(unheard.body.find("Told by bridge: fix of nobody"), std::string::npos) << unheard.body;
+  bus::Writer<Verdict> verdicts(network->participant());
+  const bus::Reader<FixSample> navigation(network->participant(), [&](const FixSample& told,
+                                                                      const bus::SampleInfo&) {
+    Verdict verdict;
+    verdict.header = told.header;
+    verdict.source = SourceKind::fix;
+    verdict.kind = told.header.sensor == Name("operator") ? VerdictKind::used : VerdictKind::source_disabled;
+    verdicts.write(verdict);
+  });
+  HttpAnswer refused;
+  ASSERT_TRUE(wait_until([&] { return (refused = order(fix, kOperatorToken)).status != 202; }, kPatienceS));
+  EXPECT_EQ(refused.status, 409) << refused.body;
+  EXPECT_EQ(json::parse(refused.body)["verdict"], "source_disabled");
+  fix.erase("from");
+  const HttpAnswer used = order(fix, kOperatorToken);
+  EXPECT_EQ(used.status, 200) << used.body;
+  EXPECT_EQ(json::parse(used.body)["verdict"], "used");
+  EXPECT_TRUE(console->says("; navigation says used")) << console->err();
+  EXPECT_TRUE(
+      console->says("refused an order of bridge (operator) from 127.0.0.1: Told by bridge: fix of nobody"))
+      << console->err();
 }
 
 TEST_F(ConsoleTest, OrdersAreOffUnlessSwitchedOn) {

@@ -189,14 +189,14 @@ TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLin
                        {"age_s", 120.0}};
   EXPECT_EQ(this->order(order, kViewerToken).status, 403);
   const HttpAnswer answer = this->order(order, kOperatorToken);
-  EXPECT_EQ(answer.status, 200) << answer.body;
+  EXPECT_LT(answer.status, 300) << answer.body;
   ASSERT_TRUE(wait_until([&] { return survey.told().size() >= 3; }, kPatienceS));
-  const Verdict by_console = survey.told().back();
+  const Verdict by_console = survey.told()[2];
   EXPECT_EQ(by_console.kind, VerdictKind::used)
       << now_s - to_seconds(by_console.header.stamp_ns - epoch_ns) << " s ago, off by "
       << by_console.innovation[0] << " m and " << by_console.innovation[1] << " m";
   order["lat_deg"] = kDegPerRad * place.latitude_rad + 0.01;
-  EXPECT_EQ(this->order(order, kOperatorToken).status, 200);
+  EXPECT_LT(this->order(order, kOperatorToken).status, 300);
   EXPECT_TRUE(wait_until(
       [&] {
         const auto told = survey.told();
@@ -205,6 +205,9 @@ TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLin
         });
       },
       kPatienceS));
+  order["from"] = "nobody";
+  EXPECT_TRUE(wait_until([&] { return this->order(order, kOperatorToken).status == 409; }, kPatienceS))
+      << "navigation knows no such source";
   fusion.kill(SIGTERM);
   EXPECT_EQ(fusion.wait(), 0) << fusion.err();
 }

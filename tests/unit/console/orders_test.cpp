@@ -63,10 +63,33 @@ TEST(Orders, OnlyOperatorsAndOnlyWhereOrdersAreOn) {
   EXPECT_FALSE(judge_order("{", kOperator, true).order);
   const auto given = judge_order(order, kOperator, true);
   EXPECT_EQ(given.status, 200);
-  EXPECT_EQ(given.text, "Sent: realign.");
+  EXPECT_EQ(given.text, "Sent by bridge: realign.");
   ASSERT_TRUE(given.order);
   EXPECT_EQ(std::get<Command>(*given.order).kind, CommandKind::realign);
   EXPECT_FALSE(judge_order(order, {}, true).order);
+}
+
+TEST(Orders, AToldPositionIsAnsweredWithWhoToldItAndWhatBecameOfIt) {
+  const auto told = judge_order(
+      R"({"kind": "fix", "lat_deg": 36, "lon_deg": 127, "sigma_m": 20, "from": "ship"})", kOperator, true);
+  EXPECT_EQ(told.status, 200);
+  EXPECT_TRUE(told.text.starts_with("Told by bridge: fix of ship ")) << told.text;
+  const FixSample fix;
+  const auto answer = [&](VerdictKind kind) {
+    Verdict verdict;
+    verdict.kind = kind;
+    return judged(told, fix, verdict);
+  };
+  EXPECT_EQ(answer(VerdictKind::used).status, 200);
+  EXPECT_EQ(answer(VerdictKind::used).verdict, "used");
+  EXPECT_NE(answer(VerdictKind::used).text.find("Navigation has taken it"), std::string::npos);
+  EXPECT_EQ(answer(VerdictKind::rejected).status, 200);
+  EXPECT_NE(answer(VerdictKind::rejected).text.find("Navigation has refused it: rejected"),
+            std::string::npos);
+  EXPECT_EQ(answer(VerdictKind::source_disabled).status, 409);
+  EXPECT_NE(answer(VerdictKind::source_disabled).text.find("no such source"), std::string::npos);
+  EXPECT_EQ(judged(told, fix, std::nullopt).status, 202);
+  EXPECT_NE(judged(told, fix, std::nullopt).text.find("not judged it yet"), std::string::npos);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ export async function order(content) {
       const sure = await ask("Confirm the position", answer.text, "Set it all the same");
       return sure ? order({...content, confirmed: true}) : false;
     }
-    notice(answer.text, response.ok);
+    notice(answer.text, response.ok && (answer.verdict ?? "used") === "used");
     return response.ok;
   } catch {
     notice("The console does not answer; the order was not given.", false);

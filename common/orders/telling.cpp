@@ -1,4 +1,4 @@
-#include "cli/fix/telling.hpp"
+#include "orders/telling.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace fathom::cli {
+namespace fathom::orders {
 namespace {
 
 template <class... Values>
@@ -72,4 +72,4 @@ std::string json_line(const FixSample& fix, const Verdict& verdict) {
   return out.dump();
 }
 
-}  // namespace fathom::cli
+}  // namespace fathom::orders
