@@ -44,8 +44,8 @@ namespace fathom::estimation {
 /// samples after the first one that lies further back; finish() waits for neither. It is made of the
 /// measurements that were taken in: more than `measurement_capacity` of them within the horizon shorten it,
 /// what is older gets the verdict late. Orders act at their stamps, like measurements. Of two samples of
-/// one sensor (of a DVL, of one layer) with the same stamp the one with the lower sequence number counts, and
-/// of two with the same number as well the one that came first.
+/// one sensor (of a DVL, of one layer; of an acoustic one, of one beacon) with the same stamp the one with
+/// the lower sequence number counts, and of two with the same number as well the one that came first.
 ///
 /// Fixes that somebody tells (FixSample) may be older than the horizon: such a one acts at the instant at
 /// which it was told, header.received_ns, as if it had come in time (engine/past). What that needs is

@@ -103,6 +103,23 @@ void fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, BeaconId>
+void fields(Archive& archive, Self& self) {
+  archive("name", self.name);
+  archive("latitude_rad", self.latitude_rad, fathom::archive::or_unknown(fathom::archive::within(-1.6, 1.6)));
+  archive("longitude_rad", self.longitude_rad,
+          fathom::archive::or_unknown(fathom::archive::within(-6.3, 6.3)));
+}
+
+template <class Archive, class Self>
+requires std::is_same_v<std::remove_const_t<Self>, HeardBeacon>
+void fields(Archive& archive, Self& self) {
+  archive("sensor", self.sensor, fathom::archive::Whole{-1, kMaxSensors - 1});
+  archive("id", self.id);
+  archive("instrument", self.instrument);
+}
+
+template <class Archive, class Self>
 requires std::is_same_v<std::remove_const_t<Self>, SquaredInputs>
 void fields(Archive& archive, Self& self) {
   constexpr double kMost = 1e12;
@@ -357,6 +374,11 @@ void Navigator::fields(Archive& archive, Self& self) {
   if (archive.since(16)) archive("motion_noise", self.estimate_.motion_noise);
   if (archive.since(18)) {
     Starter::place_fields(archive, self.starter_);
+    archive("beacon_count", self.instruments_.beacon_count, fathom::archive::Whole{0, kMaxBeacons});
+    // Those that are not in use are as constructed; the layout is told by the first.
+    const std::size_t used = std::clamp<std::size_t>(self.instruments_.beacon_count, 1, kMaxBeacons);
+    for (std::size_t i = 0; i < used; ++i) archive.element("beacons", i, self.instruments_.beacons[i]);
+    archive.left_out(self.instruments_.beacons);
   } else if constexpr (Archive::kReads) {
     self.starter_.forget_fix();
     self.ordered_.set_ns = self.estimate_.now_ns;

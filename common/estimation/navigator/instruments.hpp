@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "estimation/doubt/adaptive_noise.hpp"
 #include "estimation/navigator/measurement.hpp"
@@ -66,9 +67,30 @@ struct Instrument {
   }
 };
 
+/// A beacon as an acoustic sample names it: by its address, or where it tells none by the place.
+struct BeaconId {
+  Name name;
+  double latitude_rad = kUnknown;
+  double longitude_rad = kUnknown;
+};
+
+/// None where the sample is of no beacon, or tells neither address nor place.
+[[nodiscard]] std::optional<BeaconId> beacon_of(const EventSample& sample);
+
+/// What one acoustic sensor measures to one of its beacons.
+struct HeardBeacon {
+  int sensor = -1;  ///< -1: none
+  BeaconId id;      ///< the place is that of the last sample
+  Instrument instrument;
+
+  [[nodiscard]] bool is(int of_sensor, const BeaconId& other) const;
+};
+
 /// All instruments of the configuration. A ping of a DVL measures the bottom
-/// and the water layer, both of one stamp: two instruments in one. A copy costs
-/// what is in use; the rest is as constructed in every copy.
+/// and the water layer, both of one stamp: two instruments in one. An acoustic
+/// one is as many as it hears beacons: an estimate that is wrong is too far
+/// from one and too near to another, and refusals agree for each alone. A copy
+/// costs what is in use; the rest is as constructed in every copy.
 struct Instruments {
   explicit Instruments(const Setup& setup);
   Instruments(const Instruments& other) : count(other.count), layer_count(other.layer_count) { copy(other); }
@@ -82,27 +104,33 @@ struct Instruments {
   std::array<Instrument, kMaxWaterLayers> water_layers{};
   std::size_t count = 0;  ///< of sensors in use: the same in all navigators of a setup
   std::size_t layer_count = 0;
+  std::array<HeardBeacon, kMaxBeacons> beacons{};
+  std::size_t beacon_count = 0;  ///< of those heard so far
 
   [[nodiscard]] bool enabled(const Measurement& measurement) const {
     return sensors[static_cast<std::size_t>(measurement.sensor)].enabled;
   }
-  [[nodiscard]] Instrument& behind(const Setup& setup, const Measurement& measurement) {
-    const auto slot = static_cast<std::size_t>(measurement.sensor);
-    const int layer = setup.water_layer[slot];
-    return is_of_water(measurement.sample) && layer >= 0 ? water_layers[static_cast<std::size_t>(layer)]
-                                                         : sensors[slot];
-  }
+  /// A beacon that has not been heard yet gets a place; where there is none left, that of the one that was
+  /// not heard for longest.
+  [[nodiscard]] Instrument& behind(const Setup& setup, const Measurement& measurement);
+  /// The largest factor of the noise of all that is one sensor.
+  [[nodiscard]] double noise_factor(const Setup& setup, int sensor) const;
   template <class Self, class Visit>
   static void for_each(Self& self, Visit&& visit) {
     for (auto& one : self.sensors) visit(one);
     for (auto& one : self.water_layers) visit(one);
+    for (auto& one : self.beacons) visit(one.instrument);
   }
 
  private:
   void copy(const Instruments& other) {
     std::copy_n(other.sensors.begin(), count, sensors.begin());
     std::copy_n(other.water_layers.begin(), layer_count, water_layers.begin());
+    std::copy_n(other.beacons.begin(), other.beacon_count, beacons.begin());
+    for (std::size_t i = other.beacon_count; i < beacon_count; ++i) beacons[i] = {};
+    beacon_count = other.beacon_count;
   }
+  [[nodiscard]] Instrument& behind(int sensor, const BeaconId& beacon);
 };
 
 }  // namespace fathom::estimation

@@ -304,12 +304,6 @@ bool Navigator::adapts_noise(const Trial& trial) const {
   return trial.config.max_noise_factor > 1.0 && !trial.modelled && !trial.policy.told;
 }
 
-double Navigator::noise_factor(int number) const {
-  const Instrument* layer = water_layer(number);
-  return std::max(sensor(number).noise.largest_factor(),
-                  layer == nullptr ? 1.0 : layer->noise.largest_factor());
-}
-
 void Navigator::note_noise(Trial& trial) const {
   // (GATE-10): what comes late or repeats itself has no neighbour to be compared with.
   if (!adapts_noise(trial) || trial.then != nullptr || trial.instrument.repeats) return;

@@ -99,7 +99,7 @@ class Navigator {
     return layer < 0 ? nullptr : &instruments_.water_layers[static_cast<std::size_t>(layer)];
   }
   /// How many times as much a sensor scatters as is said of it, of its worst component (GATE-10).
-  [[nodiscard]] double noise_factor(int number) const;
+  [[nodiscard]] double noise_factor(int number) const { return instruments_.noise_factor(*setup_, number); }
   [[nodiscard]] const hydro::WaterVelocity& water_velocity() const { return model_.water_velocity(); }
 
   /// For archives: see fields/navigator.hpp.

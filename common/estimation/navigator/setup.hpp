@@ -16,6 +16,8 @@ namespace fathom::estimation {
 inline constexpr int kMaxSensors = 24;
 /// DVLs whose water layer is judged beside the bottom.
 inline constexpr int kMaxWaterLayers = 4;
+/// Of all acoustic instruments together; a bridge knows the places of as many.
+inline constexpr int kMaxBeacons = 16;
 
 /// What never changes after construction: the configuration and what is made from it once.
 struct Setup {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "estimation/engine/fusion_engine.hpp"
+#include "support/orders.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -184,6 +185,77 @@ TEST(BeaconRange, AStateThatHoldsRangesIsTakenUpToTheLastBit) {
   ASSERT_GT(heard, 3U);
   EXPECT_EQ(first.nav_state().latitude_rad, second.nav_state().latitude_rad);
   EXPECT_EQ(first.nav_state().position_covariance_N_m2, second.nav_state().position_covariance_N_m2);
+}
+
+/// Of each beacon its address as the bridge tells it, or none as in a data set.
+void name_by_place(std::vector<RangeSample>& ranges) {
+  std::map<double, std::string> names;
+  for (RangeSample& one : ranges)
+    one.beacon =
+        std::string_view(names.emplace(one.beacon_latitude_rad, std::to_string(names.size())).first->second);
+}
+
+/// Horizontal error at the end when somebody ordered the vehicle 150 m away and was sure of it, the Doppler
+/// log goes on, and nothing but ranges can tell.
+double error_left_m(std::vector<RangeSample> late) {
+  constexpr double kOrder_s = 60.0;
+  const SurveyRun survey({.duration_s = 240.0, .dive_s = kDive_s, .usbl = false});
+  FusionEngine engine(engine_config());
+  std::size_t heard = 0;
+  bool ordered = false;
+  for (const test::Sample& sample : survey.samples) {
+    const SampleHeader& header = test::header(sample);
+    for (; heard < late.size() && late[heard].header.received_ns <= header.received_ns; ++heard)
+      engine.add(late[heard]);
+    test::feed(engine, sample);
+    if (ordered || to_seconds(header.stamp_ns - SurveyRun::kEpochNs) < kOrder_s) continue;
+    Command command;
+    command.kind = CommandKind::set_position;
+    command.latitude_rad = engine.nav_state().latitude_rad + 150.0 / 6.37e6;
+    command.longitude_rad = engine.nav_state().longitude_rad;
+    command.sigma_m = 1.0;
+    ordered = test::order_twice(engine, command).empty();
+  }
+  const Truth& truth = survey.truth.back();
+  const NavState& nav = engine.nav_state();
+  return geo::difference_N({truth.latitude_rad, truth.longitude_rad, truth.altitude_m},
+                           {nav.latitude_rad, nav.longitude_rad, nav.altitude_m})
+      .head<2>()
+      .norm();
+}
+
+TEST(BeaconRange, RefusedOnesOfSeveralBeaconsInTurnAreBelievedAsThoseOfOneAre) {
+  const SurveyRun survey({.duration_s = 240.0, .dive_s = kDive_s, .usbl = false});
+  // From all sides: what is too long to one is too short to another.
+  const std::vector<Vector3d> around{kAhead, kAbeam, {-400.0, -150.0, 50.0}, {150.0, -400.0, 50.0}};
+  std::vector<RangeSample> late = ranges(survey, around, 9);
+  EXPECT_LT(error_left_m(late), 5.0);
+  name_by_place(late);
+  EXPECT_LT(error_left_m(late), 5.0);
+}
+
+TEST(BeaconRange, TwoBeaconsMayAnswerAtOneInstantAndOneBeaconNotTwice) {
+  const SurveyRun survey({.duration_s = 64.0, .dive_s = kDive_s, .usbl = false});
+  std::vector<RangeSample> late = ranges(survey, {kAhead, kAbeam}, 7);
+  for (const bool named : {false, true}) {
+    if (named) name_by_place(late);
+    FusionEngine engine(engine_config());
+    std::map<VerdictKind, int> verdicts;
+    for (const test::Sample& sample : survey.samples) test::feed(engine, sample);
+    const TimeNs stamp_ns = engine.nav_state().header.stamp_ns - kNsPerSecond;
+    for (const std::size_t i : {0, 1, 1}) {
+      RangeSample one = late[i];
+      one.header.stamp_ns = stamp_ns;
+      one.header.sequence = 1'000 + verdicts[VerdictKind::used]++;
+      engine.add(one);
+    }
+    verdicts.clear();
+    engine.finish();
+    for (Verdict verdict; engine.next_verdict(verdict);)
+      if (verdict.source == SourceKind::range && verdict.is_final) ++verdicts[verdict.kind];
+    EXPECT_EQ(verdicts[VerdictKind::duplicate], 1) << named;
+    EXPECT_EQ(verdicts[VerdictKind::used] + verdicts[VerdictKind::rejected], 2) << named;
+  }
 }
 
 /// The row of a range at a state without anything else, for a position with this uncertainty.
