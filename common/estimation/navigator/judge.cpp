@@ -296,7 +296,7 @@ void Navigator::account(Trial& trial) {
   if (trial.kept->rows > 0)
     trial.instrument.note_innovation(trial.statistics.squared_distance / trial.kept->rows);
   if (trial.instrument.agrees_since_ns == 0) trial.instrument.agrees_since_ns = estimate_.now_ns;
-  trial.instrument.candidate = {};
+  if ((trial.gated.refused & position_rows(trial.whole)) == 0) trial.instrument.candidate = {};
   usage_.note(trial.policy, trial.with_position, estimate_.now_ns);
 }
 

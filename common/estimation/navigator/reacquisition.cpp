@@ -102,6 +102,13 @@ bool measures(const Observation& observation, int row, int first_state) {
   return std::any_of(begin, begin + 3, [](double weight) { return weight != 0.0; });
 }
 
+unsigned position_rows(const Observation& observation) {
+  unsigned out = 0;
+  for (int row = 0; row < observation.rows; ++row)
+    if (measures(observation, row, 0)) out |= 1U << row;
+  return out;
+}
+
 unsigned Reacquisition::believed_rows(Instrument& instrument, const SensorConfig& config,
                                       const Estimate& estimate, const Observation& observation,
                                       unsigned refused, bool fix, double needed_s) const {
@@ -120,9 +127,7 @@ unsigned Reacquisition::believed_rows_of_fix(Instrument& instrument, const Senso
                                              const Estimate& estimate, const Observation& observation,
                                              unsigned refused, double needed_s) const {
   // Behind a fix stand two hypotheses for as long as it takes: it is wrong, or the estimate is.
-  unsigned position = 0;
-  for (int row = 0; row < observation.rows; ++row)
-    if (measures(observation, row, 0)) position |= 1U << row;
+  const unsigned position = position_rows(observation);
   if ((refused & position) == 0) instrument.candidate = {};
   const bool believed =
       (refused & position) != 0 && believe_fix(instrument.candidate, config, estimate, observation);

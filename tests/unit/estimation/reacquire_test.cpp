@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/orders.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -45,6 +46,35 @@ TEST(Reacquire, OneRowThatIsRefusedForeverIsBelievedThoughTheOthersPass) {
 TEST(Reacquire, NoGateIsTooTight) {
   EXPECT_NEAR(wrong_velocity_left(GateMode::whole, 0.5), 0.0, 0.05);
   EXPECT_NEAR(wrong_velocity_left(GateMode::per_component, 0.5), 0.0, 0.05);
+}
+
+TEST(Reacquire, OneAxisOfAFixThatIsRefusedForeverIsBelievedThoughTheOthersPass) {
+  // Somebody ordered the vehicle 200 m east and was sure of it.
+  for (const GateMode mode : {GateMode::whole, GateMode::per_component}) {
+    const SurveyRun run({.duration_s = 70.0, .dive_s = 1e9});
+    EngineConfig config = SurveyRun::config();
+    config.sensors[0].gate_mode = mode;
+    FusionEngine engine(config);
+    bool ordered = false;
+    for (const test::Sample& sample : run.samples) {
+      test::feed(engine, sample);
+      if (ordered || test::header(sample).stamp_ns < SurveyRun::kEpochNs + 30 * kNsPerSecond) continue;
+      Command command;
+      command.kind = CommandKind::set_position;
+      command.latitude_rad = engine.nav_state().latitude_rad;
+      command.longitude_rad =
+          engine.nav_state().longitude_rad + 200.0 / (6.38e6 * std::cos(command.latitude_rad));
+      command.sigma_m = 1.0;
+      ordered = test::order_twice(engine, command).empty();
+    }
+    ASSERT_TRUE(ordered);
+    const Truth& truth = run.truth.back();
+    const NavState& nav = engine.nav_state();
+    const Eigen::Vector3d error =
+        geo::difference_N({truth.latitude_rad, truth.longitude_rad, truth.altitude_m},
+                          {nav.latitude_rad, nav.longitude_rad, nav.altitude_m});
+    EXPECT_LT(error.head<2>().norm(), 5.0) << static_cast<int>(mode);
+  }
 }
 
 /// 460 s under water, then 20 s of fixes that all lie 700 m to the side and go along with the vehicle, then
