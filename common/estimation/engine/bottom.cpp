@@ -14,16 +14,20 @@ constexpr double kLeastSteepness = 0.5;  // cosine of 60 degrees
 
 Bottom::Bottom(const AltimeterConfig& config) : config_(config) {}
 
-void Bottom::take(const AltimeterSample& sample) {
-  if (!std::isfinite(sample.altitude_m)) return;
-  if (!config_.sensor.empty() && sample.header.sensor.view() != config_.sensor) return;
+std::optional<VerdictKind> Bottom::take(const AltimeterSample& sample) {
+  if (!std::isfinite(sample.altitude_m)) return std::nullopt;
+  if (!config_.sensor.empty() && sample.header.sensor.view() != config_.sensor) return std::nullopt;
+  if (!sound_stamp(sample.header.stamp_ns)) return VerdictKind::out_of_range;
   const TimeNs stamp_ns = sample.header.stamp_ns - from_seconds(config_.latency_s);
-  if (newest_ && stamp_ns <= newest_->stamp_ns) return;
+  if (now_ns_ && stamp_ns > *now_ns_ + from_seconds(config_.fresh_s)) return VerdictKind::from_the_future;
+  if (now_ns_ && newest_ && stamp_ns <= newest_->stamp_ns) return std::nullopt;
   newest_ = {stamp_ns, sample.altitude_m, sample.vertical};
+  return std::nullopt;
 }
 
 void Bottom::latch(TimeNs now_ns) {
-  // A stamp out of the future would keep the others out.
+  now_ns_ = now_ns;
+  // The axis of the stamps may have begun anew, further back: this one would keep the others out.
   if (newest_ && newest_->stamp_ns > now_ns + from_seconds(config_.fresh_s)) newest_.reset();
   latched_ = newest_;
 }

@@ -5,6 +5,7 @@
 #include "base/time.hpp"
 #include "estimation/engine_config.hpp"
 #include "samples/altimeter.hpp"
+#include "samples/verdict.hpp"
 
 namespace fathom::estimation {
 
@@ -16,8 +17,10 @@ class Navigator;
 class Bottom {
  public:
   explicit Bottom(const AltimeterConfig& config);
-  /// In any order; samples without altitude and of others are left out.
-  void take(const AltimeterSample& sample);
+  /// In any order; samples without altitude, of others and older ones are left out. Why one is refused whose
+  /// stamp is none: it is no instant of this age, or further ahead of the last instant than what is fresh.
+  /// Before the first instant nothing tells which stamp is right, and the last one counts.
+  std::optional<VerdictKind> take(const AltimeterSample& sample);
   /// With each inertial sample, of that instant: what has been taken so far is what altitude_m() goes by.
   void latch(TimeNs now_ns);
   /// Height of the output point above the bottom below the altimeter, which is level there: the way along the
@@ -32,6 +35,7 @@ class Bottom {
     bool vertical = false;
   };
   AltimeterConfig config_;
+  std::optional<TimeNs> now_ns_;
   std::optional<Heard> newest_;
   std::optional<Heard> latched_;
 };

@@ -64,7 +64,6 @@ class FusionEngine::Impl final : public VerdictSink {
   }
 
   bool add(const ImuSample& sample) {
-    if (!sound_stamp(sample.header.stamp_ns)) return refuse(sample, VerdictKind::out_of_range);
     const ImuPreprocessor::Result result = preprocessor_.take(sample);
     switch (result.outcome) {
       case ImuPreprocessor::Outcome::refused:
@@ -118,21 +117,22 @@ class FusionEngine::Impl final : public VerdictSink {
     refuse(header, source, writer, judgement);
   }
 
-  void inform(const AnySample& sample) {
-    if (const auto* altimeter = std::get_if<AltimeterSample>(&sample)) bottom_.take(*altimeter);
+  void inform(const AnySample& sample, const Name& writer) {
+    const auto* altimeter = std::get_if<AltimeterSample>(&sample);
+    if (altimeter == nullptr) return;
+    const std::optional<VerdictKind> refusal = bottom_.take(*altimeter);
+    if (!refusal) return;
+    Judgement judgement;
+    judgement.kind = *refusal;
+    refuse(altimeter->header, source_of(sample), writer, judgement);
   }
 
   [[nodiscard]] std::string objection(const Command& command) const {
-    const bool target =
-        command.kind == CommandKind::enable_source || command.kind == CommandKind::disable_source;
-    if (target && std::find(names_.begin(), names_.end(), command.target) == names_.end())
-      return "it names no sensor of the configuration";
-    return objection_to(command);
+    return objection_to(command, setup_.config);
   }
 
   std::string apply(const Command& command) {
     if (std::string why = objection(command); !why.empty()) return why;
-    if (!sound_stamp(command.header.stamp_ns)) return "its stamp is no instant of this age";
     Measurement& one = incoming_;
     one.command = true;
     one.judged = one.settled = false;
@@ -329,8 +329,8 @@ bool FusionEngine::add(const ImuSample& sample) {
 void FusionEngine::take(const EventSample& sample, SourceKind source, const Name& writer) {
   impl_->add(sample, source, writer);
 }
-void FusionEngine::inform(const AnySample& sample) {
-  impl_->inform(sample);
+void FusionEngine::inform(const AnySample& sample, const Name& writer) {
+  impl_->inform(sample, writer);
 }
 std::string FusionEngine::objection(const Command& command) const {
   return impl_->objection(command);

@@ -83,10 +83,10 @@ class FusionEngine {
     take(EventSample(sample), kSourceOf<Sample>, writer);
   }
   /// Of a kind that only informs: what is published goes by it from the next inertial sample on, nothing is
-  /// estimated with it, and it gets no verdict.
+  /// estimated with it, and it gets a verdict, a final one, only when it is refused for its stamp.
   template <Informing Sample>
-  void add(const Sample& sample, const Name& /*writer*/ = {}) {
-    inform(sample);
+  void add(const Sample& sample, const Name& writer = {}) {
+    inform(sample, writer);
   }
 
   /// Why a command is none that this engine follows, in words; empty when it is one.
@@ -149,7 +149,7 @@ class FusionEngine {
 
  private:
   void take(const EventSample& sample, SourceKind source, const Name& writer);
-  void inform(const AnySample& sample);
+  void inform(const AnySample& sample, const Name& writer);
 
   class Impl;
   std::unique_ptr<Impl> impl_;

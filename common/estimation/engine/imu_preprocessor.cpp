@@ -58,6 +58,7 @@ double ImuPreprocessor::stretch_to_fill_s(double dt_s) {
 ImuPreprocessor::Result ImuPreprocessor::take(const ImuSample& sample) {
   const ImuConfig& imu = setup_->config.imu;
   Result result;
+  if (!sound_stamp(sample.header.stamp_ns)) return result;
   if (!read(sample)) {
     fault_ = ImuFault::not_finite;
     return result;
@@ -91,7 +92,8 @@ ImuPreprocessor::Result ImuPreprocessor::take(const ImuSample& sample) {
       return result;
     }
     // The arrival clock tells how long the instrument was really silent, if anything does.
-    const double silent = static_cast<double>(sample.header.received_ns - last_received_ns_) * 1e-9;
+    const bool told = sound_stamp(sample.header.received_ns) && sound_stamp(last_received_ns_);
+    const double silent = told ? to_seconds(sample.header.received_ns - last_received_ns_) : 0.0;
     result.unobserved_s = std::clamp(silent, 0.0, 1e6);
     has_before_ = false;
     uncovered_s_ = filled_s_ = 0.0;

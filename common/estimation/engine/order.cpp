@@ -1,5 +1,6 @@
 #include "estimation/engine/order.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -51,6 +52,16 @@ std::string objection_to(const Command& order) {
       break;
   }
   return "it is no order to navigation";
+}
+
+std::string objection_to(const Command& order, const EngineConfig& config) {
+  const bool target = order.kind == CommandKind::enable_source || order.kind == CommandKind::disable_source;
+  const auto& sensors = config.sensors;
+  if (target && std::none_of(sensors.begin(), sensors.end(),
+                             [&](const SensorConfig& one) { return order.target == Name(one.sensor); }))
+    return "it names no sensor of the configuration";
+  if (std::string why = objection_to(order); !why.empty()) return why;
+  return sound_stamp(order.header.stamp_ns) ? "" : "its stamp is no instant of this age";
 }
 
 std::uint64_t order_number(const Command& order) {

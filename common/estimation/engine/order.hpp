@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/unknown.hpp"
+#include "estimation/engine_config.hpp"
 #include "estimation/navigator/measurement.hpp"
 #include "samples/command.hpp"
 
@@ -12,6 +13,8 @@ namespace fathom::estimation {
 /// Why an order is none that an engine can follow, in words: what is wrong with it and what was expected;
 /// empty when it is one. Whether its target is there is not looked at.
 [[nodiscard]] std::string objection_to(const Command& order);
+/// Likewise, with its target and its stamp.
+[[nodiscard]] std::string objection_to(const Command& order, const EngineConfig& config);
 
 /// Tells orders of one instant apart and puts them in one sequence, whoever hears them when: made of who gave
 /// it and of the number that he gave it.
@@ -20,7 +23,7 @@ namespace fathom::estimation {
 enum class OrderFate : std::uint8_t {
   done = 0,
   held = 1,      ///< a position far from where navigation is: until it is ordered once more, confirmed
-  not_done = 2,  ///< navigation began anew before its instant came
+  not_done = 2,  ///< navigation began anew before its instant came, or its instant never came
 };
 
 /// What became of an order at its instant.

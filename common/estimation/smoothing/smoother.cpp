@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "estimation/engine/order.hpp"
 #include "estimation/engine/output.hpp"
 #include "estimation/smoothing/filter_log.hpp"
 
@@ -18,6 +17,12 @@ EngineConfig checked(const EngineConfig& config) {
   const std::string complaint = config.validate();
   if (!complaint.empty()) throw std::invalid_argument(complaint);
   return config;
+}
+
+Judgement refusal(VerdictKind kind) {
+  Judgement out;
+  out.kind = kind;
+  return out;
 }
 
 /// What is recorded is judged once.
@@ -46,14 +51,14 @@ Smoother::Smoother(const EngineConfig& config)
     shown_states_.push_back(surface);
 }
 
+void Smoother::refuse(const SampleHeader& header, SourceKind source, VerdictKind kind) {
+  refused_.push_back(final_verdict(header, source, refusal(kind)));
+}
+
 void Smoother::add(const ImuSample& sample) {
   const ImuPreprocessor::Result result = intake_.take(sample);
-  if (result.outcome == ImuPreprocessor::Outcome::refused) {
-    Judgement judgement;
-    judgement.kind = result.refusal;
-    refused_.push_back(final_verdict(sample.header, SourceKind::imu, judgement));
-    return;
-  }
+  if (result.outcome == ImuPreprocessor::Outcome::refused)
+    return refuse(sample.header, SourceKind::imu, result.refusal);
   if (result.outcome == ImuPreprocessor::Outcome::rebased) ++axis_;
   ticks_.push_back({result.outcome, axis_, sample.header.stamp_ns, sample.header.received_ns,
                     result.unobserved_s, result.step});
@@ -65,12 +70,8 @@ void Smoother::take(const EventSample& sample, SourceKind source) {
   const auto found = std::find_if(sensors.begin(), sensors.end(), [&](const SensorConfig& one) {
     return one.kind == source && header.sensor == Name(one.sensor);
   });
-  if (found == sensors.end()) {
-    Judgement judgement;
-    judgement.kind = VerdictKind::source_disabled;
-    refused_.push_back(final_verdict(header, source, judgement));
-    return;
-  }
+  if (found == sensors.end()) return refuse(header, source, VerdictKind::source_disabled);
+  if (!sound_stamp(header.stamp_ns)) return refuse(header, source, VerdictKind::out_of_range);
   Event& event = events_.emplace_back();
   event.axis = axis_;
   Measurement& one = event.measurement;
@@ -81,7 +82,8 @@ void Smoother::take(const EventSample& sample, SourceKind source) {
   one.sample = sample;
 }
 
-void Smoother::add(const Command& command) {
+std::string Smoother::add(const Command& command) {
+  if (std::string why = objection_to(command, setup_.config); !why.empty()) return why;
   Event& event = events_.emplace_back();
   event.axis = axis_;
   Measurement& one = event.measurement;
@@ -90,6 +92,7 @@ void Smoother::add(const Command& command) {
   one.source = SourceKind::imu;
   one.sequence = order_number(command);
   one.sample = command;
+  return {};
 }
 
 void Smoother::sort_events() {
@@ -98,15 +101,16 @@ void Smoother::sort_events() {
                    [&](const Event& a, const Event& b) { return key(a) < key(b); });
 }
 
-void Smoother::refuse(const Event& event, VerdictKind kind,
-                      const std::function<void(const Verdict&)>& verdict) const {
-  if (!verdict || event.measurement.command) return;
-  Judgement judgement;
-  judgement.kind = kind;
-  verdict(final_verdict(event.measurement.header(), event.measurement.source, judgement));
+void Smoother::tell(const Event& event, const Judgement& judgement, const Output& output) {
+  const Measurement& one = event.measurement;
+  if (one.command) {
+    if (output.outcome) output.outcome(outcome_of(std::get<Command>(one.sample), judgement, false));
+  } else if (output.verdict) {
+    output.verdict(final_verdict(one.header(), one.source, judgement));
+  }
 }
 
-void Smoother::advance(Snapshot& at, const std::function<void(const Verdict&)>& verdict) const {
+void Smoother::advance(Snapshot& at, const Output& output) const {
   const Tick& tick = ticks_[at.tick++];
   if (tick.outcome != ImuPreprocessor::Outcome::step) {
     // What was measured on the axis before and has not acted cannot act any more.
@@ -114,7 +118,7 @@ void Smoother::advance(Snapshot& at, const std::function<void(const Verdict&)>& 
       const Event& event = events_[at.event];
       const bool first = tick.outcome == ImuPreprocessor::Outcome::first;
       if (event.axis == tick.axis && event.measurement.stamp_ns > tick.stamp_ns) break;
-      refuse(event, first ? VerdictKind::not_aligned : VerdictKind::late, verdict);
+      tell(event, refusal(first ? VerdictKind::not_aligned : VerdictKind::late), output);
     }
     at.navigator.rebase(tick.stamp_ns, tick.unobserved_s);
   } else {
@@ -125,12 +129,11 @@ void Smoother::advance(Snapshot& at, const std::function<void(const Verdict&)>& 
       const bool again = at.event > 0 && events_[at.event - 1].axis == event.axis &&
                          events_[at.event - 1].measurement.key() == one.key();
       if (again) {
-        refuse(event, VerdictKind::duplicate, verdict);
+        tell(event, refusal(VerdictKind::duplicate), output);
         continue;
       }
       at.navigator.advance(tick.step, one.stamp_ns);
-      const Judgement judgement = at.navigator.apply(one);
-      if (verdict && !one.command) verdict(final_verdict(one.header(), one.source, judgement));
+      tell(event, at.navigator.apply(one), output);
     }
     at.navigator.advance(tick.step, tick.step.to_ns);
     at.navigator.finish(tick.step);
@@ -197,13 +200,13 @@ void Smoother::run(const Output& output) {
       snapshots.push_back(at);
       progress(at.tick);
     }
-    advance(at, output.verdict);
+    advance(at, output);
     if (!output.filtered) continue;
     fill(at.navigator, at.tick - 1, nav);
     output.filtered(nav);
   }
   for (; at.event < events_.size(); ++at.event)
-    refuse(events_[at.event], VerdictKind::from_the_future, output.verdict);
+    tell(events_[at.event], refusal(VerdictKind::from_the_future), output);
   if (output.detail && !ticks_.empty()) {
     NavDetail detail;
     estimation::fill(setup_, at.navigator, detail);

@@ -3,9 +3,11 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "estimation/engine/imu_preprocessor.hpp"
+#include "estimation/engine/order.hpp"
 #include "estimation/filter/adjoint.hpp"
 #include "samples/nav_detail.hpp"
 #include "samples/nav_state.hpp"
@@ -37,12 +39,15 @@ class Smoother {
   void add(const Sample& sample) {
     take(EventSample(sample), kSourceOf<Sample>);
   }
-  /// An order, at its stamp.
-  void add(const Command& command);
+  /// An order, at its stamp. Empty when it is taken; else why not.
+  [[nodiscard]] std::string add(const Command& command);
 
   struct Output {
     /// Exactly one verdict of each measurement, a final one, in the order of their instants.
     std::function<void(const Verdict&)> verdict;
+    /// Exactly one of each order that was taken: those before the first inertial sample, behind the last or
+    /// given twice are not done.
+    std::function<void(const OrderOutcome&)> outcome;
     /// The forward pass, one state per accepted inertial sample, in the order of time.
     std::function<void(const NavState&)> filtered;
     /// What the forward pass estimated, once, at its end.
@@ -79,9 +84,11 @@ class Smoother {
 
   void take(const EventSample& sample, SourceKind source);
   void sort_events();
-  /// One tick with its events; what becomes of them goes to `verdict` where that is not empty.
-  void advance(Snapshot& at, const std::function<void(const Verdict&)>& verdict) const;
-  void refuse(const Event& event, VerdictKind kind, const std::function<void(const Verdict&)>& verdict) const;
+  void refuse(const SampleHeader& header, SourceKind source, VerdictKind kind);
+  /// One tick with its events; what becomes of them goes to the verdicts and outcomes of `output`.
+  void advance(Snapshot& at, const Output& output) const;
+  /// What became of an event.
+  static void tell(const Event& event, const Judgement& judgement, const Output& output);
   void fill(const Navigator& navigator, std::size_t tick, NavState& out) const;
   void smooth(const Snapshot& from, std::size_t end, Segment& segment, Adjoint& adjoint,
               const std::function<void(const NavState&)>& smoothed) const;

@@ -1,6 +1,8 @@
 #include "estimation/engine/bottom.hpp"
 
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -94,6 +96,52 @@ TEST(Bottom, AStampOutOfTheFutureKeepsNobodyOut) {
   EXPECT_FALSE(known(diver.altitude_m()));
   diver.hear(1.1, 12.0);
   diver.until(1.2);
+  EXPECT_NEAR(diver.altitude_m(), 12.0, 1e-2);
+}
+
+TEST(Bottom, AStampOutOfTheFutureKeepsNoneOutThatComesRightBehindIt) {
+  Diver diver(config_with({0.0, 0.0, 0.0}), 0.0, 0.0);
+  diver.hear(1e6, 99.0);
+  diver.hear(0.0, 12.0);
+  diver.until(0.1);
+  EXPECT_NEAR(diver.altitude_m(), 12.0, 1e-2);
+  for (int i = 1; i <= 20; ++i) {
+    diver.hear(1e6 + i, 99.0);
+    diver.hear(0.1 * i, 14.0);
+    diver.until(0.1 * i + 0.01);
+    EXPECT_NEAR(diver.altitude_m(), 14.0, 1e-2) << i;
+  }
+}
+
+TEST(Bottom, AStampThatIsNoneGetsAVerdict) {
+  Diver diver(config_with({0.0, 0.0, 0.0}), 0.0, 0.0);
+  const auto verdicts = [&] {
+    std::vector<VerdictKind> out;
+    for (Verdict verdict; diver.engine().next_verdict(verdict);) {
+      EXPECT_EQ(verdict.source, SourceKind::altimeter);
+      EXPECT_TRUE(verdict.is_final);
+      out.push_back(verdict.kind);
+    }
+    return out;
+  };
+  const auto hear_at = [&](TimeNs stamp_ns) {
+    AltimeterSample sample;
+    sample.header.stamp_ns = stamp_ns;
+    sample.altitude_m = 99.0;
+    diver.engine().add(sample);
+  };
+  for (int i = 0; i < 2; ++i) {
+    hear_at(std::numeric_limits<TimeNs>::min());
+    hear_at(std::numeric_limits<TimeNs>::max());
+    EXPECT_EQ(verdicts(), (std::vector<VerdictKind>{VerdictKind::out_of_range, VerdictKind::out_of_range}));
+    diver.until(1.0);  // the first inertial samples
+  }
+  hear_at(kBegin + 60 * kNsPerSecond);
+  EXPECT_EQ(verdicts(), std::vector<VerdictKind>{VerdictKind::from_the_future});
+  diver.hear(1.0, 12.0);
+  diver.hear(0.5, 99.0);  // an older one is nothing that anybody did wrong
+  EXPECT_EQ(verdicts(), std::vector<VerdictKind>{});
+  diver.until(1.1);
   EXPECT_NEAR(diver.altitude_m(), 12.0, 1e-2);
 }
 

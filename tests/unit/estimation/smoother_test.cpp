@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -254,6 +255,64 @@ TEST(Smoother, GivesEachMeasurementOneVerdict) {
   EXPECT_GT(count(VerdictKind::used), 1000);
 }
 
+TEST(Smoother, WhatHasNoSoundStampIsRefusedAndStopsNothing) {
+  const SurveyRun run({.duration_s = 40.0, .dive_s = 1e9});
+  const Result plain = smooth(run.samples, SurveyRun::config());
+  constexpr TimeNs kEnds[] = {std::numeric_limits<TimeNs>::min(), std::numeric_limits<TimeNs>::max()};
+  std::vector<test::Sample> samples;
+  for (std::size_t i = 0; i < run.samples.size(); ++i) {
+    for (const TimeNs stamp_ns : kEnds) {
+      if (i != 0 && i != run.samples.size() / 2) continue;
+      // A unit that is well in everything else, and an instrument likewise.
+      ImuSample imu =
+          std::get<ImuSample>(*std::find_if(run.samples.begin(), run.samples.end(), [](auto& one) {
+            return std::holds_alternative<ImuSample>(one);
+          }));
+      imu.header.stamp_ns = stamp_ns;
+      samples.emplace_back(imu);
+      DepthSample depth;
+      depth.header = {"auv", "depth0", stamp_ns, stamp_ns, 1'000'000};
+      samples.emplace_back(depth);
+    }
+    samples.push_back(run.samples[i]);
+  }
+  const Result result = smooth(samples, SurveyRun::config());
+  EXPECT_EQ(std::count_if(result.verdicts.begin(), result.verdicts.end(),
+                          [](const Verdict& v) { return v.kind == VerdictKind::out_of_range; }),
+            8);
+  ASSERT_EQ(result.smoothed.size(), plain.smoothed.size());
+  EXPECT_EQ(result.smoothed.front().header.stamp_ns, plain.smoothed.front().header.stamp_ns);
+  EXPECT_EQ(result.smoothed.back().latitude_rad, plain.smoothed.back().latitude_rad);
+  EXPECT_TRUE(known(result.smoothed.back().latitude_rad));
+}
+
+TEST(Smoother, TellsOfEachOrderWhatBecameOfIt) {
+  const SurveyRun run({.duration_s = 20.0, .dive_s = 1e9});
+  Smoother smoother(SurveyRun::config());
+  for (const test::Sample& sample : run.samples) std::visit([&](const auto& s) { smoother.add(s); }, sample);
+  Command rest;
+  rest.kind = CommandKind::mark_at_rest;
+  rest.value_s = 1.0;
+  for (const double t_s : {-5.0, 5.0, 1e6}) {
+    rest.header.stamp_ns = SurveyRun::kEpochNs + from_seconds(t_s);
+    EXPECT_EQ(smoother.add(rest), "");
+  }
+  rest.header.stamp_ns = std::numeric_limits<TimeNs>::max();
+  EXPECT_NE(smoother.add(rest), "");
+  Command wrong;
+  wrong.header.stamp_ns = SurveyRun::kEpochNs + 6 * kNsPerSecond;
+  wrong.kind = CommandKind::set_position;
+  EXPECT_NE(smoother.add(wrong), "");  // where to?
+  wrong.kind = CommandKind::disable_source;
+  wrong.target = "nobody";
+  EXPECT_NE(smoother.add(wrong), "");
+  std::vector<OrderFate> fates;
+  Smoother::Output output;
+  output.outcome = [&](const OrderOutcome& outcome) { fates.push_back(outcome.fate); };
+  smoother.run(output);
+  EXPECT_EQ(fates, (std::vector<OrderFate>{OrderFate::not_done, OrderFate::done, OrderFate::not_done}));
+}
+
 TEST(Smoother, DoesNotSmearAPositionThatWasOrdered) {
   // Under way without fixes, the operator moves the vehicle by 300 m north on the map, wrongly: what is
   // before the order must not hear of it, what is behind it must.
@@ -275,10 +334,10 @@ TEST(Smoother, DoesNotSmearAPositionThatWasOrdered) {
     command.latitude_rad = run.truth[at].latitude_rad + 300.0 / 6.36e6;
     command.longitude_rad = run.truth[at].longitude_rad;
     command.sigma_m = 1.0;
-    smoother.add(command);
+    EXPECT_EQ(smoother.add(command), "");
     command.header.stamp_ns += 1;
     command.confirmed = true;
-    smoother.add(command);
+    EXPECT_EQ(smoother.add(command), "");
   };
   const Result plain = smooth(run.samples, SurveyRun::config());
   const Result result = smooth(run.samples, SurveyRun::config(), order);
@@ -304,7 +363,7 @@ TEST(Smoother, DoesNotReachBackThroughANewStart) {
     Command command;
     command.header.stamp_ns = test::header(sample).stamp_ns + 1;
     command.kind = CommandKind::realign;
-    smoother.add(command);
+    EXPECT_EQ(smoother.add(command), "");
   };
   std::vector<test::Sample> first;
   std::copy_if(run.samples.begin(), run.samples.end(), std::back_inserter(first), [](const test::Sample& s) {
