@@ -46,6 +46,11 @@ void Descent::restart(const Setup& setup, double tilt_sigma_rad, double unobserv
   }
   fall_.s += unobserved_s;
   carry_covariance(setup);
+  if (fall_.aligning) {
+    // (ALN-16) No correction turns these integrals any more.
+    const Eigen::Matrix<double, 6, 3> of_attitude = arm(unobserved_s);
+    fall_.covariance += of_attitude * drop_.attitude_covariance() * of_attitude.transpose();
+  }
   begin(config, estimate, alignment);
 }
 
@@ -95,6 +100,12 @@ void Descent::carry_covariance(const Setup& setup) {
   Eigen::Matrix<double, 6, 3> g;
   g << 0.5 * t * t * bias * Matrix3d::Identity(), t * bias * Matrix3d::Identity();
   fall_.covariance += g * g.transpose();
+}
+
+Eigen::Matrix<double, 6, 3> Descent::arm(double further_s) const {
+  Eigen::Matrix<double, 6, 3> out;
+  out << geo::skew(fall_.dp_N + further_s * fall_.dv_N), geo::skew(fall_.dv_N);
+  return out;
 }
 
 void Descent::place(const Setup& setup, int axes, double sigma_m) {
@@ -177,15 +188,14 @@ void Descent::hand_over(const Setup& setup, Estimate& estimate, AlignmentWatch& 
   carry_covariance(setup);
   estimate.forget_covariance(setup.initial_sigma);
   const Matrix3d attitude = drop_.attitude_covariance();
-  Eigen::Matrix<double, 6, 3> arm;
-  arm << geo::skew(fall_.dp_N), geo::skew(fall_.dv_N);
-  Eigen::Matrix<double, 6, 3> cross = arm * attitude;
-  Eigen::Matrix<double, 6, 6> motion = fall_.covariance + cross * arm.transpose();
+  const Eigen::Matrix<double, 6, 3> turns = arm();
+  Eigen::Matrix<double, 6, 3> cross = turns * attitude;
+  Eigen::Matrix<double, 6, 6> motion = fall_.covariance + cross * turns.transpose();
   const TiltFilter& fine = drop_.filter();
   const int accel = setup.index.of(Group::accel_bias);
   const auto fine_accel = fine.covariance().block<3, 3>(TiltFilter::kAccel, TiltFilter::kAccel);
   const auto fine_tilt = fine.covariance().block<3, 3>(TiltFilter::kPhi, TiltFilter::kAccel);
-  Eigen::Matrix<double, 6, 3> motion_accel = arm * fine_tilt;
+  Eigen::Matrix<double, 6, 3> motion_accel = turns * fine_tilt;
   if (fall_.regained) {
     // (ALN-19) The velocity of before the gap is of no use; that through the
     // water turns with the heading.
@@ -196,7 +206,7 @@ void Descent::hand_over(const Setup& setup, Estimate& estimate, AlignmentWatch& 
     const Matrix3d v_phi = turned * attitude - fine_v_phi;
     const double current = setup.config.states.current_sigma_m_s;
     estimate.state.nav.v_N_m_s = fine.v_N_m_s();
-    motion.topRightCorner<3, 3>() = arm.topRows<3>() * v_phi.transpose();
+    motion.topRightCorner<3, 3>() = turns.topRows<3>() * v_phi.transpose();
     motion.bottomLeftCorner<3, 3>() = motion.topRightCorner<3, 3>().transpose();
     motion.bottomRightCorner<3, 3>() = v_phi * turned.transpose() - turned * fine_v_phi.transpose() + fine_v +
                                        current * current * Matrix3d::Identity();

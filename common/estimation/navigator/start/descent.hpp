@@ -41,7 +41,8 @@ class Descent {
   void start(const Setup& setup, const InitialState& initial, const Estimate& estimate,
              AlignmentWatch& alignment);
   /// Tilt is found again under way; heading, velocity and position are carried
-  /// on, over `unobserved_s` without inertial samples as they were.
+  /// on, over `unobserved_s` without inertial samples as they were, and so is
+  /// what the attitude until now has made uncertain of them.
   void restart(const Setup& setup, double tilt_sigma_rad, double unobserved_s, const Estimate& estimate,
                AlignmentWatch& alignment);
   /// (ALN-19) After a gap in which the attitude was lost; false where the
@@ -67,6 +68,8 @@ class Descent {
   /// (ALN-16) The attitude was turned: what was integrated with it turns along.
   void turn(const Eigen::Vector3d& rotation_N_rad, Estimate& estimate);
   void carry_covariance(const Setup& setup);
+  /// What an attitude error does to position and velocity, once they have been carried on for `further_s`.
+  [[nodiscard]] Eigen::Matrix<double, 6, 3> arm(double further_s = 0.0) const;
   /// (ALN-17)
   void hand_over(const Setup& setup, Estimate& estimate, AlignmentWatch& alignment);
 
