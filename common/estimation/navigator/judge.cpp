@@ -296,8 +296,9 @@ void Navigator::account(Trial& trial) {
   if (trial.kept->rows > 0)
     trial.instrument.note_innovation(trial.statistics.squared_distance / trial.kept->rows);
   if (trial.instrument.agrees_since_ns == 0) trial.instrument.agrees_since_ns = estimate_.now_ns;
-  if ((trial.gated.refused & position_rows(trial.whole)) == 0) trial.instrument.candidate = {};
-  usage_.note(trial.policy, trial.with_position, estimate_.now_ns);
+  const unsigned refused = trial.gated.refused;
+  if ((refused & position_rows(trial.whole)) == 0) trial.instrument.candidate = {};
+  usage_.note(trial.policy, trial.with_position && places(trial.whole, refused), estimate_.now_ns);
 }
 
 bool Navigator::adapts_noise(const Trial& trial) const {

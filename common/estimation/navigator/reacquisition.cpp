@@ -109,6 +109,14 @@ unsigned position_rows(const Observation& observation) {
   return out;
 }
 
+bool places(const Observation& observation, unsigned refused) {
+  for (int row = 0; row < observation.rows; ++row) {
+    const auto& weights = observation.h[static_cast<std::size_t>(row)];
+    if ((refused & 1U << row) == 0 && (weights[0] != 0.0 || weights[1] != 0.0)) return true;
+  }
+  return false;
+}
+
 unsigned Reacquisition::believed_rows(Instrument& instrument, const SensorConfig& config,
                                       const Estimate& estimate, const Observation& observation,
                                       unsigned refused, bool fix, double needed_s) const {

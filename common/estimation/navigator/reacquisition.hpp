@@ -10,6 +10,8 @@ namespace fathom::estimation {
 [[nodiscard]] bool measures(const Observation& observation, int row, int first_state);
 /// Those that look at the position, as a set of bits.
 [[nodiscard]] unsigned position_rows(const Observation& observation);
+/// A row that is not refused tells where the vehicle is, horizontally.
+[[nodiscard]] bool places(const Observation& observation, unsigned refused);
 
 /// Nothing is locked out for ever: refusals that agree with each other are believed, and the estimate is
 /// given the room to follow (GATE-3). Fixes of a position have to agree with the motion, too (GATE-4,

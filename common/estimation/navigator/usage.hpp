@@ -18,8 +18,8 @@ struct Usage {
   TimeNs velocity_used_ns = 0;
   TimeNs gap_ns = 0;  ///< the last end of a time without inertial samples
 
-  /// A measurement was used; `with_position`: its first row is one of a position.
-  void note(const AidingPolicy& brought, bool with_position, TimeNs now_ns);
+  /// A measurement was used; `placed`: as a position, horizontally.
+  void note(const AidingPolicy& brought, bool placed, TimeNs now_ns);
   /// A measurement was refused, or components of it.
   void note_refusal(const AidingPolicy& brought, TimeNs now_ns) {
     if (brought.doppler && brought.velocity == VelocityOver::ground) bottom_refused_ns = now_ns;
@@ -47,9 +47,9 @@ struct Usage {
   }
 };
 
-inline void Usage::note(const AidingPolicy& brought, bool with_position, TimeNs now_ns) {
-  if (with_position && brought.fix == Fix::satellite) gps_used_ns = now_ns;
-  if (brought.fix == Fix::acoustic) usbl_used_ns = now_ns;
+inline void Usage::note(const AidingPolicy& brought, bool placed, TimeNs now_ns) {
+  if (placed && brought.fix == Fix::satellite) gps_used_ns = now_ns;
+  if (placed && brought.fix == Fix::acoustic) usbl_used_ns = now_ns;
   if (brought.doppler) dvl_used_ns = now_ns;
   if (brought.doppler && brought.velocity == VelocityOver::ground) bottom_used_ns = now_ns;
   if (brought.velocity != VelocityOver::none) velocity_used_ns = now_ns;

@@ -77,6 +77,30 @@ TEST(Reacquire, OneAxisOfAFixThatIsRefusedForeverIsBelievedThoughTheOthersPass) 
   }
 }
 
+TEST(Reacquire, NobodyNavigatesByAFixOfWhichOnlyTheHeightIsUsed) {
+  const SurveyRun run({.duration_s = 34.0, .dive_s = 1e9});
+  EngineConfig config = SurveyRun::config();
+  config.sensors[0].gate_mode = GateMode::per_component;
+  FusionEngine engine(config);
+  bool ordered = false;
+  double outage_s = 0.0;
+  for (const test::Sample& sample : run.samples) {
+    test::feed(engine, sample);
+    outage_s = std::max(outage_s, engine.nav_state().gps_outage_s);
+    if (ordered || test::header(sample).stamp_ns < SurveyRun::kEpochNs + 30 * kNsPerSecond) continue;
+    EXPECT_LT(outage_s, 1.0);
+    Command command;
+    command.kind = CommandKind::set_position;
+    command.latitude_rad = engine.nav_state().latitude_rad + 200.0 / 6.37e6;
+    command.longitude_rad =
+        engine.nav_state().longitude_rad + 200.0 / (6.38e6 * std::cos(command.latitude_rad));
+    command.sigma_m = 1.0;
+    ordered = test::order_twice(engine, command).empty();
+  }
+  ASSERT_TRUE(ordered);
+  EXPECT_GT(outage_s, 3.0);
+}
+
 /// 460 s under water, then 20 s of fixes that all lie 700 m to the side and go along with the vehicle, then
 /// true ones.
 class LyingFixes {
