@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/units.hpp"
 #include "estimation/alignment/motion_level.hpp"
 #include "estimation/alignment/stability_gate.hpp"
 #include "estimation/alignment/tilt_filter.hpp"
@@ -35,7 +36,7 @@ struct DropStep {
   Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();
   Eigen::Vector3d rate_IN_N_rad_s = Eigen::Vector3d::Zero();  ///< Earth's and transport rate
   Eigen::Vector3d earth_rate_N_rad_s = Eigen::Vector3d::Zero();
-  double g_m_s2 = 9.80665;
+  double g_m_s2 = kStandardGravity_m_s2;
 };
 
 /// The state machine of the in-motion alignment (ALN-12): waiting, averaging, coarse, fine, aligned; timed
@@ -128,7 +129,7 @@ class DropAlignment {
   Eigen::Vector3d level_force_B_ = Eigen::Vector3d::Zero();  ///< low-passed; zero: not known
   Eigen::Vector3d rate_NB_B_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d slip_rate_ = Eigen::Vector3d::Zero();  ///< turn rate as the slip follows it
-  double g_m_s2_ = 9.80665;
+  double g_m_s2_ = kStandardGravity_m_s2;
   double depth_at_s_ = -1.0;
   double depth_m_ = 0.0;
   double speed_at_s_ = -1.0;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "estimation/alignment/drop_config.hpp"
 
@@ -21,7 +22,7 @@ struct StabilityInput {
   double speed_slope_m_s2 = 0.0;
   Eigen::Vector3d rate_B_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_B_m_s2 = Eigen::Vector3d::Zero();
-  double g_m_s2 = 9.80665;
+  double g_m_s2 = kStandardGravity_m_s2;
 };
 
 enum class StabilityCondition : std::uint8_t {

@@ -15,7 +15,6 @@ namespace {
 constexpr int kRejectionsToBelieve = 3;
 /// Rejections that agree with each other for each measurement that is accepted in between.
 constexpr int kMajority = 3;
-constexpr double kGravity_m_s2 = 9.81;
 constexpr double kLeastUnheard_s = 1.0;
 /// A level that goes wrong twice within it goes wrong by biases of the inertial unit.
 constexpr double kLevelledLately_s = 120.0;
@@ -336,7 +335,7 @@ void Reacquisition::make_room(const Setup& setup, const AidingPolicy& policy, bo
     if (current_alone) continue;
     // A velocity goes wrong by a level that is wrong: left as sure as it was, that would lead astray again.
     if (first == 3 && policy.shows_level && factor == 1.0) {
-      const double tilt = observation.innovation[r] / (kGravity_m_s2 * unheard_s);
+      const double tilt = observation.innovation[r] / (kStandardGravity_m_s2 * unheard_s);
       variance[6] += tilt * tilt;
       variance[7] += tilt * tilt;
       wrong_m2_s2 += squared;
@@ -363,7 +362,7 @@ void Reacquisition::doubt_biases(const Setup& setup, Estimate& estimate, double 
   const double wrong_m_s = std::sqrt(wrong_m2_s2);
   widen(Group::accel_bias, std::min(wrong_m_s / since_s, kMostAccelBias_m_s2));
   widen(Group::gyro_bias,
-        std::min(wrong_m_s / (0.5 * kGravity_m_s2 * since_s * since_s), kMostGyroBias_rad_s));
+        std::min(wrong_m_s / (0.5 * kStandardGravity_m_s2 * since_s * since_s), kMostGyroBias_rad_s));
   estimate.bias_prior.interrupt();
   estimate.motion_noise.interrupt();
 }

@@ -121,7 +121,7 @@ bool Plausibility::judge_force() {
   upright_ = upright_ || upwards_s_ > kHeld_s;
   if (upright_) return false;
   if (in_g_s_ > kHeld_s) {
-    finding_ = {Implausible::force_in_g, 9.80665};
+    finding_ = {Implausible::force_in_g, kStandardGravity_m_s2};
   } else if (downwards_s_ > kHeld_s) {
     finding_ = {Implausible::force_downwards, -1.0};
   } else if (along_x_s_ > kHeld_s) {

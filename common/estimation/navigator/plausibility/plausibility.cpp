@@ -206,7 +206,7 @@ void Plausibility::take(const Setup& setup, const SensorConfig& config, const Gp
                         const TrustedAttitude* attitude, TimeNs now_ns) {
   const Vector2d v(gps.velocity_N_m_s[0], gps.velocity_N_m_s[1]);
   if (!is_fixed(config, gps) || !v.allFinite() || !(v.norm() < 1000.0)) return;
-  if (!(std::abs(gps.latitude_rad) < 1.57) || !(std::abs(gps.longitude_rad) < 6.2832)) return;
+  if (!is_on_earth(gps.latitude_rad, gps.longitude_rad)) return;
   const double noise_m_s =
       std::max(sigma_of(config.velocity_sigma_m_s[0], gps.velocity_sigma_N_m_s[0], config.use_sample_sigma),
                sigma_of(config.velocity_sigma_m_s[1], gps.velocity_sigma_N_m_s[1], config.use_sample_sigma));

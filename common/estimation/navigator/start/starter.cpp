@@ -39,8 +39,7 @@ void Starter::collect(const Setup& setup, const Estimate& estimate, const Measur
 void Starter::collect_gps(const Setup& setup, const Estimate& estimate, const SensorConfig& config,
                           const GpsSample& gps) {
   if (!is_fixed(config, gps)) return;
-  if (!std::isfinite(gps.latitude_rad) || !std::isfinite(gps.longitude_rad)) return;
-  if (std::abs(gps.latitude_rad) > 1.5708 || std::abs(gps.longitude_rad) > 6.2832) return;
+  if (!is_on_earth(gps.latitude_rad, gps.longitude_rad)) return;
   Vector3d v = geo::vec(gps.velocity_N_m_s);
   for (int i = 0; i < 3; ++i)
     if (!(std::abs(v(i)) < kMostGpsSpeed_m_s)) v(i) = kUnknown;
