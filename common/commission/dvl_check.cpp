@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -19,50 +20,23 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kFirst_s = 16.0;          // length of the windows at first
-constexpr std::size_t kMost = 250;         // windows
-constexpr std::size_t kLeastWindows = 12;  // for a scatter between them that means something
-constexpr double kPerDvlWindow = 6.0;      // independent figures that a window counts for
-constexpr double kDvlClaim = 15.0;         // log likelihood ratio
+// The rest of a sentence about what turns and the lever leave open.
+constexpr const char* kSideways =
+    " Starts and stops sideways or up and down, or turns in a current that sets the vehicle sideways, would "
+    "tell.";
 constexpr std::array<const char*, 3> kAngles{"roll", "pitch", "yaw"};
 
-// Of several lengths of window the one whose figures of the mounting are the surest.
-DvlFigures fit_best(const Series& series, const Assumed& assumed, const ImuReading& reading,
-                    const DvlFigures& first) {
-  DvlFigures best = first;
-  for (const double length_s : {8.0, 12.0, 16.0, 24.0, 36.0}) {
-    const std::vector<Span> windows = windows_of(series, series.dvl, length_s, 6, kMost);
-    if (windows.size() < kLeastWindows) continue;
-    const DvlFigures now =
-        fit_dvl(series, windows, reading, first.similarity, assumed.dvl.lever_B_m, first.latency_s);
-    if (now.done && now.similarity.turn_sigma_rad.minCoeff() > 0.0 &&
-        now.similarity.turn_sigma_rad.norm() < best.similarity.turn_sigma_rad.norm())
-      best = now;
-  }
-  return best;
+// What hypotheses do not agree on that explain the log alike, the log does not tell.
+DvlFigures with_what_is_apart(const DvlFound& found) {
+  DvlFigures out = found.fit;
+  out.similarity.turn_sigma_rad = turn_sigma_rad(found);
+  for (int axis = 0; axis < 3; ++axis)
+    out.lever_sigma_m[axis] = std::hypot(out.lever_sigma_m[axis], found.lever_apart_m[axis]);
+  out.latency_sigma_s = std::hypot(out.latency_sigma_s, found.latency_apart_s);
+  return out;
 }
 
 }  // namespace
-
-DvlFound find_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading, double latency_s) {
-  DvlFound out;
-  const std::vector<Span> windows = windows_of(series, series.dvl, kFirst_s, 6, kMost);
-  const DvlFit linear = windows.size() >= 3 ? fit_dvl_linear(series, windows, reading, latency_s) : DvlFit{};
-  if (!linear.done) return out;
-  DvlFigures fit =
-      fit_dvl(series, windows, reading, fit_similarity(linear, false), assumed.dvl.lever_B_m, latency_s);
-  DvlFigures other =
-      fit_dvl(series, windows, reading, fit_similarity(linear, true), assumed.dvl.lever_B_m, latency_s);
-  double against = 0.0;  // log likelihood ratio of the two
-  if (fit.done && other.done)
-    against =
-        kPerDvlWindow * static_cast<double>(fit.windows) * std::log(other.residual_m_s / fit.residual_m_s);
-  out.mirrored = other.done && (!fit.done || against < -kDvlClaim);
-  out.mirror_told = std::abs(against) > kDvlClaim;
-  out.fit = out.mirrored ? other : fit;
-  if (out.fit.done) out.fit = fit_best(series, assumed, reading, out.fit);
-  return out;
-}
 
 DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReading& reading,
                    const DvlFound& by_log, Patch& patch) {
@@ -73,8 +47,9 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
         {"dvl", std::move(what), kind, value, unit, sigma, is_known, severity, std::move(text)});
   };
   if (series.dvl.size() < 10) return out;
-  const DvlFigures& fit = by_log.fit;
+  const DvlFigures fit = with_what_is_apart(by_log);
   const bool mirrored = by_log.mirrored;
+  const bool but_for_half_a_turn = by_log.about_the_way == DvlFound::AboutTheWay::but_for_half_a_turn;
   if (!fit.done) {
     add("mounting", FindingKind::missing, false, Severity::ok,
         "How the DVL is mounted cannot be told: there is no minute under way with the DVL on the bottom. "
@@ -90,11 +65,13 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
   const Matrix3d axes = found.C * D;
   const bool negated = mirrored && (nearest_signed_axes(axes) + Matrix3d::Identity()).isZero(1e-9);
   add("mirror", FindingKind::axes, mirror_told, mirrored ? Severity::wrong : Severity::ok,
-      negated       ? "The DVL velocity is negated: it is that of the bottom, not of the vehicle."
-      : mirrored    ? "The DVL velocity is mirrored: " + describe(nearest_signed_axes(axes)) + "."
-      : mirror_told ? "The DVL is right-handed, as expected."
-                    : "Whether the DVL is mirrored cannot be told: the vehicle slipped too little sideways. "
-                      "Tight turns under way would tell.");
+      negated    ? "The DVL velocity is negated: it is that of the bottom, not of the vehicle."
+      : mirrored ? "The DVL velocity is mirrored: " + describe(nearest_signed_axes(axes)) + "."
+      : mirror_told
+          ? "The DVL is right-handed, as expected."
+          : std::string("Whether the DVL is mirrored cannot be told: the vehicle slipped too little "
+                        "sideways.") +
+                (but_for_half_a_turn ? kSideways : " Tight turns under way would tell."));
   static constexpr std::array<Unit, 5> kUnits{
       {{1.0, "m/s"}, {1e-3, "mm/s"}, {1e-2, "cm/s"}, {kKnot_m_s, "knots"}, {kFoot_m, "ft/s"}}};
   const Unit* unit = &kUnits[0];
@@ -120,8 +97,13 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
   // Mounting: of the DVL's axes in body, against what is configured. Roll is seen only where the vehicle
   // slips.
   const Vector3d rpy = geo::to_rpy(geo::from_matrix(found.C)) / kRadPerDeg;
-  const Vector3d off = geo::log(geo::from_matrix(assumed.dvl.C_BD.transpose() * found.C)) / kRadPerDeg;
   const Vector3d sigma = found.turn_sigma_rad / kRadPerDeg;
+  const std::optional<Matrix3d> C_found = mounting_found(by_log, assumed.dvl.C_BD);
+  const auto off_by = [&](const Matrix3d& C) {
+    return Vector3d(geo::log(geo::from_matrix(assumed.dvl.C_BD.transpose() * C)) / kRadPerDeg);
+  };
+  const Vector3d off =
+      (sigma.array() < kToldTurn_rad / kRadPerDeg).select(off_by(C_found.value_or(found.C)), off_by(found.C));
   // The same uncertainty as roll, pitch and yaw have it.
   Vector3d rpy_sigma = Vector3d::Zero();
   for (int axis = 0; axis < 3; ++axis) {
@@ -135,18 +117,28 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
   }
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const bool told = sigma[axis] < 2.0;
+    const bool told = sigma[axis] < kToldTurn_rad / kRadPerDeg;
     const bool is_known = known_to(kAskedTurn_deg, sigma[axis]);
     const bool wrong = told && std::abs(off[axis]) > 5.0 * sigma[axis] && std::abs(off[axis]) > 5.0;
     const bool note = told && assumed.dvl.configured && differs(off[axis], sigma[axis], kNoticedTurn_deg);
     const std::string turned = "The DVL is turned by " + with_sigma(off[axis], sigma[axis]) +
                                " degrees about its " + kAxes[i] + " axis against what is configured.";
-    const std::string would = axis == 0 ? " The vehicle slipped too little sideways: tight turns would tell."
-                                        : " Starts, stops and turns under way would tell.";
+    const std::string would =
+        but_for_half_a_turn && by_log.turn_apart_rad[axis] > 0.0
+            ? std::string(
+                  " Half a turn about the way it goes, with another lever, explains the log as well: "
+                  "all that was sideways came from turning.") +
+                  kSideways
+        : axis == 0 ? " The vehicle slipped too little sideways: tight turns would tell."
+                    : " Starts, stops and turns under way would tell.";
     const Severity severity = wrong ? Severity::wrong : note ? Severity::note : Severity::ok;
     add(std::string("mounting_") + kAngles[i], FindingKind::mounting, is_known, severity,
-        !told
-            ? std::string("DVL mounting ") + kAngles[i] + " cannot be told to two degrees." + would
+        !told ? std::string("DVL mounting ") + kAngles[i] + " cannot be told to two degrees." + would
+        : wrong && !C_found
+            ? "The DVL is not mounted as configured: of the mountings that explain the log one is turned "
+              "by " +
+                  with_sigma(off[axis], sigma[axis]) + " degrees about its " + kAxes[i] +
+                  " axis. Which it is the log does not tell, and none is written." + kSideways
             : (wrong ? turned + " Its " + kAngles[i] + " in the body is " + number(rpy[axis], 1) + " degrees."
                      : std::string("DVL mounting ") + kAngles[i] + " " +
                            with_sigma(rpy[axis], rpy_sigma[axis]) + " degrees.") +
@@ -154,7 +146,7 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
         rpy[axis], "deg", rpy_sigma[axis]);
     add(std::string("turn_") + kAxes[i], FindingKind::mounting, is_known, Severity::ok, turned, off[axis],
         "deg", sigma[axis]);
-    if (wrong || note) patch.C_BD = found.C;
+    if (wrong || note) patch.C_BD = C_found;
   }
   if (mirrored) patch.C_BD.reset();  // a mirror is no mounting
   for (int axis = 0; axis < 3; ++axis) {
@@ -165,7 +157,9 @@ DvlCheck check_dvl(const Series& series, const Assumed& assumed, const ImuReadin
     const bool moved = s < 0.2 && assumed.dvl.configured && differs(off_m, s, kNoticedLever_m);
     const std::string lies = std::string("The DVL lies ") + with_sigma(fit.lever_B_m[axis], s) + " m along " +
                              kAxes[i] + " from the inertial unit.";
-    const std::string would = axis == 2 ? " Rolling and pitching would tell." : " Quicker turns would tell.";
+    const std::string would = by_log.lever_apart_m[axis] > by_log.fit.lever_sigma_m[axis] ? kSideways
+                              : axis == 2 ? " Rolling and pitching would tell."
+                                          : " Quicker turns would tell.";
     add(std::string("lever_") + kAxes[i], FindingKind::lever, is_known, moved ? Severity::note : Severity::ok,
         is_known  ? lies
         : s < 0.2 ? lies + " That is not known to five centimetres." + would

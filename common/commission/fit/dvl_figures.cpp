@@ -20,7 +20,11 @@ using Eigen::VectorXd;
 
 constexpr double kLeastDvlStep_s = 0.15;
 constexpr double kTimeStep_s = 0.02;
-constexpr double kSettled = 1e-3;  // of a sigma: a step that changes nothing
+constexpr double kSettled = 1e-2;      // of a sigma: a step that changes nothing
+constexpr double kMostTurn_rad = 0.3;  // of a step
+constexpr double kHeld_rad = 1e-6;     // sigma of a turn that is held
+// Half a turn takes eleven of the longest; as many again for what else has to come along, and some to settle.
+constexpr int kMostSteps = 30;
 // Unknowns: turn of the mounting, log of the scale, lever, latency, bias of the rate, bias of the force.
 constexpr int kTurn = 0, kScale = 3, kLever = 4, kLatency = 7, kRateBias = 8, kForceBias = 11, kCommon = 14;
 
@@ -138,7 +142,8 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
 }  // namespace
 
 DvlFigures fit_dvl(const Series& series, const std::vector<Span>& windows, const ImuReading& reading,
-                   const Similarity& guess, const Vector3d& lever_B_m, double latency_s) {
+                   const Similarity& guess, const Vector3d& lever_B_m, double latency_s,
+                   const std::optional<Vector3d>& held_D) {
   Unknowns u;
   u.C = guess.C;
   if (guess.mirrored) u.D(1, 1) = -1.0;
@@ -148,7 +153,7 @@ DvlFigures fit_dvl(const Series& series, const std::vector<Span>& windows, const
   u.reading = reading;
   DvlFigures out;
   double robust_scale = 0.0;
-  for (int iteration = 0; iteration < 8; ++iteration) {
+  for (int iteration = 0; iteration < kMostSteps; ++iteration) {
     WindowFit fit(kCommon);
     std::vector<double> residuals;
     for (const Span& window : windows) add_window(series, window, u, robust_scale, fit, residuals);
@@ -162,9 +167,10 @@ DvlFigures fit_dvl(const Series& series, const std::vector<Span>& windows, const
       fit.prior(kForceBias + i, u.force_bias[i], 0.2, sigma);
     }
     fit.prior(kLatency, u.latency_s - latency_s, 0.5, sigma);
+    if (held_D) fit.hold(kTurn, *held_D, kHeld_rad, sigma);
     const WindowFit::Solution solution = fit.solve();
     Vector3d turn = solution.step.segment<3>(kTurn);
-    if (turn.norm() > 0.3) turn *= 0.3 / turn.norm();
+    if (turn.norm() > kMostTurn_rad) turn *= kMostTurn_rad / turn.norm();
     u.C = u.C * geo::to_matrix(geo::exp(turn));
     u.scale *= std::exp(std::clamp(solution.step[kScale], -0.5, 0.5));
     u.lever += solution.step.segment<3>(kLever);
@@ -180,6 +186,8 @@ DvlFigures fit_dvl(const Series& series, const std::vector<Span>& windows, const
     out.residual_m_s = std::sqrt(solution.squares / solution.freedom) / unit;
     out.windows = solution.windows;
     out.done = solution.step.allFinite() && solution.windows >= 3;
+    out.settled =
+        out.done && (solution.step.segment<3>(kTurn).array().abs() < sigmas.segment<3>(kTurn).array()).all();
     if (iteration > 1 && (solution.step.array().abs() < kSettled * sigmas.array()).all()) break;
   }
   return out;

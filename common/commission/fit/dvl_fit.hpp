@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -40,6 +41,7 @@ struct Similarity {
 /// lever), with noise on the reading alone. Each window has a velocity and a gravity of its own.
 struct DvlFigures {
   bool done = false;
+  bool settled = false;   ///< a further step turns the mounting by less than its sigma
   Similarity similarity;  ///< chi2 not set
   Eigen::Vector3d lever_B_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d lever_sigma_m = Eigen::Vector3d::Constant(1e9);
@@ -48,9 +50,11 @@ struct DvlFigures {
   double residual_m_s = 0.0;
   std::size_t windows = 0;
 };
-/// From a first guess of the similarity and latency.
+/// From a first guess of the similarity and latency. About `held_D`, an axis of the DVL, the mounting stays
+/// as guessed.
 [[nodiscard]] DvlFigures fit_dvl(const Series& series, const std::vector<Span>& windows,
                                  const ImuReading& reading, const Similarity& guess,
-                                 const Eigen::Vector3d& lever_B_m, double latency_s);
+                                 const Eigen::Vector3d& lever_B_m, double latency_s,
+                                 const std::optional<Eigen::Vector3d>& held_D = std::nullopt);
 
 }  // namespace fathom::commission

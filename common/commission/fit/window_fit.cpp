@@ -98,6 +98,11 @@ void WindowFit::prior(int index, double offset, double sigma, double residual_si
   right_(index) += weight * offset;
 }
 
+void WindowFit::hold(int index, const Eigen::Vector3d& along, double sigma, double residual_sigma) {
+  const double weight = residual_sigma * residual_sigma / (sigma * sigma);
+  normal_.block<3, 3>(index, index) += weight * along * along.transpose();
+}
+
 WindowFit::Solution WindowFit::solve() const {
   Solution out;
   out.windows = parts_.size();

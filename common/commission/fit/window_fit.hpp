@@ -38,6 +38,8 @@ class WindowFit {
   /// What is known of an unknown before: its present offset from that and its sigma, in units of the
   /// residual's.
   void prior(int index, double offset, double sigma, double residual_sigma);
+  /// The three unknowns from `index` on do not move along a direction by more than a sigma.
+  void hold(int index, const Eigen::Vector3d& along, double sigma, double residual_sigma);
   struct Solution {
     Eigen::VectorXd step;  ///< subtract r = r0 + J step
     Eigen::MatrixXd covariance;
