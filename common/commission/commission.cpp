@@ -33,7 +33,7 @@ void append(Findings& to, Findings from) {
   to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
-void report_gps(const GpsFit& fit, const Assumed& assumed, Commissioning& out) {
+void report_gps(const GpsFit& fit, const Assumed& assumed, bool has_down, Commissioning& out) {
   const auto add = [&](std::string what, FindingKind kind, bool is_known, Severity severity, std::string text,
                        double value, const char* unit, double sigma) {
     out.findings.push_back(
@@ -92,9 +92,10 @@ void report_gps(const GpsFit& fit, const Assumed& assumed, Commissioning& out) {
     out.findings.push_back({"imu", "travel_yaw", FindingKind::mounting, yaw / kRadPerDeg, "deg",
                             sigma / kRadPerDeg, true, Severity::ok,
                             "The vehicle goes " + with_sigma(yaw / kRadPerDeg, sigma / kRadPerDeg) +
-                                " degrees to the right of the x axis on average, and " +
-                                number(pitch / kRadPerDeg, 1) +
-                                " degrees above it. On wheels that is the mounting; in water and air drift "
+                                " degrees to the right of the x axis on average" +
+                                (has_down ? ", and " + number(pitch / kRadPerDeg, 1) + " degrees above it. "
+                                          : std::string(". ")) +
+                                "On wheels that is the mounting; in water and air drift "
                                 "and trim are in it."});
   }
 }
@@ -182,7 +183,7 @@ Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
     if (joint.done) gps_fit = joint.gps;
     if (joint.done && joint.dvl.done) dvl_found.fit = joint.dvl;
   }
-  if (gps.usable) report_gps(gps_fit, assumed, out);
+  if (gps.usable) report_gps(gps_fit, assumed, gps.velocity_N.has_down, out);
   DvlCheck dvl = check_dvl(series, assumed, axes.reading, dvl_found, out.patch);
   append(out.findings, dvl.findings);
   append(out.findings, check_heading(series, assumed, axes.reading, gps, dvl.velocity_B, joint));

@@ -139,7 +139,7 @@ Findings check_depth(const Series& series, const Assumed& assumed, const ImuRead
              : "The depth has a scale that belongs to no unit. " + grows + ".",
         best.value, "", best.sigma);
   std::optional<LatencyFit> late;
-  if (joint.done) {
+  if (joint.done && joint.sunk_m.size() > 0) {
     const Vector3d& l = assumed.depth.lever_B_m;
     ScalarSeries way = joint.sunk_m;
     for (std::size_t i = 0; i < way.size(); ++i) {

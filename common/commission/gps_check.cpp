@@ -19,7 +19,8 @@ using Eigen::Vector3d;
 
 constexpr double kLongestGap_s = 3.0;
 constexpr double kGpsClaim = 20.0;  // log likelihood ratio of a claim: e^-20 in 48 hypotheses is no chance
-constexpr double kClearly = 2.0;    // and the residual shrinks by this much
+constexpr const char* kNoVertical = " The receiver gives no vertical velocity.";
+constexpr double kClearly = 2.0;  // and the residual shrinks by this much
 
 struct Pairs {
   std::vector<Vector3d> moved;     // mean velocity by positions
@@ -57,18 +58,18 @@ Pairs pairs_of(const Series& series) {
   return out;
 }
 
-double squares(const Pairs& pairs, const Matrix3d& P) {
+double squares(const Pairs& pairs, const GpsVelocity& velocity, const Matrix3d& P) {
   double out = 0.0;
   for (std::size_t i = 0; i < pairs.moved.size(); ++i) {
     // Robust: a jump of the position is no argument.
-    const double r2 = (pairs.moved[i] - P * pairs.velocity[i]).squaredNorm();
+    const double r2 = velocity.measured(pairs.moved[i] - P * pairs.velocity[i]).squaredNorm();
     out += r2;
   }
   return out;
 }
 
-VectorSeries from_positions(const VectorSeries& p) {
-  VectorSeries out;
+GpsVelocity from_positions(const VectorSeries& p) {
+  GpsVelocity out;
   for (std::size_t i = 0; i + 1 < p.size();) {
     std::size_t k = i + 1;
     while (k + 1 < p.size() && p.t_s[k] - p.t_s[i] < 0.4 - 1e-3) ++k;
@@ -162,14 +163,21 @@ GpsCheck check_gps(const Series& series) {
     out.from_positions = true;
     out.usable = out.velocity_N.size() > 10;
     add("velocity_axes", FindingKind::axes, false, Severity::ok,
-        "The receiver gives no velocity; what follows takes it from the change of position.");
+        (series.gps_velocity.size() == 0
+             ? std::string("The receiver gives no velocity")
+             : "The receiver gives a velocity with " + std::to_string(series.gps_velocity.size()) + " of " +
+                   std::to_string(series.gps_position.size()) + " positions only") +
+            "; what follows takes it from the change of position.");
     out.sigma_m_s = 0.3;
     return out;
   }
   out.usable = out.velocity_N.size() > 10;
   const Pairs pairs = pairs_of(series);
+  const bool has_down = out.velocity_N.has_down;
+  const int known_axes = out.velocity_N.known_axes();
+  const auto squares_of = [&](const Matrix3d& P) { return squares(pairs, series.gps_velocity, P); };
   double moved2 = 0.0;
-  for (const Vector3d& v : pairs.moved) moved2 += v.squaredNorm();
+  for (const Vector3d& v : pairs.moved) moved2 += out.velocity_N.measured(v).squaredNorm();
   if (pairs.moved.size() < 5 || moved2 <= 0.0) {
     add("velocity_axes", FindingKind::axes, false, Severity::ok,
         "Whether the velocity has the axes of the position cannot be told: there is no run of some seconds "
@@ -182,11 +190,12 @@ GpsCheck check_gps(const Series& series) {
   Matrix3d best = Matrix3d::Identity();
   const Unit* unit = &kUnits[0];
   Matrix3d best_axes = Matrix3d::Identity();
-  const double plain = squares(pairs, Matrix3d::Identity());
+  const double plain = squares_of(Matrix3d::Identity());
   double least = plain;
   for (const Unit& each : kUnits) {
     for (const Matrix3d& P : signed_axes()) {
-      const double now = squares(pairs, each.factor * P);
+      if (!has_down && P(2, 2) != 1.0) continue;  // it stays unknown
+      const double now = squares_of(each.factor * P);
       if (now >= least) continue;
       least = now;
       best = each.factor * P;
@@ -198,42 +207,45 @@ GpsCheck check_gps(const Series& series) {
   const auto beats = [&](double worse, double better) {
     return worse > kClearly * better && 0.5 * n * std::log(worse / std::max(better, 1e-12)) > kGpsClaim;
   };
-  const double residual = std::sqrt(least / (3.0 * n));
+  const double residual = std::sqrt(least / (known_axes * n));
   if (beats(plain, least)) {
     const std::string axes = describe(best_axes);
     const bool enu = best_axes(0, 1) == 1.0 && best_axes(1, 0) == 1.0 && best_axes(2, 2) == -1.0;
-    const double with_z = squares(pairs, best);
+    const double with_z = squares_of(best);
     Matrix3d other = best;
     other.row(2) = -other.row(2);
-    const bool z_told = beats(squares(pairs, other), with_z);
+    const bool z_told = beats(squares_of(other), with_z);
     if (!axes.empty()) {
       const bool swapped = best_axes(0, 1) == 1.0 && best_axes(1, 0) == 1.0;
-      std::string name = enu || (swapped && !z_told)
+      std::string name = !has_down && swapped ? "its components are east, north where north, east is expected"
+                         : enu || (swapped && !z_told)
                              ? "its components are east, north, up where north, east, down is expected"
                              : "of its components " + axes;
       add("velocity_axes", FindingKind::axes, true, Severity::wrong,
           "The GPS velocity does not agree with the change of the GPS position: " + name +
               ". Corrected so, " + number(residual, 2) + " m/s rms are left; as it is " +
-              number(std::sqrt(plain / (3.0 * n)), 2) + " m/s." +
-              (z_told ? "" : " The vertical moved too little to tell its sign."));
+              number(std::sqrt(plain / (known_axes * n)), 2) + " m/s." +
+              (!has_down ? kNoVertical
+               : z_told  ? ""
+                         : " The vertical moved too little to tell its sign."));
     }
     if (unit->factor != 1.0)
       add("velocity_unit", FindingKind::unit, true, Severity::wrong,
           std::string("The GPS velocity is in ") + unit->name + ", not in m/s.", unit->factor, "");
     for (Vector3d& v : out.velocity_N.v) v = best * v;
   } else {
-    // Which of the three axes the log would have noticed.
+    // Which of the axes the log would have noticed.
     std::string told;
-    for (int axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < known_axes; ++axis) {
       Matrix3d flipped = Matrix3d::Identity();
       flipped(axis, axis) = -1.0;
-      if (beats(squares(pairs, flipped), plain))
+      if (beats(squares_of(flipped), plain))
         told += std::string(told.empty() ? "" : ", ") + (axis == 0 ? "north" : axis == 1 ? "east" : "down");
     }
     const bool is_known = !told.empty();
     add("velocity_axes", FindingKind::axes, is_known, Severity::ok,
         is_known ? "The GPS velocity is the change of the GPS position, within " + number(residual, 2) +
-                       " m/s rms (axes told: " + told + ")."
+                       " m/s rms (axes told: " + told + ")." + (has_down ? "" : kNoVertical)
                  : "The vehicle moved too little to tell the axes of the GPS velocity. A straight run of "
                    "some 50 m to each side would.");
   }

@@ -10,9 +10,9 @@ namespace fathom::commission {
 /// The velocity of a receiver against the change of its own position: axes, signs, unit.
 struct GpsCheck {
   Findings findings;
-  bool usable = false;      ///< there is a velocity, given or made from positions
-  VectorSeries velocity_N;  ///< corrected; from positions where there was none
-  double sigma_m_s = 0.1;   ///< of one component, from the second differences of the velocity or positions
+  bool usable = false;     ///< there is a velocity, given or made from positions
+  GpsVelocity velocity_N;  ///< corrected; from positions where there was none
+  double sigma_m_s = 0.1;  ///< of one component, from the second differences of the velocity or positions
   bool from_positions = false;
 };
 [[nodiscard]] GpsCheck check_gps(const Series& series);

@@ -56,7 +56,7 @@ double robust_weight(double residual, double scale) {
 
 }  // namespace
 
-GpsSquares gps_squares(const Series& series, const VectorSeries& velocity_N, const std::vector<Span>& windows,
+GpsSquares gps_squares(const Series& series, const GpsVelocity& velocity_N, const std::vector<Span>& windows,
                        const ImuReading& reading, double latency_s) {
   const Vector3d gravity(0.0, 0.0, gravity_of(series));
   GpsSquares squares;
@@ -78,20 +78,27 @@ GpsSquares gps_squares(const Series& series, const VectorSeries& velocity_N, con
     for (std::size_t k = 0; k < x.size(); ++k) sum += (y[k] - mean_y) * (x[k] - mean_x).transpose();
     const Matrix3d R = best_rotation(sum);
     const Matrix3d R_negated = best_rotation(-sum);
+    const double of_model =
+        velocity_N.known_axes() * static_cast<double>(x.size()) * kGpsModel_m_s * kGpsModel_m_s;
+    squares.as_read += of_model;
+    squares.force_negated += of_model;
     for (std::size_t k = 0; k < x.size(); ++k) {
-      squares.as_read += (y[k] - mean_y - R * (x[k] - mean_x)).squaredNorm();
-      squares.force_negated += (y[k] - mean_y + R_negated * (x[k] - mean_x)).squaredNorm();
+      squares.as_read += velocity_N.measured(y[k] - mean_y - R * (x[k] - mean_x)).squaredNorm();
+      squares.force_negated += velocity_N.measured(y[k] - mean_y + R_negated * (x[k] - mean_x)).squaredNorm();
     }
   }
   return squares;
 }
 
-GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::vector<Span>& windows,
+GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N, const std::vector<Span>& windows,
                const ImuReading& reading, double latency_s, const Vector3d& lever_B_m) {
   GpsFit out;
   out.latency_s = latency_s;
   out.lever_B_m = lever_B_m;
   const Vector3d gravity(0.0, 0.0, gravity_of(series));
+  // Gravity, which is far larger than what the vertical velocity adds, holds the turn of a window also where
+  // that is unknown; its rows then say nothing.
+  const int axes = velocity_N.known_axes();
   constexpr int kCommon = 10;  // lever, latency, bias of the rate, bias of the force
   ImuReading now = reading;
   Vector3d force_bias = Vector3d::Zero();
@@ -131,18 +138,19 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
       turns[w] = R;
       changes[w] = 0.0;
       for (const Vector3d& each : y) changes[w] += (each - mean_y).head<2>().squaredNorm();
-      const auto rows = static_cast<Eigen::Index>(3 * x.size());
+      const Eigen::Index rows = axes * static_cast<Eigen::Index>(x.size());
       MatrixXd J(rows, kCommon);
       MatrixXd Jw(rows, 6);
       VectorXd r(rows);
       for (std::size_t k = 0; k < x.size(); ++k) {
-        const auto at = static_cast<Eigen::Index>(3 * k);
+        const Eigen::Index at = axes * static_cast<Eigen::Index>(k);
         const double t = times[k];
         const Strapdown::State state = strapdown.at(t);
         const Strapdown::OfBias of_bias = strapdown.of_bias_at(t);
         const Vector3d residual = y[k] - mean_y - R * (x[k] - mean_x);
-        residuals.push_back(residual.norm());
-        const double weight = std::sqrt(robust_weight(residual.norm(), scale));
+        const double size = velocity_N.measured(residual).norm();
+        residuals.push_back(size);
+        const double weight = std::sqrt(robust_weight(size, scale));
         MatrixXd row(3, kCommon);
         row.block<3, 3>(0, 0) = -R * state.C_WB * geo::skew(state.rate);
         // The stamp moves gravity's part of y as well.
@@ -155,16 +163,18 @@ GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N, const std::
             -R * (of_bias.IFC + geo::skew(swing_W) * of_bias.IC + state.C_WB * geo::skew(out.lever_B_m)) *
             now.rate;
         row.block<3, 3>(0, 7) = R * of_bias.IC;
-        J.middleRows<3>(at) = weight * row;
-        Jw.block<3, 3>(at, 0) = weight * geo::skew(R * (x[k] - mean_x));
-        Jw.block<3, 3>(at, 3) = -weight * Matrix3d::Identity();
-        r.segment<3>(at) = weight * residual;
+        const Matrix3d by_turn = geo::skew(R * (x[k] - mean_x));
+        J.middleRows(at, axes) = weight * row.topRows(axes);
+        Jw.block(at, 0, axes, 3) = weight * by_turn.topRows(axes);
+        Jw.block(at, 3, axes, 3) = -weight * Matrix3d::Identity().topRows(axes);
+        r.segment(at, axes) = weight * residual.head(axes);
       }
       fit.add(J, Jw, r);
     }
     if (residuals.size() < 12) return out;
     scale = std::max(1e-4, median(residuals));
-    const double residual_sigma = scale / 1.54;  // median of the length of three normal numbers
+    // Over the median of the length of three normal numbers, or of two.
+    const double residual_sigma = scale / (axes == 3 ? 1.54 : 1.18);
     for (int i = 0; i < 3; ++i) fit.prior(i, out.lever_B_m[i] - lever_B_m[i], 3.0, residual_sigma);
     fit.prior(3, out.latency_s - latency_s, 0.5, residual_sigma);
     for (int i = 0; i < 3; ++i)

@@ -10,13 +10,14 @@
 
 namespace fathom::commission {
 
-/// Sums of squares that an inertial unit leaves against the velocity of GPS, m^2/s^2.
+/// Sums of squares that an inertial unit leaves against the velocity of GPS, m^2/s^2, with what the model
+/// neglects.
 struct GpsSquares {
   double as_read = 0.0;
   double force_negated = 0.0;  ///< were every specific force the negative of what was read
 };
 /// Of a unit so read: each window may turn freely. `latency_s` is subtracted from the stamps of GPS.
-[[nodiscard]] GpsSquares gps_squares(const Series& series, const VectorSeries& velocity_N,
+[[nodiscard]] GpsSquares gps_squares(const Series& series, const GpsVelocity& velocity_N,
                                      const std::vector<Span>& windows, const ImuReading& reading,
                                      double latency_s);
 
@@ -42,7 +43,7 @@ struct GpsFit {
   Eigen::Vector3d forward_B = Eigen::Vector3d::Zero();
   std::optional<AttitudeAt> attitude;  ///< where the velocity changed most
 };
-[[nodiscard]] GpsFit fit_gps(const Series& series, const VectorSeries& velocity_N,
+[[nodiscard]] GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N,
                              const std::vector<Span>& windows, const ImuReading& reading, double latency_s,
                              const Eigen::Vector3d& lever_B_m);
 

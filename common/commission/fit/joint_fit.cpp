@@ -26,6 +26,7 @@ constexpr double kRowsApart_s = 0.09;           // of two rows that are used
 constexpr double kSmooth_s = 0.05;              // to both sides of an instant
 constexpr double kOvertakes_s = 1000;           // the wandering of a bias overtakes white noise here
 constexpr std::size_t kSharedInnovations = 20;  // innovations that may have something in common
+constexpr double kNotMeasured_m_s = 1e3;        // sigma of what a receiver does not give
 constexpr double kMostStretch = 2.5;
 constexpr double kWellBelow = 0.4549;  // median of the square of a normal number
 // No figure is surer than this: axes of an inertial unit are not square, samples are not instants.
@@ -66,8 +67,9 @@ struct JointRow {
 // Innovations of one instrument, over their expected sigmas.
 struct Innovations {
   std::array<std::vector<double>, 3> of_axis;
-  void add(const Vector3d& some) {
-    for (std::size_t i = 0; i < 3; ++i) of_axis[i].push_back(some[static_cast<Eigen::Index>(i)]);
+  void add(const Vector3d& some, int axes = 3) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(axes); ++i)
+      of_axis[i].push_back(some[static_cast<Eigen::Index>(i)]);
   }
   /// How much larger the noise is than was assumed, by axis.
   [[nodiscard]] Vector3d excess() const {
@@ -103,7 +105,7 @@ struct Innovations {
 
 class Fit {
  public:
-  Fit(const Series& series, const VectorSeries& velocity_N, const JointStart& start)
+  Fit(const Series& series, const GpsVelocity& velocity_N, const JointStart& start)
       : series_(series), velocity_N_(velocity_N), start_(start) {
     for (std::size_t i = 0; i < series.imu.size(); ++i) {
       rate_.push_back(start.reading.rate * (series.imu.rate[i] - start.reading.rate_bias));
@@ -113,6 +115,7 @@ class Fit {
     smooth_force_.emplace(series.imu, force_);
     if (start.dvl.similarity.mirrored) mirror_(1, 1) = -1.0;
     gps_sigma_ = Vector3d(1.0, 1.0, 2.0) * start.gps_sigma_m_s;
+    if (!velocity_N.has_down) gps_sigma_.z() = kNotMeasured_m_s;
     dvl_sigma_.setConstant(std::max(0.003, start.dvl.residual_m_s) / start.dvl.similarity.scale);
     first_ = 1;
     const double begin_s = std::max(velocity_N.t_s.front() - 0.5, under_way_s(velocity_N) - kBefore_s);
@@ -243,7 +246,8 @@ class Fit {
           of_dvl.add(
               filter.update_dvl(series_.dvl.v[row.index], motion, state.dvl_latency_s, mirror_, dvl_sigma_));
         } else {
-          of_gps.add(filter.update_gps(velocity_N_.v[row.index], motion, state.gps_latency_s, gps_sigma_));
+          of_gps.add(filter.update_gps(velocity_N_.v[row.index], motion, state.gps_latency_s, gps_sigma_),
+                     velocity_N_.known_axes());
         }
       }
       sunk += filter.state().v_N.z() * dt;
@@ -304,6 +308,8 @@ class Fit {
       result_.dvl.latency_s = end.dvl_latency_s;
       result_.dvl.latency_sigma_s = std::max(kLeastLatency_s, dvl * sigma[I::kDvlLatency]);
     }
+    // Nothing holds the vertical.
+    if (!velocity_N_.has_down && !result_.dvl.done) result_.sunk_m = {};
     // A filter that does not follow the instruments has found nothing, and one whose innovations have much in
     // common does not know what moves the vehicle.
     const double most = 3.0;
@@ -313,7 +319,7 @@ class Fit {
   }
 
   const Series& series_;
-  const VectorSeries& velocity_N_;
+  const GpsVelocity& velocity_N_;
   const JointStart& start_;
   std::vector<Vector3d> rate_, force_;
   std::optional<Smooth> smooth_rate_, smooth_force_;
@@ -325,7 +331,7 @@ class Fit {
 
 }  // namespace
 
-JointFit fit_joint(const Series& series, const VectorSeries& velocity_N, const JointStart& start) {
+JointFit fit_joint(const Series& series, const GpsVelocity& velocity_N, const JointStart& start) {
   return Fit(series, velocity_N, start).run();
 }
 

@@ -29,7 +29,7 @@ struct JointFit {
   DvlFigures dvl;        ///< done: with it
   VectorSeries rpy_rad;  ///< roll, pitch and unwrapped yaw of the body, ten times a second
   double yaw_sigma_rad = 0.0;
-  ScalarSeries sunk_m;  ///< way down of the inertial unit since the start
+  ScalarSeries sunk_m;  ///< way down of the inertial unit since the start; empty where nothing measures it
 };
 
 /// Levers, latencies, mounting and scale by a Kalman filter that has them in its state, besides attitude,
@@ -37,7 +37,7 @@ struct JointFit {
 /// its own has to find its own gravity, the log has one. Relinearised until nothing moves. The noise of GPS
 /// and DVL is that of the innovations; sigmas are stretched by what successive innovations have in common.
 /// Precondition: velocity_N has rows, gps.attitude is set.
-[[nodiscard]] JointFit fit_joint(const Series& series, const VectorSeries& velocity_N,
+[[nodiscard]] JointFit fit_joint(const Series& series, const GpsVelocity& velocity_N,
                                  const JointStart& start);
 
 }  // namespace fathom::commission

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -28,6 +29,24 @@ std::optional<Row> interpolate(const S& series, double t_s, double longest_gap_s
   return Row(series.v[i - 1] + share * (series.v[i] - series.v[i - 1]));
 }
 
+// Receivers of NMEA 0183 give speed and course alone. One that gives the vertical now and then is taken where
+// it does.
+void settle_down(GpsVelocity& velocity) {
+  const auto known_down = std::count_if(velocity.v.begin(), velocity.v.end(),
+                                        [](const Vector3d& v) { return std::isfinite(v.z()); });
+  velocity.has_down = 2 * static_cast<std::size_t>(known_down) >= velocity.size();
+  GpsVelocity out;
+  out.has_down = velocity.has_down;
+  for (std::size_t i = 0; i < velocity.size(); ++i) {
+    Vector3d v = velocity.v[i];
+    if (!velocity.has_down) v.z() = 0.0;
+    if (!v.allFinite()) continue;
+    out.t_s.push_back(velocity.t_s[i]);
+    out.v.push_back(v);
+  }
+  velocity = std::move(out);
+}
+
 void take_gps(const dataset::Dataset& data, const Assumed& assumed, Series& out) {
   std::optional<geo::Geodetic> origin;
   std::size_t fixed = 0;
@@ -47,10 +66,11 @@ void take_gps(const dataset::Dataset& data, const Assumed& assumed, Series& out)
     out.gps_position_sigma_m.push_back(fix.position_sigma_N_m[0]);
     if (fix.fix == GpsFix::rtk_fixed) ++fixed;
     const Vector3d velocity = geo::vec(fix.velocity_N_m_s);
-    if (!velocity.allFinite()) continue;
+    if (!velocity.head<2>().allFinite()) continue;
     out.gps_velocity.t_s.push_back(t);
     out.gps_velocity.v.push_back(velocity);
   }
+  settle_down(out.gps_velocity);
   out.gps_rtk = fixed * 2 > out.gps_position.size();
 }
 

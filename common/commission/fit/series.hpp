@@ -17,6 +17,15 @@ struct VectorSeries {
   std::vector<Eigen::Vector3d> v;
   [[nodiscard]] std::size_t size() const { return t_s.size(); }
 };
+/// Velocity over ground by GPS: north, east, down.
+struct GpsVelocity : VectorSeries {
+  bool has_down = true;  ///< false: down is unknown, and 0 in every row
+  [[nodiscard]] int known_axes() const { return has_down ? 3 : 2; }
+  /// A residual without what the receiver does not give.
+  [[nodiscard]] Eigen::Vector3d measured(const Eigen::Vector3d& residual_N) const {
+    return {residual_N.x(), residual_N.y(), has_down ? residual_N.z() : 0.0};
+  }
+};
 struct ScalarSeries {
   std::vector<double> t_s;
   std::vector<double> v;
@@ -36,7 +45,7 @@ struct Series {
   TimeNs epoch_ns = 0;  ///< of t_s = 0
   ImuSeries imu;
   VectorSeries gps_position;                 ///< north, east, down from the first fix, m
-  VectorSeries gps_velocity;                 ///< north, east, down, m/s, as labelled; empty where unknown
+  GpsVelocity gps_velocity;                  ///< m/s, as labelled; empty where unknown
   std::vector<double> gps_position_sigma_m;  ///< horizontal, of each position; may be unknown
   bool gps_rtk = false;                      ///< most fixes are carrier-phase fixed
   double latitude_rad = kUnknown;

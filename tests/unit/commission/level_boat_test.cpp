@@ -1,9 +1,15 @@
 #include "unit/commission/level_boat.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "commission/fit/gps_fit.hpp"
+#include "commission/fit/signed_axes.hpp"
+#include "unit/commission/sabotage.hpp"
 
 namespace fathom::test {
 namespace {
@@ -108,6 +114,95 @@ TEST(CommissionLevelBoat, WritesWhatIsToldAndKeepsTheAngleThatIsNot) {
     EXPECT_LT(geo::log(geo::from_matrix(boat.C_BD.transpose() * *found.patch.C_BD)).norm(), 0.5 * kRadPerDeg)
         << "seed " << seed << "\n"
         << *found.patch.C_BD;
+  }
+}
+
+TEST(CommissionLevelBoat, TakesAHorizontalVelocityAsVelocity) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    sim::Random random(seed, "horizontal");
+    LevelBoat boat;
+    boat.gps_lever_B_m = {random.uniform(-0.6, 0.6), random.uniform(-0.6, 0.6), -0.5};
+    boat.gps_late_s = random.uniform(0.05, 0.25);
+    dataset::Dataset data = sail(boat, seed);
+    without_vertical(data);
+    const auto found = commission::commission(data, as_built(boat));
+    EXPECT_EQ(wrongs(found.findings), "") << "seed " << seed;
+    const Finding* velocity = find(found.findings, "gps", "velocity_axes");
+    ASSERT_NE(velocity, nullptr) << "seed " << seed;
+    EXPECT_TRUE(velocity->known) << "seed " << seed << " " << velocity->text;
+    EXPECT_NE(velocity->text.find("north, east)"), std::string::npos) << velocity->text;
+    EXPECT_NE(velocity->text.find("no vertical velocity"), std::string::npos) << velocity->text;
+    const Finding* latency = find(found.findings, "gps", "latency");
+    ASSERT_NE(latency, nullptr) << "seed " << seed;
+    EXPECT_LT(latency->sigma, 0.02) << "seed " << seed << " " << latency->text;
+    EXPECT_NEAR(latency->value, boat.gps_late_s, 4.0 * latency->sigma) << "seed " << seed;
+    for (int axis = 0; axis < 2; ++axis) {
+      const Finding* lever = find(found.findings, "gps", axis == 0 ? "lever_x" : "lever_y");
+      ASSERT_NE(lever, nullptr) << "seed " << seed;
+      EXPECT_LT(lever->sigma, 0.1) << "seed " << seed << " " << lever->text;
+      EXPECT_NEAR(lever->value, boat.gps_lever_B_m[axis], 4.0 * lever->sigma) << "seed " << seed;
+    }
+  }
+}
+
+// On flat water nothing turns about x and y but the Earth: a receiver that smooths lets it be seen, and that
+// is no evidence on how x and y of the gyro stand.
+TEST(CommissionLevelBoat, TurnOfTheEarthIsNoEvidenceOnTheAxesOfTheGyro) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    LevelBoat boat;
+    boat.gps_velocity_noise_m_s = 0.001;
+    const commission::Series series = commission::series_of(sail(boat, seed), as_built(boat));
+    const auto windows = commission::windows_of(series, series.gps_velocity, 12.0, 6, 16);
+    std::vector<double> squares;
+    for (const Matrix3d& axes : commission::signed_axes()) {
+      if (axes(2, 2) != 1.0) continue;
+      commission::ImuReading reading;
+      reading.rate = axes;
+      squares.push_back(commission::gps_squares(series, series.gps_velocity, windows, reading, 0.0).as_read);
+    }
+    const auto [least, most] = std::minmax_element(squares.begin(), squares.end());
+    // Six independent figures a window.
+    const double log_ratio = 3.0 * static_cast<double>(windows.size()) * std::log(*most / *least);
+    EXPECT_LT(log_ratio, 5.0) << "seed " << seed;
+  }
+}
+
+TEST(CommissionLevelBoat, SaysWhetherTheReceiverGivesAVelocity) {
+  dataset::Dataset data = sail({}, 1);
+  auto& fixes = data.of<GpsSample>();
+  for (std::size_t i = 0; i < fixes.size(); ++i)
+    if (i % 3 != 0) fixes[i].velocity_N_m_s.fill(kUnknown);
+  const auto some = commission::commission(data, as_built({}));
+  EXPECT_NE(find(some.findings, "gps", "velocity_axes")->text.find(" positions only"), std::string::npos);
+  for (GpsSample& fix : fixes) fix.velocity_N_m_s.fill(kUnknown);
+  const auto none = commission::commission(data, as_built({}));
+  EXPECT_NE(find(none.findings, "gps", "velocity_axes")->text.find("gives no velocity;"), std::string::npos);
+}
+
+// A vehicle that dives, so that the vertical that the receiver does not give is not zero.
+TEST(CommissionLevelBoat, ServesWithoutAVerticalVelocityForAVehicleThatDives) {
+  const dataset::Dataset healthy = drive(commissioning_vehicle(), 1);
+  commission::Assumed assumed = as_built({});
+  assumed.depth.configured = assumed.heading.configured = true;
+  assumed.gps.lever_B_m = {0.0, 0.0, -0.4};
+  assumed.dvl.lever_B_m = {0.5, 0.0, 0.2};
+  dataset::Dataset data = healthy;
+  without_vertical(data);
+  const auto found = commission::commission(data, assumed);
+  EXPECT_EQ(wrongs(found.findings), "");
+  EXPECT_TRUE(found.patch.empty());
+  for (const Sabotage& sabotage : sabotages()) {
+    data = healthy;
+    sabotage.commit(data);
+    without_vertical(data);
+    const auto spoilt = commission::commission(data, assumed);
+    const Finding* finding = find(spoilt.findings, sabotage.sensor, sabotage.what);
+    ASSERT_NE(finding, nullptr) << sabotage.name << "\n" << wrongs(spoilt.findings);
+    EXPECT_EQ(finding->severity, commission::Severity::wrong) << sabotage.name << ": " << finding->text;
+    if (sabotage.what != "velocity_axes") {
+      EXPECT_NE(finding->text.find(sabotage.words), std::string::npos)
+          << sabotage.name << ": " << finding->text;
+    }
   }
 }
 
