@@ -16,6 +16,7 @@
 #include "dataset/dataset.hpp"
 #include "demo/recording.hpp"
 #include "demo/vehicle.hpp"
+#include "launch/executable.hpp"
 #include "security/keygen.hpp"
 
 namespace fathom::demo {
@@ -40,8 +41,7 @@ struct Places {
 
 Places find_places() {
   // The scenarios are found beside the executable or where installed; the services' files lie one folder up.
-  return {std::filesystem::read_symlink("/proc/self/exe").parent_path(),
-          std::filesystem::path(config::scenario_directory()).parent_path()};
+  return {launch::executables_folder(), std::filesystem::path(config::scenario_directory()).parent_path()};
 }
 
 // Of the operator console, plus the domain.
@@ -110,9 +110,7 @@ class Builder {
   /// of the vehicle's but the network.
   void add_instance(const std::string& name, const std::string& service, const Sets& sets,
                     const std::filesystem::path& configuration = {}) {
-    std::string executable = "fathom-" + service;
-    std::replace(executable.begin(), executable.end(), '_', '-');
-    Program program{name, places_.executables / executable, {}, false};
+    launch::Program program{name, places_.executables / launch::executable_of(service), {}, false};
     if (configuration.empty())
       program.arguments = {"--vehicle", vehicle_.string()};
     else
@@ -274,8 +272,9 @@ Plan make_plan(const Options& options, const std::filesystem::path& run_director
   }
   if (options.console) builder.add_console(options.domain, run_directory);
   // The simulator last: instruments speak when everyone listens.
-  const auto simulator_at = std::find_if(plan.programs.begin(), plan.programs.end(),
-                                         [](const Program& program) { return program.name == "simulator"; });
+  const auto simulator_at =
+      std::find_if(plan.programs.begin(), plan.programs.end(),
+                   [](const launch::Program& program) { return program.name == "simulator"; });
   std::rotate(simulator_at, simulator_at + 1, plan.programs.end());
 
   const auto monitor_config = config::load_service_config<config::MonitorConfig>(

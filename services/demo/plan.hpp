@@ -8,16 +8,16 @@
 #include "demo/options.hpp"
 #include "demo/report.hpp"
 #include "demo/run_record.hpp"
-#include "demo/supervisor.hpp"
+#include "launch/supervisor.hpp"
 
 namespace fathom::demo {
 
 /// Everything that a run consists of, worked out before anything starts.
 struct Plan {
-  std::string title;              ///< scenario name, or the data set's folder
-  double duration_s = 0.0;        ///< vehicle time
-  TimeNs epoch_ns = 0;            ///< UTC at which an accelerated clock starts; 0: the host's own clock
-  std::vector<Program> programs;  ///< in the order of their start
+  std::string title;        ///< scenario name, or the data set's folder
+  double duration_s = 0.0;  ///< vehicle time
+  TimeNs epoch_ns = 0;      ///< UTC at which an accelerated clock starts; 0: the host's own clock
+  std::vector<launch::Program> programs;  ///< in the order of their start
   std::string console;  ///< address of the operator console, with the right to give orders; empty: none
   std::filesystem::path recordings;  ///< folder of the recorder; empty: nothing is recorded
   std::string credentials;           ///< folder of the run's own; empty: the network is not protected

@@ -105,7 +105,7 @@ std::string quoted(const std::string& text) {
 /// One line per service, name and command, for whoever wants to run them by hand or on several machines.
 void write_commands(const Plan& plan, const std::filesystem::path& file) {
   std::ofstream out(file);
-  for (const Program& program : plan.programs) {
+  for (const launch::Program& program : plan.programs) {
     out << program.name << '\t' << quoted(program.executable.string());
     for (const std::string& argument : program.arguments) out << ' ' << quoted(argument);
     out << '\n';
@@ -145,14 +145,14 @@ ExitCode run(const Options& options) {
   presence.security = {plan.credentials, "cli"};
   bus::Participant participant(presence);
   Observer observer(participant, *clock, plan.record);
-  Supervisor supervisor(directory.path(), kRestartAfterNs);
+  launch::Supervisor supervisor(directory.path(), kRestartAfterNs);
   say("Starting " + plan.title + ": " + std::to_string(plan.programs.size()) + " services on DDS domain " +
       std::to_string(options.domain) + ", logs in " + directory.path().string());
   if (!plan.credentials.empty()) {
     say("Protected: look with FATHOM_SECURITY_DIR=" + plan.credentials + " fathom status --domain " +
         std::to_string(options.domain));
   }
-  for (const Program& program : plan.programs) supervisor.start(program);
+  for (const launch::Program& program : plan.programs) supervisor.start(program);
   if (!plan.console.empty()) say("Console: " + plan.console);
 
   const SystemClock host;

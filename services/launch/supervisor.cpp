@@ -1,4 +1,4 @@
-#include "demo/supervisor.hpp"
+#include "launch/supervisor.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace fathom::demo {
+namespace fathom::launch {
 namespace {
 
 std::string how_it_ended(int status) {
@@ -51,8 +51,7 @@ void Supervisor::spawn(Child& child) {
   const pid_t parent = getpid();
   const pid_t pid = fork();
   if (pid == 0) {
-    // A process group of its own: Ctrl-C reaches the demonstration alone, which then stops its services in
-    // order.
+    // A process group of its own: Ctrl-C reaches the parent alone, which then stops its services in order.
     setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(4);
@@ -129,4 +128,4 @@ std::map<std::string, int> Supervisor::restarts() const {
   return out;
 }
 
-}  // namespace fathom::demo
+}  // namespace fathom::launch

@@ -9,9 +9,9 @@
 
 #include "base/time.hpp"
 
-namespace fathom::demo {
+namespace fathom::launch {
 
-/// One service of the demonstration.
+/// One service that is started.
 struct Program {
   std::string name;  ///< service name, e.g. "gps_bridge"
   std::filesystem::path executable;
@@ -62,4 +62,4 @@ class Supervisor {
   bool gave_up_ = false;
 };
 
-}  // namespace fathom::demo
+}  // namespace fathom::launch
