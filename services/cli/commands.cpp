@@ -53,6 +53,7 @@ void add_commands(CLI::App& app, ExitCode& exit_code) {
   add_doctor(app, exit_code);
   add_config(app, exit_code);
   add_init(app, exit_code);
+  add_run(app, exit_code);
   add_keygen(app, exit_code);
   add_import(app, exit_code);
   add_export(app, exit_code);
