@@ -59,11 +59,11 @@ double StartHeading::variance_rad2() const {
 }
 
 void StartHeading::updated(const Observation& observation, const InnovationStatistics& statistics,
-                           const ErrorFilter& filter, double turn_rad_s) {
+                           const ErrorFilter& filter, double turn_rad_s, ShowsStart shows) {
   if (!open_) return;
   // (GATE-9)
   const Evidence<1> evidence(column_, observation, statistics);
-  add(evidence, statistics, filter, turn_rad_s);
+  if (shows == ShowsStart::yes) add(evidence, statistics, filter, turn_rad_s);
   follow(evidence, statistics, filter.estimated(), column_);
   if (std::abs(column_[8]) < kNegligible && !is_wrong()) end();
 }

@@ -8,6 +8,11 @@
 
 namespace fathom::estimation {
 
+/// Whether a measurement that agrees with the estimate may say that its start was wrong. A velocity over
+/// ground along the vehicle's axes does not see which way they point: a wrong heading shows in it by the
+/// Earth's rate alone, which errors of gyros and accelerometers look like.
+enum class ShowsStart : std::uint8_t { no, yes };
+
 /// The heading of the start may have been wrong by more than its sigma says: a compass beside the steel of a
 /// ship, a number that was mistyped. By a likelihood ratio over all innovations since then this is told from
 /// noise (GATE-9): how an error of one radian at the start has become one of now is carried along with the
@@ -34,7 +39,7 @@ class StartHeading {
   // What the filter does, in its order. `turn_rad_s`: about down, by then.
   void propagated(const NavTransition& transition, const ProcessNoise& noise);
   void updated(const Observation& observation, const InnovationStatistics& statistics,
-               const ErrorFilter& filter, double turn_rad_s);
+               const ErrorFilter& filter, double turn_rad_s, ShowsStart shows = ShowsStart::yes);
   /// A measurement was not taken in. `statistics` with the noise that it says it has.
   void refused(const Observation& observation, const InnovationStatistics& statistics,
                const ErrorFilter& filter, double turn_rad_s);

@@ -18,7 +18,8 @@ void constrain(const Setup& setup, const Model& model, Estimate& estimate) {
   const GateResult result =
       gate(estimate.filter, setup.constraint_gate, setup.constraint_limits, observation, statistics);
   std::array<double, kMaxStates> x{};
-  if (result.pass) (void)estimate.update(setup, observation, statistics, VelocityOver::ground, x);
+  if (result.pass)
+    (void)estimate.update(setup, observation, statistics, VelocityOver::ground, ShowsStart::yes, x);
 }
 
 /// (AID-ZUPT-1)
@@ -33,7 +34,7 @@ bool apply_zero_velocity(const Setup& setup, Estimate& estimate) {
   std::array<double, kMaxStates> x{};
   // Somebody's word is not better than the instruments: nothing is believed that is far from possible.
   return !(statistics.squared_distance > 100.0) &&
-         estimate.update(setup, observation, statistics, VelocityOver::ground, x);
+         estimate.update(setup, observation, statistics, VelocityOver::ground, ShowsStart::yes, x);
 }
 
 }  // namespace

@@ -181,11 +181,11 @@ void Estimate::widen_heading(double variance_rad2) {
 }
 
 bool Estimate::update(const Setup& setup, const Observation& observation,
-                      const InnovationStatistics& statistics, VelocityOver along,
+                      const InnovationStatistics& statistics, VelocityOver along, ShowsStart shows,
                       std::array<double, kMaxStates>& x) {
   const Vector3d before = velocity_N_m_s(setup, along);
   if (!filter.update(observation, statistics, x)) return false;
-  if (start_heading.is_open()) start_heading.updated(observation, statistics, filter, turn_rad_s());
+  if (start_heading.is_open()) start_heading.updated(observation, statistics, filter, turn_rad_s(), shows);
   motion_noise.updated(observation, statistics, filter);
   move(setup, x, before, along);
   return true;

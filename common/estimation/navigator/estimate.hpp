@@ -57,7 +57,7 @@ struct Estimate {
   /// Takes a gated measurement in and moves the state by the estimated error `x` (KF-3 to KF-5). `along`: of
   /// what is measured along the vehicle. False, with nothing changed, when the statistics are not positive.
   bool update(const Setup& setup, const Observation& observation, const InnovationStatistics& statistics,
-              VelocityOver along, std::array<double, kMaxStates>& x);
+              VelocityOver along, ShowsStart shows, std::array<double, kMaxStates>& x);
   /// The heading of the start was wrong (GATE-9): takes out what that has done since. Adds to `x` what the
   /// state is moved by.
   void correct_start(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x);

@@ -251,7 +251,8 @@ bool Navigator::update(Trial& trial) {
     trial.kept->h = {};
     trial.kept->column_count = 0;
   }
-  if (!estimate_.update(*setup_, *trial.kept, trial.statistics, velocity_along(trial.policy), trial.x))
+  const ShowsStart shows = trial.policy.doppler ? ShowsStart::no : ShowsStart::yes;
+  if (!estimate_.update(*setup_, *trial.kept, trial.statistics, velocity_along(trial.policy), shows, trial.x))
     return trial.end(VerdictKind::rejected);
   // What it did to an error of the start, nobody has followed.
   if (trial.then != nullptr) {

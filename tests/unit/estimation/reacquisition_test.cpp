@@ -211,7 +211,8 @@ TEST(Reacquisition, ALevelThatGoesWrongAgainIsTheBiases) {
     };
     return Eigen::Vector2d(of(accel + 1), of(gyro + 1));
   };
-  EXPECT_TRUE(added(20.0, 0.5).isApprox(Eigen::Vector2d(0.025, 0.5 / (0.5 * 9.81 * 400.0)), 1e-6));
+  EXPECT_TRUE(
+      added(20.0, 0.5).isApprox(Eigen::Vector2d(0.025, 0.5 / (0.5 * kStandardGravity_m_s2 * 400.0)), 1e-6));
   EXPECT_TRUE(added(1.0, 0.5).isZero());
   EXPECT_TRUE(added(130.0, 0.5).isZero());
   // No unit is that bad.

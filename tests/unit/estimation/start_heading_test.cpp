@@ -3,10 +3,12 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include <gtest/gtest.h>
 
 #include "base/units.hpp"
+#include "estimation/navigator/navigator.hpp"
 #include "estimation/smoothing/filter_log.hpp"
 #include "geo/so3.hpp"
 #include "support/vehicles/analytic_vehicle.hpp"
@@ -191,6 +193,54 @@ TEST(StartHeading, WhatIsConsideredDoesNotAverageOut) {
 }
 
 // Of what has been found all the time before was wrong as well (SMOOTH-6).
+TEST(StartHeading, IsNotJudgedByVelocitiesAlongTheVehicle) {
+  // They do not see which way its axes point; a velocity of GPS does.
+  const auto evidence = [](const auto& sample, int sensor) {
+    const estimation::Setup setup(SurveyRun::config());
+    Navigator navigator(setup);
+    InitialState state;
+    state.latitude_rad = 0.6;
+    state.position_sigma_N_m = {1.0, 1.0, 1.0};
+    state.velocity_sigma_N_m_s = {0.1, 0.1, 0.1};
+    state.attitude_sigma_rad = {0.01, 0.01, 0.02};
+    state.velocity_N_m_s = {1.0, 0.0, 0.0};
+    const TimeNs begin_ns = SurveyRun::kEpochNs;
+    navigator.start(state, begin_ns);
+    for (int k = 0; k < 500; ++k) {
+      ImuStep step;
+      step.from_ns = begin_ns + static_cast<TimeNs>(k) * 10'000'000;
+      step.to_ns = step.from_ns + 10'000'000;
+      Increments& in = step.increments;
+      in.dt_s = 0.01;
+      in.dtheta_rad = in.dtheta_before_rad = 0.01 * geo::earth_rate_N(0.6);
+      in.dv_m_s = in.dv_before_m_s = Vector3d(0.0, 0.0, -0.01 * geo::gravity(0.6, 0.0));
+      navigator.advance(step, step.to_ns);
+      if (k % 20 == 0) {
+        Measurement one;
+        one.stamp_ns = step.to_ns;
+        one.source = kSourceOf<std::remove_cvref_t<decltype(sample)>>;
+        one.sensor = sensor;
+        auto now = sample;
+        now.header.stamp_ns = step.to_ns;
+        one.sample = now;
+        EXPECT_EQ(navigator.apply(one).kind, VerdictKind::used) << k;
+      }
+      navigator.finish(step);
+    }
+    const StartHeading& start = navigator.estimate().start_heading;
+    EXPECT_TRUE(start.is_open());
+    return 1.0 / start.variance_rad2();
+  };
+  DvlSample dvl;
+  dvl.velocity_D_m_s = {1.0, 0.0, 0.0};
+  GpsSample gps;
+  gps.fix = GpsFix::fix_3d;
+  gps.velocity_N_m_s = {1.0, 0.0, 0.0};
+  gps.latitude_rad = gps.longitude_rad = gps.altitude_m = kUnknown;
+  EXPECT_GT(evidence(gps, 0), 0.0);
+  EXPECT_FALSE(evidence(dvl, 1) > 0.0);
+}
+
 TEST(StartHeading, WhatIsFoundHoldsBeforeIt) {
   ErrorFilter filter = known_to(1.0 * kRadPerDeg);
   FilterLog log(kStates);
