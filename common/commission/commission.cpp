@@ -7,6 +7,7 @@
 #include "commission/asked.hpp"
 #include "commission/depth_check.hpp"
 #include "commission/dvl_check.hpp"
+#include "commission/explanation.hpp"
 #include "commission/fit/joint_fit.hpp"
 #include "commission/gps_check.hpp"
 #include "commission/heading_check.hpp"
@@ -83,12 +84,12 @@ void report_gps(const GpsFit& fit, const Assumed& assumed, bool has_down, Commis
     if (!out.patch.gps_lever_B_m) out.patch.gps_lever_B_m = assumed.gps.lever_B_m;
     (*out.patch.gps_lever_B_m)[axis] = fit.lever_B_m[axis];
   }
-  const double steady = fit.forward_B.norm();
-  if (steady > 0.8) {
-    const double yaw = std::atan2(fit.forward_B.y(), fit.forward_B.x());
-    const double pitch = -std::asin(std::clamp(fit.forward_B.z() / steady, -1.0, 1.0));
-    const double sigma =
-        std::sqrt(2.0 * (1.0 - steady)) / std::sqrt(std::max<double>(1.0, static_cast<double>(fit.windows)));
+  const double steady = fit.way.direction_B.norm();
+  if (steady > kSteady) {
+    const Vector3d& way_B = fit.way.direction_B;
+    const double yaw = std::atan2(way_B.y(), way_B.x());
+    const double pitch = -std::asin(std::clamp(way_B.z() / steady, -1.0, 1.0));
+    const double sigma = fit.way.sigma_rad;
     out.findings.push_back({"imu", "travel_yaw", FindingKind::mounting, yaw / kRadPerDeg, "deg",
                             sigma / kRadPerDeg, true, Severity::ok,
                             "The vehicle goes " + with_sigma(yaw / kRadPerDeg, sigma / kRadPerDeg) +
@@ -152,13 +153,13 @@ Commissioning commission(const dataset::Dataset& data, const Assumed& assumed) {
   evidence.rest = rest;
   if (gps.usable) evidence.gps = windows_of(series, gps.velocity_N, kWindow_s, 6, kFew);
   evidence.dvl = windows_of(series, series.dvl, kWindow_s, 6, kFew);
-  ImuAxes axes = check_imu_axes(series, gps, evidence);
+  ImuAxes axes = check_imu_axes(series, assumed, gps, evidence);
   // A time offset of a second hides the axes: look for it with what was found, and look again.
   if (evidence.gps.size() >= 3)
     evidence.gps_latency_s = scan_gps_latency(series, gps, evidence.gps, axes.reading);
   if (evidence.dvl.size() >= 3) evidence.dvl_latency_s = scan_dvl_latency(series, evidence.dvl, axes.reading);
   if (std::abs(evidence.gps_latency_s) > 0.15 || std::abs(evidence.dvl_latency_s) > 0.15)
-    axes = check_imu_axes(series, gps, evidence);
+    axes = check_imu_axes(series, assumed, gps, evidence);
   append(out.findings, axes.findings);
   for (const Finding& finding : axes.findings) {
     const bool turned = finding.what == "mounting" && finding.severity == Severity::wrong;

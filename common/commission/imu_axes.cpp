@@ -12,11 +12,13 @@
 
 #include "base/median.hpp"
 #include "base/units.hpp"
+#include "commission/explanation.hpp"
 #include "commission/fit/gps_fit.hpp"
 #include "commission/fit/latency.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "commission/heading_check.hpp"
 #include "commission/text.hpp"
+#include "geo/so3.hpp"
 
 namespace fathom::commission {
 namespace {
@@ -24,28 +26,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kReject = 15.0;       // log likelihood ratio: e^-15 in some 400 hypotheses is no chance
 constexpr double kPerImuWindow = 6.0;  // independent figures that a window counts for at most
-constexpr double kDeparture = 10.0;    // log odds against an instrument that is not as configured
-constexpr double kSideways = 2.5;      // units of a departure: rather are two instruments turned alike
-constexpr double kSteady = 0.8;  // length of the mean direction of travel from which a vehicle has a bow
-
-// One class of hypotheses: gyro against accelerometer, and the accelerometer as it is or negated. A turn of
-// both together changes nothing of what GPS and DVL can say.
-struct Class {
-  Matrix3d gyro;
-  double force_sign = 1.0;
-  double gps = 0.0;
-  double dvl = 0.0;
-  double heading = 0.0;
-  double against = 0.0;  // log likelihood ratio against the best
-};
-
-struct Explanation {
-  Matrix3d gyro, force;
-  double cost = 0.0;
-  bool dvl_agrees = true;
-};
 
 Unit force_unit(const Series& series, double& found) {
   std::vector<double> length;
@@ -80,54 +61,22 @@ double log_ratio(double squares, double least, double count) {
   return least > 0.0 ? 0.5 * count * std::log(std::max(squares, least) / least) : 0.0;
 }
 
-void rate_all(std::vector<Class>& classes, double gps_count, double dvl_count, double heading_count) {
+void rate_all(std::vector<ReadingClass>& classes, double gps_count, double dvl_count, double heading_count) {
   double gps = std::numeric_limits<double>::max();
   double dvl = gps;
   double heading = gps;
-  for (const Class& each : classes) {
+  for (const ReadingClass& each : classes) {
     gps = std::min(gps, each.gps);
     dvl = std::min(dvl, each.dvl);
     heading = std::min(heading, each.heading);
   }
   double least = std::numeric_limits<double>::max();
-  for (Class& each : classes) {
+  for (ReadingClass& each : classes) {
     each.against = log_ratio(each.gps, gps, gps_count) + log_ratio(each.dvl, dvl, dvl_count) +
                    log_ratio(each.heading, heading, heading_count);
     least = std::min(least, each.against);
   }
-  for (Class& each : classes) each.against -= least;
-}
-
-// The best explanation is the one that finds fault with the fewest instruments.
-Explanation explain(const std::vector<Class>& classes, const Vector3d& mean_force, const Vector3d& forward,
-                    const Matrix3d* M) {
-  Explanation best;
-  best.cost = std::numeric_limits<double>::max();
-  for (const Class& each : classes) {
-    if (each.against > kReject) continue;
-    for (const Matrix3d& Q : signed_axes()) {
-      if (Q.determinant() < 0.0) continue;
-      Explanation now;
-      now.force = each.force_sign * Q;
-      now.gyro = Q * each.gyro;
-      const bool gyro_as_is = now.gyro.isIdentity(1e-9);
-      const bool force_as_is = now.force.isIdentity(1e-9);
-      const bool both_alike = now.gyro.isApprox(now.force, 1e-9);
-      now.cost = both_alike ? (gyro_as_is ? 0.0 : 1.0) : (gyro_as_is ? 0.0 : 1.0) + (force_as_is ? 0.0 : 1.0);
-      // Gravity is felt upwards; a vehicle goes where its bow points.
-      if ((now.force * mean_force).z() > -0.5 * mean_force.norm()) now.cost += 1.5;
-      if (forward.norm() > kSteady && (each.force_sign * now.force * forward).x() < 0.7 * forward.norm())
-        now.cost += kSideways;
-      if (M != nullptr) {
-        now.dvl_agrees = nearest_signed_axes(now.force * *M).isIdentity(1e-9);
-        now.cost += now.dvl_agrees ? 0.0 : 1.0;
-      }
-      now.cost +=
-          1e-3 * (3.0 - now.gyro.trace()) + 1e-3 * (3.0 - now.force.trace()) + each.against / kDeparture;
-      if (now.cost < best.cost) best = now;
-    }
-  }
-  return best;
+  for (ReadingClass& each : classes) each.against -= least;
 }
 
 }  // namespace
@@ -144,7 +93,8 @@ double scan_dvl_latency(const Series& series, const std::vector<Span>& windows, 
       0.1, 15, [&](double latency_s) { return fit_dvl_linear(series, windows, reading, latency_s).squares; });
 }
 
-ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence& evidence) {
+ImuAxes check_imu_axes(const Series& series, const Assumed& assumed, const GpsCheck& gps,
+                       const Evidence& evidence) {
   ImuAxes out;
   const auto add = [&](const char* what, FindingKind kind, bool is_known, Severity severity, std::string text,
                        double value = kUnknown, const char* unit = "", double sigma = kUnknown) {
@@ -200,13 +150,13 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
                                         {180.0 / std::numbers::pi, "rad/s, divided by 57.3 once too often"},
                                         {1.0 / dt, "rad (increments of one interval)"}}};
   const auto classes_of = [&](double factor) {
-    std::vector<Class> classes;
+    std::vector<ReadingClass> classes;
     for (const Matrix3d& P : signed_axes()) {
       ImuReading reading;
       reading.rate = factor * P;
       reading.force = unit.factor * Matrix3d::Identity();
       reading.rate_bias = rest_rate;
-      Class each;
+      ReadingClass each;
       each.gyro = P;
       // The sign of the force is the DVL's own question: M takes it.
       if (has_dvl) each.dvl = fit_dvl_linear(series, evidence.dvl, reading, evidence.dvl_latency_s).squares;
@@ -227,19 +177,20 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
   const double heading_count =
       has_heading ? std::min(200.0, static_cast<double>(series.heading.size()) / 10.0) : 0.0;
   // The unit first, by the classes of each: the right one has the least squares of all.
-  std::vector<Class> classes = classes_of(1.0);
+  std::vector<ReadingClass> classes = classes_of(1.0);
   const Unit* gyro_unit = &gyro_units[0];
-  const auto best_of = [](const std::vector<Class>& some, double Class::*member) {
+  const auto best_of = [](const std::vector<ReadingClass>& some, double ReadingClass::*member) {
     double least = some.front().*member;
-    for (const Class& each : some) least = std::min(least, each.*member);
+    for (const ReadingClass& each : some) least = std::min(least, each.*member);
     return least;
   };
   for (std::size_t i = 1; i < gyro_units.size(); ++i) {
-    std::vector<Class> other = classes_of(gyro_units[i].factor);
+    std::vector<ReadingClass> other = classes_of(gyro_units[i].factor);
     const double gain =
-        log_ratio(best_of(classes, &Class::gps), best_of(other, &Class::gps), gps_count) +
-        log_ratio(best_of(classes, &Class::dvl), best_of(other, &Class::dvl), dvl_count) +
-        log_ratio(best_of(classes, &Class::heading), best_of(other, &Class::heading), heading_count);
+        log_ratio(best_of(classes, &ReadingClass::gps), best_of(other, &ReadingClass::gps), gps_count) +
+        log_ratio(best_of(classes, &ReadingClass::dvl), best_of(other, &ReadingClass::dvl), dvl_count) +
+        log_ratio(best_of(classes, &ReadingClass::heading), best_of(other, &ReadingClass::heading),
+                  heading_count);
     if (gain < kReject) continue;
     classes = std::move(other);
     gyro_unit = &gyro_units[i];
@@ -252,33 +203,33 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
             number(gyro_unit->factor, 6) + ".",
         gyro_unit->factor, "");
 
-  const auto best_class = *std::min_element(
-      classes.begin(), classes.end(), [](const Class& a, const Class& b) { return a.against < b.against; });
+  const auto best_class =
+      *std::min_element(classes.begin(), classes.end(),
+                        [](const ReadingClass& a, const ReadingClass& b) { return a.against < b.against; });
   ImuReading of_best;
   of_best.rate = gyro_unit->factor * best_class.gyro;
   of_best.force = best_class.force_sign * unit.factor * Matrix3d::Identity();
   of_best.rate_bias = rest_rate;
-  Vector3d forward = Vector3d::Zero();
+  Seen seen;
+  seen.mean_force = mean_force;
   if (has_gps) {
     const GpsFit fit =
         fit_gps(series, gps.velocity_N, evidence.gps, of_best, evidence.gps_latency_s, Vector3d::Zero());
-    forward = fit.forward_B;
+    seen.way = fit.way;
+    seen.compass = fit.compass;
+    seen.compass_yaw_rad = geo::to_rpy(geo::from_matrix(assumed.heading.C_BD)).z();
   }
-  Matrix3d M = Matrix3d::Identity();
-  bool M_told = false;
   if (has_dvl) {
     const DvlFit fit = fit_dvl_linear(series, evidence.dvl, of_best, evidence.dvl_latency_s);
     const Similarity plain = fit_similarity(fit, false);
     const Similarity mirrored = fit_similarity(fit, true);
-    M_told = fit.done;
     Matrix3d D = Matrix3d::Identity();
     D(1, 1) = -1.0;
-    M = mirrored.chi2 + 30.0 < plain.chi2 ? Matrix3d(mirrored.C * D) : plain.C;
+    const Matrix3d M = mirrored.chi2 + 30.0 < plain.chi2 ? Matrix3d(mirrored.C * D) : plain.C;
     // In the frame of the accelerometer as recorded.
-    M = best_class.force_sign * M;
+    if (fit.done) seen.dvl = best_class.force_sign * M * assumed.dvl.C_BD.transpose();
   }
-  const Explanation found = explain(classes, mean_force, forward, M_told ? &M : nullptr);
-  out.dvl_agrees = found.dvl_agrees;
+  const Explanation found = explain(classes, seen);
   out.reading.rate = gyro_unit->factor * found.gyro;
   out.reading.force = unit.factor * found.force;
   out.wrong = !found.gyro.isIdentity(1e-9) || !found.force.isIdentity(1e-9);
@@ -292,12 +243,18 @@ ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence
     Matrix3d flipped = Matrix3d::Identity();
     flipped(axis, axis) = -1.0;
     const Matrix3d other = Q.transpose() * flipped * found.gyro;
-    const bool noticed = std::all_of(classes.begin(), classes.end(), [&](const Class& each) {
+    const bool noticed = std::all_of(classes.begin(), classes.end(), [&](const ReadingClass& each) {
       return each.force_sign * force_sign < 0.0 || !each.gyro.isApprox(other, 1e-9) || each.against > kReject;
     });
     std::string& list = noticed ? told : untold;
     list += std::string(list.empty() ? "" : ", ") + kNames[static_cast<std::size_t>(axis)];
   }
+  if (found.rival_turn_deg)
+    add("turn_z", FindingKind::mounting, false, Severity::ok,
+        "How the inertial unit is turned about the vertical cannot be told: turned by " +
+            number(*found.rival_turn_deg, 0) +
+            " degrees against what is said here, as many instruments are as configured. Turns to both sides "
+            "and starts ahead on many courses with GPS velocity would tell.");
   if (out.wrong) {
     const bool both = found.gyro.isApprox(found.force, 1e-9);
     const std::string gyro = describe(found.gyro);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "commission/assumed.hpp"
 #include "commission/finding.hpp"
 #include "commission/fit/dvl_fit.hpp"
 #include "commission/fit/strapdown.hpp"
@@ -16,7 +17,6 @@ struct ImuAxes {
   Findings findings;
   ImuReading reading;  ///< how the recording has to be read
   bool wrong = false;
-  bool dvl_agrees = true;  ///< the DVL belongs to the same explanation without being turned or mirrored
 };
 
 /// What the test works on: the spans in which the vehicle turned and accelerated most.
@@ -28,7 +28,8 @@ struct Evidence {
   double dvl_latency_s = 0.0;
 };
 
-[[nodiscard]] ImuAxes check_imu_axes(const Series& series, const GpsCheck& gps, const Evidence& evidence);
+[[nodiscard]] ImuAxes check_imu_axes(const Series& series, const Assumed& assumed, const GpsCheck& gps,
+                                     const Evidence& evidence);
 
 /// The latency between -1.5 and 1.5 s that leaves the least squares, on a grid of 0.1 s.
 [[nodiscard]] double scan_gps_latency(const Series& series, const GpsCheck& gps,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -30,8 +31,11 @@ constexpr double kLeastFixStep_s = 0.15;
 // What the turn of the Earth, which is not modelled here, adds within a window: quieter residuals decide
 // nothing.
 constexpr double kGpsModel_m_s = 0.015;
-constexpr double kManyCourses =
-    0.6;  // length of the mean direction over ground below which the courses were many
+constexpr double kTold = 15.0;  // log likelihood ratio
+// Of the heading of a window, from which it is told from that of the next quarter of a turn.
+const double kHeadingSigma_rad = 0.25 * std::numbers::pi / std::sqrt(2.0 * kTold);
+constexpr double kLeastDirections = 3.0;
+constexpr double kCompassGap_s = 3.0;
 
 double gravity_of(const Series& series) {
   return known(series.latitude_rad) ? geo::gravity(series.latitude_rad, 0.0) : kStandardGravity_m_s2;
@@ -52,6 +56,71 @@ Vector3d felt(const Strapdown::State& state, const Vector3d& lever) {
 double robust_weight(double residual, double scale) {
   const double limit = 3.0 * scale;
   return residual <= limit ? 1.0 : limit / residual;
+}
+
+// The mean of directions that have weights.
+struct Directions {
+  Vector3d sum = Vector3d::Zero();
+  double weight = 0.0;
+  double weight2 = 0.0;
+  void add(const Vector3d& direction, double its_weight) {
+    sum += direction;
+    weight += its_weight;
+    weight2 += its_weight * its_weight;
+  }
+  [[nodiscard]] double count() const { return weight2 > 0.0 ? weight * weight / weight2 : 0.0; }
+  [[nodiscard]] double scatter() const { return std::max(1e-6, 1.0 - sum.norm() / weight); }
+  // Of many small angles the mean square is twice the scatter.
+  [[nodiscard]] Ahead mean() const { return {sum / weight, std::sqrt(2.0 * scatter() / count())}; }
+};
+
+// What a window says of the directions of the vehicle and of its compass.
+struct WindowTurn {
+  Span span;
+  Matrix3d C_NW = Matrix3d::Zero();  // zero: there are too few rows
+  double change2 = 0.0;              // of the velocity over ground, squares
+  double felt2 = 0.0;                // of the horizontal change that the inertial unit felt, squares
+};
+
+// A window without starts, stops and turns does not tell which way the vehicle points: it does not count.
+void find_ahead(const Series& series, const GpsVelocity& velocity_N, const std::vector<WindowTurn>& windows,
+                const ImuReading& reading, double sigma_m_s, GpsFit& out) {
+  Directions in_body;
+  Directions over_ground;
+  Directions of_compass;
+  for (const WindowTurn& window : windows) {
+    if (!(std::sqrt(window.felt2) * kHeadingSigma_rad > sigma_m_s)) continue;
+    const Strapdown strapdown(series.imu, reading, window.span.from_s - kWindowMargin_s,
+                              window.span.to_s + kWindowMargin_s);
+    Vector3d gone_B = Vector3d::Zero();
+    Vector3d gone_N = Vector3d::Zero();
+    Vector3d compass_B = Vector3d::Zero();
+    double length = 0.0;
+    double read = 0.0;
+    for (const auto& [i, j] : pairs_in(velocity_N, window.span, kGpsApart_s, kGpsGap_s)) {
+      const double t = velocity_N.t_s[i] - out.latency_s;
+      if (!strapdown.covers(t)) continue;
+      const Matrix3d C_BN = (window.C_NW * strapdown.at(t).C_WB).transpose();
+      gone_B += C_BN * velocity_N.v[i];
+      gone_N += velocity_N.v[i];
+      length += velocity_N.v[i].norm();
+      const auto heading = at(series.heading, t, kCompassGap_s);
+      if (!heading) continue;
+      compass_B += C_BN * Vector3d(std::cos(*heading), std::sin(*heading), 0.0);
+      read += 1.0;
+    }
+    if (length > 0.0) {
+      in_body.add(gone_B, length);
+      over_ground.add(gone_N, length);
+    }
+    if (read > 0.0) of_compass.add(compass_B / read, 1.0);
+  }
+  if (of_compass.count() >= kLeastDirections) out.compass = of_compass.mean();
+  if (in_body.count() < kLeastDirections) return;
+  // What sways a vehicle lasts: a window counts once. One course over ground says nothing of a bow, nor do
+  // many of a multicopter that keeps its heading where it likes.
+  const double has_bow = 0.5 * (in_body.count() - 1.0) * std::log(over_ground.scatter() / in_body.scatter());
+  if (has_bow > kTold) out.way = in_body.mean();
 }
 
 }  // namespace
@@ -104,8 +173,8 @@ GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N, const std::v
   Vector3d force_bias = Vector3d::Zero();
   double scale = 1.0;
   constexpr double kTimeStep_s = 0.02;
-  std::vector<Matrix3d> turns(windows.size(), Matrix3d::Zero());
-  std::vector<double> changes(windows.size(), 0.0);  // of the velocity over ground, squares
+  double residual_sigma = 0.0;
+  std::vector<WindowTurn> turns(windows.size());
   for (int iteration = 0; iteration < 6; ++iteration) {
     WindowFit fit(kCommon);
     std::vector<double> residuals;
@@ -135,9 +204,11 @@ GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N, const std::v
       Matrix3d sum = Matrix3d::Zero();
       for (std::size_t k = 0; k < x.size(); ++k) sum += (y[k] - mean_y) * (x[k] - mean_x).transpose();
       const Matrix3d R = best_rotation(sum);
-      turns[w] = R;
-      changes[w] = 0.0;
-      for (const Vector3d& each : y) changes[w] += (each - mean_y).head<2>().squaredNorm();
+      turns[w] = {windows[w], R};
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        turns[w].change2 += (y[k] - mean_y).head<2>().squaredNorm();
+        turns[w].felt2 += (R * (x[k] - mean_x)).head<2>().squaredNorm();
+      }
       const Eigen::Index rows = axes * static_cast<Eigen::Index>(x.size());
       MatrixXd J(rows, kCommon);
       MatrixXd Jw(rows, 6);
@@ -174,7 +245,7 @@ GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N, const std::v
     if (residuals.size() < 12) return out;
     scale = std::max(1e-4, median(residuals));
     // Over the median of the length of three normal numbers, or of two.
-    const double residual_sigma = scale / (axes == 3 ? 1.54 : 1.18);
+    residual_sigma = scale / (axes == 3 ? 1.54 : 1.18);
     for (int i = 0; i < 3; ++i) fit.prior(i, out.lever_B_m[i] - lever_B_m[i], 3.0, residual_sigma);
     fit.prior(3, out.latency_s - latency_s, 0.5, residual_sigma);
     for (int i = 0; i < 3; ++i)
@@ -194,29 +265,16 @@ GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N, const std::v
   }
   out.rate_bias = now.rate_bias - reading.rate_bias;
   out.done = true;
-  // Where it goes, in its own axes.
-  Vector3d sum = Vector3d::Zero();
-  Vector3d over_ground = Vector3d::Zero();
-  double length = 0.0;
   double most = 0.0;
-  for (std::size_t w = 0; w < windows.size(); ++w) {
-    if (turns[w].isZero()) continue;
-    const Strapdown strapdown(series.imu, now, windows[w].from_s - kWindowMargin_s,
-                              windows[w].to_s + kWindowMargin_s);
-    if (changes[w] > most && strapdown.covers(windows[w].from_s)) {
-      most = changes[w];
-      out.attitude = AttitudeAt{windows[w].from_s, turns[w] * strapdown.at(windows[w].from_s).C_WB};
-    }
-    for (const auto& [i, j] : pairs_in(velocity_N, windows[w], kGpsApart_s, kGpsGap_s)) {
-      const double t = velocity_N.t_s[i] - out.latency_s;
-      if (!strapdown.covers(t)) continue;
-      sum += (turns[w] * strapdown.at(t).C_WB).transpose() * velocity_N.v[i];
-      over_ground += velocity_N.v[i];
-      length += velocity_N.v[i].norm();
-    }
+  for (const WindowTurn& turn : turns) {
+    if (turn.C_NW.isZero() || turn.change2 <= most) continue;
+    const Strapdown strapdown(series.imu, now, turn.span.from_s - kWindowMargin_s,
+                              turn.span.to_s + kWindowMargin_s);
+    if (!strapdown.covers(turn.span.from_s)) continue;
+    most = turn.change2;
+    out.attitude = AttitudeAt{turn.span.from_s, turn.C_NW * strapdown.at(turn.span.from_s).C_WB};
   }
-  // One course over ground says nothing of a bow: a multicopter keeps its heading where it likes.
-  if (length > 0.0 && over_ground.norm() < kManyCourses * length) out.forward_B = sum / length;
+  find_ahead(series, velocity_N, turns, now, residual_sigma, out);
   return out;
 }
 

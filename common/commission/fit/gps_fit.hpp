@@ -27,6 +27,12 @@ struct AttitudeAt {
   Eigen::Matrix3d C_NB = Eigen::Matrix3d::Identity();
 };
 
+/// A direction in body axes, the mean of many windows.
+struct Ahead {
+  Eigen::Vector3d direction_B = Eigen::Vector3d::Zero();  ///< unit or shorter, the steadier the longer
+  double sigma_rad = 1e9;                                 ///< of the mean
+};
+
 /// What IMU and GPS together tell.
 struct GpsFit {
   bool done = false;
@@ -38,9 +44,11 @@ struct GpsFit {
   Eigen::Vector3d rate_bias_sigma = Eigen::Vector3d::Zero();
   double residual_m_s = 0.0;
   std::size_t windows = 0;
-  /// Direction in which the vehicle goes, in body axes, unit or shorter: the length says how steady it is.
-  /// Zero where it kept to one course.
-  Eigen::Vector3d forward_B = Eigen::Vector3d::Zero();
+  /// Direction in which the vehicle goes. Zero where the log does not tell that it has one: its courses turn
+  /// with it.
+  Ahead way;
+  /// Direction that the compass takes for ahead. Zero where few windows tell.
+  Ahead compass;
   std::optional<AttitudeAt> attitude;  ///< where the velocity changed most
 };
 [[nodiscard]] GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N,
