@@ -61,7 +61,9 @@ double log_ratio(double squares, double least, double count) {
   return least > 0.0 ? 0.5 * count * std::log(std::max(squares, least) / least) : 0.0;
 }
 
-void rate_all(std::vector<ReadingClass>& classes, double gps_count, double dvl_count, double heading_count) {
+// Returns what the best of them has against it where GPS and DVL prefer different ones.
+double rate_all(std::vector<ReadingClass>& classes, double gps_count, double dvl_count,
+                double heading_count) {
   double gps = std::numeric_limits<double>::max();
   double dvl = gps;
   double heading = gps;
@@ -77,20 +79,46 @@ void rate_all(std::vector<ReadingClass>& classes, double gps_count, double dvl_c
     least = std::min(least, each.against);
   }
   for (ReadingClass& each : classes) each.against -= least;
+  return least;
+}
+
+double least_of(const std::vector<ReadingClass>& classes, double ReadingClass::*member) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ReadingClass& each : classes) least = std::min(least, each.*member);
+  return least;
+}
+
+// Those of a quarter of the windows where they are beyond `enough` already: further windows only add some.
+double dvl_squares(const Series& series, const std::vector<Span>& windows, const ImuReading& reading,
+                   double latency_s, double enough) {
+  if (enough < std::numeric_limits<double>::infinity()) {
+    const auto quarter = static_cast<std::ptrdiff_t>(windows.size() / 4);
+    const double some =
+        fit_dvl_linear(series, {windows.begin(), windows.begin() + quarter}, reading, latency_s).squares;
+    if (some > enough) return some;
+  }
+  return fit_dvl_linear(series, windows, reading, latency_s).squares;
 }
 
 }  // namespace
 
 double scan_gps_latency(const Series& series, const GpsCheck& gps, const std::vector<Span>& windows,
                         const ImuReading& reading) {
+  double least = std::numeric_limits<double>::infinity();
   return scan_latency(0.1, 15, [&](double latency_s) {
-    return gps_squares(series, gps.velocity_N, windows, reading, latency_s).as_read;
+    const double now = gps_squares(series, gps.velocity_N, windows, reading, latency_s, least).as_read;
+    least = std::min(least, now);
+    return now;
   });
 }
 
 double scan_dvl_latency(const Series& series, const std::vector<Span>& windows, const ImuReading& reading) {
-  return scan_latency(
-      0.1, 15, [&](double latency_s) { return fit_dvl_linear(series, windows, reading, latency_s).squares; });
+  double least = std::numeric_limits<double>::infinity();
+  return scan_latency(0.1, 15, [&](double latency_s) {
+    const double now = dvl_squares(series, windows, reading, latency_s, least);
+    least = std::min(least, now);
+    return now;
+  });
 }
 
 ImuAxes check_imu_axes(const Series& series, const Assumed& assumed, const GpsCheck& gps,
@@ -149,8 +177,16 @@ ImuAxes check_imu_axes(const Series& series, const Assumed& assumed, const GpsCh
                                         {std::numbers::pi / 180.0, "deg/s"},
                                         {180.0 / std::numbers::pi, "rad/s, divided by 57.3 once too often"},
                                         {1.0 / dt, "rad (increments of one interval)"}}};
-  const auto classes_of = [&](double factor) {
+  const double gps_count = kPerImuWindow * static_cast<double>(evidence.gps.size());
+  const double dvl_count = kPerImuWindow * static_cast<double>(evidence.dvl.size());
+  const double heading_count =
+      has_heading ? std::min(200.0, static_cast<double>(series.heading.size()) / 10.0) : 0.0;
+  // Further windows only add squares: a class is left where it has `beyond`, a log likelihood ratio, against
+  // the best so far, those `before` included.
+  const auto classes_of = [&](double factor, double beyond, const std::vector<ReadingClass>& before) {
     std::vector<ReadingClass> classes;
+    double gps_least = least_of(before, &ReadingClass::gps);
+    double dvl_least = least_of(before, &ReadingClass::dvl);
     for (const Matrix3d& P : signed_axes()) {
       ImuReading reading;
       reading.rate = factor * P;
@@ -159,11 +195,16 @@ ImuAxes check_imu_axes(const Series& series, const Assumed& assumed, const GpsCh
       ReadingClass each;
       each.gyro = P;
       // The sign of the force is the DVL's own question: M takes it.
-      if (has_dvl) each.dvl = fit_dvl_linear(series, evidence.dvl, reading, evidence.dvl_latency_s).squares;
+      if (has_dvl)
+        each.dvl = dvl_squares(series, evidence.dvl, reading, evidence.dvl_latency_s,
+                               dvl_least * std::exp(2.0 * beyond / dvl_count));
+      dvl_least = std::min(dvl_least, each.dvl);
       if (has_heading) each.heading = heading_squares(series, reading);
       GpsSquares gps_of;
       if (has_gps)
-        gps_of = gps_squares(series, gps.velocity_N, evidence.gps, reading, evidence.gps_latency_s);
+        gps_of = gps_squares(series, gps.velocity_N, evidence.gps, reading, evidence.gps_latency_s,
+                             gps_least * std::exp(2.0 * beyond / gps_count));
+      gps_least = std::min({gps_least, gps_of.as_read, gps_of.force_negated});
       each.gps = gps_of.as_read;
       classes.push_back(each);
       each.force_sign = -1.0;
@@ -172,30 +213,25 @@ ImuAxes check_imu_axes(const Series& series, const Assumed& assumed, const GpsCh
     }
     return classes;
   };
-  const double gps_count = kPerImuWindow * static_cast<double>(evidence.gps.size());
-  const double dvl_count = kPerImuWindow * static_cast<double>(evidence.dvl.size());
-  const double heading_count =
-      has_heading ? std::min(200.0, static_cast<double>(series.heading.size()) / 10.0) : 0.0;
   // The unit first, by the classes of each: the right one has the least squares of all.
-  std::vector<ReadingClass> classes = classes_of(1.0);
+  std::vector<ReadingClass> classes = classes_of(1.0, 2.0 * kReject, {});
   const Unit* gyro_unit = &gyro_units[0];
-  const auto best_of = [](const std::vector<ReadingClass>& some, double ReadingClass::*member) {
-    double least = some.front().*member;
-    for (const ReadingClass& each : some) least = std::min(least, each.*member);
-    return least;
-  };
   for (std::size_t i = 1; i < gyro_units.size(); ++i) {
-    std::vector<ReadingClass> other = classes_of(gyro_units[i].factor);
-    const double gain =
-        log_ratio(best_of(classes, &ReadingClass::gps), best_of(other, &ReadingClass::gps), gps_count) +
-        log_ratio(best_of(classes, &ReadingClass::dvl), best_of(other, &ReadingClass::dvl), dvl_count) +
-        log_ratio(best_of(classes, &ReadingClass::heading), best_of(other, &ReadingClass::heading),
-                  heading_count);
+    std::vector<ReadingClass> other = classes_of(gyro_units[i].factor, 2.0 * kReject, classes);
+    const auto gain_of = [&](double ReadingClass::*member, double count) {
+      return log_ratio(least_of(classes, member), least_of(other, member), count);
+    };
+    const double gain = gain_of(&ReadingClass::gps, gps_count) + gain_of(&ReadingClass::dvl, dvl_count) +
+                        gain_of(&ReadingClass::heading, heading_count);
     if (gain < kReject) continue;
     classes = std::move(other);
     gyro_unit = &gyro_units[i];
   }
-  rate_all(classes, gps_count, dvl_count, heading_count);
+  // What was left early is refuted unless the best has more than half of that against it itself.
+  if (rate_all(classes, gps_count, dvl_count, heading_count) > kReject) {
+    classes = classes_of(gyro_unit->factor, std::numeric_limits<double>::infinity(), {});
+    rate_all(classes, gps_count, dvl_count, heading_count);
+  }
 
   if (gyro_unit->factor != 1.0)
     add("gyro_unit", FindingKind::unit, true, Severity::wrong,

@@ -126,10 +126,11 @@ void find_ahead(const Series& series, const GpsVelocity& velocity_N, const std::
 }  // namespace
 
 GpsSquares gps_squares(const Series& series, const GpsVelocity& velocity_N, const std::vector<Span>& windows,
-                       const ImuReading& reading, double latency_s) {
+                       const ImuReading& reading, double latency_s, double enough) {
   const Vector3d gravity(0.0, 0.0, gravity_of(series));
   GpsSquares squares;
   for (const Span& window : windows) {
+    if (squares.as_read > enough && squares.force_negated > enough) break;
     const Strapdown strapdown(series.imu, reading, window.from_s - kWindowMargin_s,
                               window.to_s + kWindowMargin_s);
     std::vector<Vector3d> x;

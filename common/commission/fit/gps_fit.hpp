@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -16,10 +17,12 @@ struct GpsSquares {
   double as_read = 0.0;
   double force_negated = 0.0;  ///< were every specific force the negative of what was read
 };
-/// Of a unit so read: each window may turn freely. `latency_s` is subtracted from the stamps of GPS.
+/// Of a unit so read: each window may turn freely. `latency_s` is subtracted from the stamps of GPS. Where
+/// both are beyond `enough`, further windows are left out.
 [[nodiscard]] GpsSquares gps_squares(const Series& series, const GpsVelocity& velocity_N,
                                      const std::vector<Span>& windows, const ImuReading& reading,
-                                     double latency_s);
+                                     double latency_s,
+                                     double enough = std::numeric_limits<double>::infinity());
 
 /// The attitude of the body at one instant.
 struct AttitudeAt {
