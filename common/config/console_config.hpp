@@ -9,6 +9,9 @@
 
 namespace fathom::config {
 
+/// Where the console is found on DDS domain 0; on another one as much further.
+inline constexpr int kFirstConsolePort = 8420;
+
 /// Section "http": where browsers find the console.
 struct ConsoleHttpConfig {
   std::string address = "127.0.0.1";  ///< listened at; an IPv4 address of this host, or 0.0.0.0 for all
@@ -54,6 +57,10 @@ struct ConsoleConfig {
   ConsoleMapConfig map;
   double updates_hz = 10.0;  ///< to each browser
   double fresh_s = 0.7;      ///< an older navigation state is none
+
+  [[nodiscard]] int port() const {
+    return http.port != 0 ? http.port : kFirstConsolePort + common.bus.domain;
+  }
 };
 
 [[nodiscard]] ConfigKind console_kind();

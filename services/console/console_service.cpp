@@ -27,17 +27,12 @@
 namespace fathom::console {
 namespace {
 
-constexpr int kFirstPort = 8420;
 constexpr DurationNs kRetryNs = 3 * kNsPerSecond;
 constexpr DurationNs kDayNs = 24 * std::int64_t{3600} * kNsPerSecond;
 // Ten seconds at ten updates a second: more than a browser that is busy with itself takes to come back.
 constexpr std::size_t kQueueDepth = 100;
 // For navigation's word on a position that was told. It says it at once; a page waits for its answer.
 constexpr std::chrono::seconds kVerdictPatience{3};
-
-int port_of(const config::ConsoleConfig& config) {
-  return config.http.port != 0 ? config.http.port : kFirstPort + config.common.bus.domain;
-}
 
 Site::Options site_options(const config::ConsoleConfig& config) {
   Site::Options out;
@@ -63,7 +58,7 @@ FanOut::Limits stream_limits(const config::ConsoleConfig& config) {
 HttpServer::Options server_options(const config::ConsoleConfig& config) {
   HttpServer::Options out;
   out.address = config.http.address;
-  out.port = port_of(config);
+  out.port = config.port();
   out.names = config.http.names;
   out.tls = identity_of(config, "configuration");
   out.most_connections = static_cast<std::size_t>(config.http.most_connections);
@@ -150,7 +145,7 @@ struct ConsoleService::Impl {
     const std::string trouble = server.start();
     if (trouble.empty()) {
       host.log().info(std::string("console at ") + (http.tls ? "https://" : "http://") + config.http.address +
-                      ":" + std::to_string(port_of(config)) + "/, orders " +
+                      ":" + std::to_string(config.port()) + "/, orders " +
                       (config.access.orders ? "on" : "off"));
     } else if (trouble != said) {
       host.log().error(trouble);

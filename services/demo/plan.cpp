@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/clock.hpp"
+#include "config/console_config.hpp"
 #include "config/monitor_config.hpp"
 #include "config/scenario/scenario_config.hpp"
 #include "config/scenario/scenario_wiring.hpp"
@@ -43,9 +44,6 @@ Places find_places() {
   // The scenarios are found beside the executable or where installed; the services' files lie one folder up.
   return {launch::executables_folder(), std::filesystem::path(config::scenario_directory()).parent_path()};
 }
-
-// Of the operator console, plus the domain.
-constexpr int kConsolePort = 8420;
 
 std::string random_token() {
   static constexpr std::string_view kDigits = "0123456789abcdef";
@@ -159,7 +157,7 @@ class Builder {
     const auto file = run_directory / "console_tokens.json";
     write_private(file,
                   json({{"tokens", {{{"name", "demo"}, {"role", "operator"}, {"token", token}}}}}).dump());
-    const int port = kConsolePort + domain;
+    const int port = config::kFirstConsolePort + domain;
     add("console",
         {"access.orders=true", "access.token_file=" + file.string(), "http.port=" + std::to_string(port)});
     plan_.programs.back().optional = true;

@@ -207,10 +207,9 @@ std::string console_address(const RunPlan& plan) {
   for (const RunService& one : plan.services) {
     if (one.service != "console") continue;
     const auto console = config::load_service_config<config::ConsoleConfig>(one.configuration).value;
-    const int port = console.http.port != 0 ? console.http.port : 8420 + console.common.bus.domain;
     const std::string address = console.http.address == "0.0.0.0" ? "127.0.0.1" : console.http.address;
     return (console.tls.certificate_file.empty() ? "http://" : "https://") + address + ":" +
-           std::to_string(port) + "/";
+           std::to_string(console.port()) + "/";
   }
   return {};
 }
