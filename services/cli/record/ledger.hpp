@@ -44,7 +44,7 @@ class Ledger {
   [[nodiscard]] Match recorded(const Key& key, const Value& value, std::size_t when) {
     const auto now = computed_.find(key);
     if (now != computed_.end()) {
-      const Match match = compared(value, now->second.front());
+      Match match = compared(value, now->second.front());
       if (match.equal || !take_equal(before_, key, value)) {
         pop(computed_, now);
         return match;

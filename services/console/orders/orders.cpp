@@ -1,7 +1,5 @@
 #include "console/orders/orders.hpp"
 
-#include <utility>
-
 #include "orders/telling.hpp"
 
 namespace fathom::console {
@@ -15,8 +13,7 @@ OrderJudgement judge_order(std::string_view body, const Identity& who, bool orde
   if (!order) return {400, order.error().message, {}};
   const bool told = std::holds_alternative<orders::ToldFix>(order.value());
   const std::string words = describe(order.value());
-  return {200, std::string(told ? "Told" : "Sent") + " by " + who.name + ": " + words + ".",
-          std::move(order.value())};
+  return {200, std::string(told ? "Told" : "Sent") + " by " + who.name + ": " + words + ".", order.value()};
 }
 
 OrderJudgement judged(OrderJudgement told, const FixSample& fix, const std::optional<Verdict>& verdict) {
