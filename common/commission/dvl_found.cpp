@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
+#include "commission/fit/reject.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "geo/so3.hpp"
 
@@ -21,7 +22,6 @@ constexpr double kFirst_s = 16.0;          // length of the windows at first
 constexpr std::size_t kMost = 250;         // windows
 constexpr std::size_t kLeastWindows = 12;  // for a scatter between them that means something
 constexpr double kPerDvlWindow = 6.0;      // independent figures that a window counts for
-constexpr double kDvlClaim = 15.0;         // log likelihood ratio
 constexpr double kQuarter_rad = 0.5 * std::numbers::pi;
 // A mounting is told from the next of a box, a quarter of a turn away, where so many sigmas are half of that.
 constexpr double kBoxSigmas = 4.0;
@@ -125,12 +125,12 @@ DvlFound find_dvl(const Series& series, const Assumed& assumed, const ImuReading
   take_better(configured);
   const DvlFigures other = fit_from(fit_similarity(linear, true));
   const double against = best.done && other.done ? ratio(other, best) : 0.0;
-  out.mirrored = other.done && (!best.done || against < -kDvlClaim);
-  out.mirror_told = std::abs(against) > kDvlClaim;
+  out.mirrored = other.done && (!best.done || against < -kReject);
+  out.mirror_told = std::abs(against) > kReject;
   out.fit = out.mirrored ? other : best;
   if (!out.fit.done) return out;
   if (!out.mirrored) {
-    const bool kept = configured.done && configured.settled && ratio(configured, best) <= kDvlClaim &&
+    const bool kept = configured.done && configured.settled && ratio(configured, best) <= kReject &&
                       next_to(configured.similarity.C, assumed.dvl.C_BD);
     if (kept) out.fit = configured;
     for (const double turn_rad : {2.0 * kQuarter_rad, kQuarter_rad, -kQuarter_rad}) {
@@ -138,7 +138,7 @@ DvlFound find_dvl(const Series& series, const Assumed& assumed, const ImuReading
       guess.C = guess.C * turn_about(out.way_D, turn_rad);
       const DvlFigures rival =
           fit_dvl(series, windows, reading, guess, assumed.dvl.lever_B_m, latency_s, out.way_D);
-      if (!rival.done || ratio(rival, best) > kDvlClaim) continue;
+      if (!rival.done || ratio(rival, best) > kReject) continue;
       take_rival(rival, turn_rad, out);
       using AboutTheWay = DvlFound::AboutTheWay;
       out.about_the_way =

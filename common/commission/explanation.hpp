@@ -6,11 +6,10 @@
 #include <Eigen/Core>
 
 #include "commission/fit/gps_fit.hpp"
+#include "commission/fit/reject.hpp"
 
 namespace fathom::commission {
 
-/// Log likelihood ratio from which a hypothesis is refuted: e^-15 in some 400 of them is no chance.
-inline constexpr double kReject = 15.0;
 /// Length of the mean direction of travel from which a vehicle has a bow.
 inline constexpr double kSteady = 0.8;
 

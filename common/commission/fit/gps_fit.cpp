@@ -12,6 +12,7 @@
 #include "base/median.hpp"
 #include "base/units.hpp"
 #include "commission/fit/latency.hpp"
+#include "commission/fit/reject.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -31,9 +32,8 @@ constexpr double kLeastFixStep_s = 0.15;
 // What the turn of the Earth, which is not modelled here, adds within a window: quieter residuals decide
 // nothing.
 constexpr double kGpsModel_m_s = 0.015;
-constexpr double kTold = 15.0;  // log likelihood ratio
 // Of the heading of a window, from which it is told from that of the next quarter of a turn.
-const double kHeadingSigma_rad = 0.25 * std::numbers::pi / std::sqrt(2.0 * kTold);
+const double kHeadingSigma_rad = 0.25 * std::numbers::pi / std::sqrt(2.0 * kReject);
 constexpr double kLeastDirections = 3.0;
 constexpr double kCompassGap_s = 3.0;
 
@@ -120,7 +120,7 @@ void find_ahead(const Series& series, const GpsVelocity& velocity_N, const std::
   // What sways a vehicle lasts: a window counts once. One course over ground says nothing of a bow, nor do
   // many of a multicopter that keeps its heading where it likes.
   const double has_bow = 0.5 * (in_body.count() - 1.0) * std::log(over_ground.scatter() / in_body.scatter());
-  if (has_bow > kTold) out.way = in_body.mean();
+  if (has_bow > kReject) out.way = in_body.mean();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bus/topics.hpp"
+#include "cli/listed.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -43,12 +44,6 @@ std::string who(const bus::Peer& peer) {
   return out;
 }
 
-std::string joined(const std::set<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
-}
-
 std::string number(const char* format, double value) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), format, value);
@@ -79,7 +74,7 @@ void examine_presence(const NetworkFacts& network, const HostFacts& host, Report
   std::set<std::string> hosts;
   for (const bus::Peer& peer : network.participants) hosts.insert(peer.host.empty() ? "?" : peer.host);
   report.good(std::to_string(network.participants.size()) + " participants on domain " +
-              std::to_string(network.domain) + ", on " + joined(hosts) + ".");
+              std::to_string(network.domain) + ", on " + listed(hosts) + ".");
 }
 
 void examine_security(const NetworkFacts& network, Report& report) {
@@ -101,7 +96,7 @@ void examine_security(const NetworkFacts& network, Report& report) {
     report.good("The network asks for no identity: whoever reaches it may read and write.");
   } else if (asking.size() < network.participants.size()) {
     report.problem("Some ask for an identity and others have none: they do not hear each other (" +
-                       joined(asking) + " ask).",
+                       listed(asking) + " ask).",
                    "Give every service bus.security.folder, or none.");
   } else {
     report.problem("The network asks for an identity, and this command has none: it hears nothing.",
@@ -155,13 +150,13 @@ void examine_topics(const NetworkFacts& network, Report& report) {
   }
   if (written.count("fathom/v1/imu") == 0 && readers.count("fathom/v1/imu") != 0) {
     sound = false;
-    report.problem("Nobody writes fathom/v1/imu; " + joined(readers["fathom/v1/imu"]) + " wait for it.",
+    report.problem("Nobody writes fathom/v1/imu; " + listed(readers["fathom/v1/imu"]) + " wait for it.",
                    "Start fathom-imu-bridge; without inertial samples there is no navigation.");
   }
   if (written.count("fathom/v1/nav_state") == 0 && readers.count("fathom/v1/nav_state") != 0) {
     sound = false;
     report.problem(
-        "Nobody writes fathom/v1/nav_state; " + joined(readers["fathom/v1/nav_state"]) + " wait for it.",
+        "Nobody writes fathom/v1/nav_state; " + listed(readers["fathom/v1/nav_state"]) + " wait for it.",
         "Start fathom-fusion.");
   }
   if (sound) report.good("Every topic has the type that this version knows.");
@@ -187,12 +182,12 @@ void examine_writers(const NetworkFacts& network, Report& report) {
     return of_fusion.count(topic) != 0 &&
            std::includes(replicas.begin(), replicas.end(), names.begin(), names.end());
   };
-  if (replicas.size() > 1) report.good("Stand by for each other: " + joined(replicas) + ".");
+  if (replicas.size() > 1) report.good("Stand by for each other: " + listed(replicas) + ".");
   bool single = true;
   for (const auto& [topic, names] : writers) {
     if (names.size() < 2 || stand_by(topic, names)) continue;
     single = false;
-    report.notice("Several write " + topic + ": " + joined(names) + ".",
+    report.notice("Several write " + topic + ": " + listed(names) + ".",
                   "Right for several instruments of a kind under names of their own; else stop the one that "
                   "does not belong.");
   }
@@ -216,7 +211,7 @@ void examine_services(const NetworkFacts& network, Report& report) {
     well = false;
     std::string text;
     for (const auto& [version, names] : versions) {
-      text += (text.empty() ? "" : "; ") + version + ": " + joined(names);
+      text += (text.empty() ? "" : "; ") + version + ": " + listed(names);
     }
     report.notice("The services are of different versions: " + text + ".", "Install one version everywhere.");
   }

@@ -10,6 +10,7 @@
 
 #include "base/nearest.hpp"
 #include "cli/command.hpp"
+#include "cli/listed.hpp"
 #include "config/console_config.hpp"
 #include "config/json/layers.hpp"
 #include "config/service_config.hpp"
@@ -29,14 +30,8 @@ bool is_among(const Words& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-std::string list_of(const Words& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
 [[noreturn]] void refuse(const std::string& what, const Words& known) {
-  throw Failure(ExitCode::bad_configuration, "run: " + what + "; there are " + list_of(known));
+  throw Failure(ExitCode::bad_configuration, "run: " + what + "; there are " + listed(known));
 }
 
 /// One service by its own name, and of which kind it is.

@@ -17,6 +17,7 @@
 
 #include "base/clock.hpp"
 #include "cli/command.hpp"
+#include "cli/listed.hpp"
 #include "cli/run/plan.hpp"
 #include "launch/check.hpp"
 #include "launch/executable.hpp"
@@ -89,12 +90,6 @@ class RunFolder {
 
 void tell(const std::string& line) {
   std::cout << line << std::endl;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + name;
-  return out;
 }
 
 /// The last line of a log: why a service ended.
