@@ -6,7 +6,7 @@
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/registry.hpp"
 #include "estimation/filter/sigma_range.hpp"
-#include "estimation/navigator/navigator.hpp"
+#include "estimation/navigator/trial.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -14,9 +14,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMostRoom = 1e6;
-/// A position that somebody tells moves the estimate between two of its own corrections: further than this,
-/// whoever steers by it is told of a step.
-constexpr double kNoticed_m = 1.0;
 /// An instrument that was used within this time is one that is in use.
 constexpr double kHeardLately_s = 5.0;
 /// For so long a time without inertial samples may be why nothing fits.
@@ -40,45 +37,6 @@ VerdictKind verdict_of(Usable usable) {
 }
 
 }  // namespace
-
-struct Navigator::Trial {
-  const Measurement& measurement;
-  const SensorConfig& config;
-  const SensorConfig* rules;  ///< of the gate: the sensor's, or the vehicle model's
-  const GateLimits* limits;
-  Instrument& instrument;
-  Remembered* then = nullptr;  ///< of one that comes late
-  TimeNs instant_ns = 0;       ///< of which it speaks
-  Judgement judgement{};
-  ModelAiding::Drive drive = ModelAiding::Drive::nothing;
-  ModelAiding::Trial model{};
-  bool modelled = false;  ///< the vehicle model speaks for the shaft speed
-  AidingPolicy policy{};
-  bool with_position = false;
-  bool fix = false;                   ///< it is refused or believed by how it agrees with the motion
-  Observation whole{};                ///< every row
-  std::optional<Observation> kept{};  ///< the rows that act, with the noise they act with; from the gate on
-  InnovationStatistics statistics{};
-  GateResult gated{};
-  bool stepped = false;  ///< the position steps with it
-  std::array<double, kMaxStates> x{};
-
-  /// Ends the way.
-  bool end(VerdictKind kind) {
-    judgement.kind = kind;
-    return false;
-  }
-  /// What the verdict says of all rows, whichever of them act.
-  void describe() {
-    judgement.dimensions = static_cast<std::uint32_t>(whole.rows);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(whole.rows); ++i) {
-      judgement.innovation[i] = whole.innovation[i];
-      judgement.innovation_sigma[i] = gated.innovation_sigma[i];
-    }
-    judgement.test_ratio = gated.test_ratio;
-    judgement.limit = gated.limit;
-  }
-};
 
 Judgement Navigator::judge(const Measurement& measurement, Remembered* then) {
   const auto slot = static_cast<std::size_t>(measurement.sensor);
@@ -266,28 +224,6 @@ bool Navigator::update(Trial& trial) {
   return true;
 }
 
-bool Navigator::start_was_wrong(const Trial& trial) const {
-  // Without positions nothing but the Earth's rate shows a heading, and that faintly.
-  const NavMode mode = usage_.mode(setup_->config, estimate_);
-  const bool placed =
-      trial.policy.fix != Fix::none || mode == NavMode::gps_aided || mode == NavMode::acoustic_aided;
-  return placed && estimate_.start_heading.is_wrong();
-}
-
-void Navigator::doubt_start(Trial& trial) {
-  const VerdictKind kind = trial.judgement.kind;
-  const bool refused = kind == VerdictKind::rejected || kind == VerdictKind::disputed;
-  // Through the water or the air a change of the current would be taken for the heading.
-  const bool over_ground = trial.policy.velocity == VelocityOver::ground || trial.policy.fix != Fix::none;
-  if (!refused || !over_ground || trial.then != nullptr || !estimate_.start_heading.is_open()) return;
-  estimate_.filter.statistics(trial.whole, 1.0, trial.statistics);
-  estimate_.start_heading.refused(trial.whole, trial.statistics, estimate_.filter, estimate_.turn_rad_s());
-  if (!start_was_wrong(trial)) return;
-  estimate_.correct_start(*setup_, velocity_along(trial.policy), trial.x);
-  const Vector3d step_N_m(trial.x[0], trial.x[1], trial.x[2]);
-  if (step_N_m.head<2>().norm() > kNoticed_m) reacquisition_.note_step(-step_N_m, nullptr, estimate_);
-}
-
 void Navigator::account(Trial& trial) {
   if (trial.policy.told && std::hypot(trial.x[0], trial.x[1]) > kNoticed_m) trial.stepped = true;
   if (trial.stepped)
@@ -300,21 +236,6 @@ void Navigator::account(Trial& trial) {
   const unsigned refused = trial.gated.refused;
   if ((refused & position_rows(trial.whole)) == 0) trial.instrument.candidate = {};
   usage_.note(trial.policy, trial.with_position && places(trial.whole, refused), estimate_.now_ns);
-}
-
-bool Navigator::adapts_noise(const Trial& trial) const {
-  return trial.config.max_noise_factor > 1.0 && !trial.modelled && !trial.policy.told;
-}
-
-void Navigator::note_noise(Trial& trial) const {
-  // (GATE-10): what comes late or repeats itself has no neighbour to be compared with.
-  if (!adapts_noise(trial) || trial.then != nullptr || trial.instrument.repeats) return;
-  trial.instrument.noise.note({.now_ns = estimate_.now_ns,
-                               .used = trial.judgement.kind == VerdictKind::used,
-                               .rows = trial.whole,
-                               .innovation_sigma = trial.gated.innovation_sigma,
-                               .moved = trial.x,
-                               .most = trial.config.max_noise_factor});
 }
 
 bool Navigator::is_frozen(Trial& trial) const {

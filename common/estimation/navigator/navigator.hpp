@@ -121,15 +121,8 @@ class Navigator {
   /// A refusal may not be the last word: the estimate, not the instrument, may be wrong.
   void reacquire(Trial& trial);
   bool update(Trial& trial);
-  /// (GATE-9): by what is known with this measurement.
-  [[nodiscard]] bool start_was_wrong(const Trial& trial) const;
-  /// A refused measurement may speak of the start.
-  void doubt_start(Trial& trial);
   /// Notes what a used measurement means for mode, outages and steps.
   void account(Trial& trial);
-  /// (GATE-10)
-  [[nodiscard]] bool adapts_noise(const Trial& trial) const;
-  void note_noise(Trial& trial) const;
   [[nodiscard]] bool is_frozen(Trial& trial) const;
   /// For so long refusals have to agree with each other until they are believed.
   [[nodiscard]] double agreement_needed_s(const Trial& trial) const;
@@ -140,6 +133,15 @@ class Navigator {
   [[nodiscard]] bool motion_is_lost(const Trial& trial) const;
   /// What is measured along the vehicle's own axes: over ground while a DVL does, else through the water.
   [[nodiscard]] VelocityOver velocity_along(const AidingPolicy& policy) const;
+
+  // doubts.cpp
+  /// (GATE-9): by what is known with this measurement.
+  [[nodiscard]] bool start_was_wrong(const Trial& trial) const;
+  /// A refused measurement may speak of the start.
+  void doubt_start(Trial& trial);
+  /// (GATE-10)
+  [[nodiscard]] bool adapts_noise(const Trial& trial) const;
+  void note_noise(Trial& trial) const;
 
   // navigator.cpp
   /// `used` when it is done. `rejected` when it is a position that is held until it is confirmed; innovation
