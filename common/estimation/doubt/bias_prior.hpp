@@ -53,7 +53,7 @@ class BiasPrior {
   /// It was larger than is said of it, at least once since the start.
   [[nodiscard]] bool is_found(std::size_t bias) const { return biases_[bias].corrections > 0; }
 
-  /// For archives: see fields/navigator.hpp.
+  /// For archives: see fields/doubt.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
 

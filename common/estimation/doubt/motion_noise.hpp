@@ -37,7 +37,7 @@ class MotionNoise {
   /// A new start: nothing is known of the noise.
   void begin() { *this = MotionNoise(estimated_); }
 
-  /// For archives: see fields/navigator.hpp.
+  /// For archives: see fields/doubt.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
 

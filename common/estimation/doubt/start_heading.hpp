@@ -59,7 +59,7 @@ class StartHeading {
   void corrected();
   [[nodiscard]] const Column& column() const { return column_; }
 
-  /// For archives: see fields/navigator.hpp.
+  /// For archives: see fields/doubt.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimation/fields/alignment.hpp"
+#include "estimation/fields/doubt.hpp"
 #include "estimation/fields/filter.hpp"
 #include "estimation/fields/plausibility.hpp"
 #include "estimation/navigator/navigator.hpp"
@@ -56,31 +57,6 @@ void fields(Archive& archive, Self& self) {
   archive("origin", self.origin);
   archive("first_N_m", self.first_N_m, fathom::archive::finite());
   archive("last_N_m", self.last_N_m, fathom::archive::finite());
-}
-
-template <class Archive, class Self>
-void AdaptiveNoise::Left::fields(Archive& archive, Self& self) {
-  archive("residual", self.residual, fathom::archive::any_number());  // unknown without a measurement
-  archive("state_variance", self.state_variance, fathom::archive::at_least_zero());
-  archive("said_variance", self.said_variance, fathom::archive::at_least_zero());
-}
-
-template <class Archive, class Self>
-void AdaptiveNoise::Component::fields(Archive& archive, Self& self) {
-  archive("last", self.last);
-  archive("used", self.used);
-  archive("trend", self.trend, fathom::archive::finite());
-  archive("log_square", self.log_square, fathom::archive::within(0.0, 10.0));
-  archive("count", self.count, fathom::archive::kCount);
-  archive("recent", self.recent, fathom::archive::within(0.0, 1.0));
-  archive("noisy", self.noisy);
-}
-
-template <class Archive, class Self>
-void AdaptiveNoise::fields(Archive& archive, Self& self) {
-  archive("last_ns", self.last_ns_, fathom::archive::kInstant);
-  archive("used_ns", self.used_ns_, fathom::archive::kInstant);
-  archive("components", self.components_);
 }
 
 template <class Archive, class Self>
@@ -156,69 +132,6 @@ void Estimate::fields(Archive& archive, Self& self) {
   archive("rate_B", self.rate_B_rad_s, fathom::archive::finite());
   archive("force_B", self.force_B_m_s2, fathom::archive::finite());
   archive("travelled_N_m", self.travelled_N_m, fathom::archive::finite());
-}
-
-template <class Archive, class Self>
-void StartHeading::fields(Archive& archive, Self& self) {
-  archive("open", self.open_);
-  archive("corrections", self.corrections_, fathom::archive::kCount);
-  constexpr double kMost = 1e12;
-  archive("found_rad", self.found_rad_, fathom::archive::within(-10.0, 10.0));
-  archive("gradient", self.gradient_, fathom::archive::within(-kMost, kMost));
-  archive("curvature", self.curvature_, fathom::archive::within(0.0, kMost));
-  archive("together", self.together_, fathom::archive::within(-kMost, kMost));
-  archive("together_s", self.together_s_, fathom::archive::within(0.0, 10.0));
-  archive("scatter", self.scatter_.sums, fathom::archive::within(-kMost * kMost, kMost * kMost));
-  archive("column", self.column_, fathom::archive::within(-kMost, kMost));
-  if (archive.since(17)) archive("considered", self.considered_.sums, fathom::archive::within(-kMost, kMost));
-}
-
-template <class Archive, class Self>
-void BiasPrior::Blocks::fields(Archive& archive, Self& self) {
-  archive("gradient_before", self.before.gradient, fathom::archive::finite());
-  archive("curvature_before", self.before.curvature, fathom::archive::finite());
-  archive("curvature", self.curvature, fathom::archive::finite());
-  archive("scatter", self.scatter.sums, fathom::archive::finite());
-}
-
-template <class Archive, class Self>
-void BiasPrior::Bias::fields(Archive& archive, Self& self) {
-  archive.left_out(self.state);
-  archive("mean", self.mean, fathom::archive::finite());
-  archive("variance", self.variance, fathom::archive::at_least_zero());
-  archive("corrections", self.corrections, fathom::archive::kCount);
-  archive("blocks", self.blocks);
-}
-
-template <class Archive, class Self>
-void BiasPrior::fields(Archive& archive, Self& self) {
-  archive("biases", self.biases_);
-  archive("open", self.open_);
-  archive("block_s", self.block_s_, fathom::archive::at_least_zero());
-}
-
-template <class Archive, class Self>
-void MotionNoise::Kind::fields(Archive& archive, Self& self) {
-  archive("square", self.square, fathom::archive::within(1.0, 1e4));
-  archive("log_ratio", self.log_ratio, fathom::archive::within(-1e3, 1e3));
-  archive("share", self.share, fathom::archive::at_least_zero());
-  archive("count", self.count, fathom::archive::kCount);
-}
-
-template <class Archive, class Self>
-void MotionNoise::Block::fields(Archive& archive, Self& self) {
-  archive("age_s", self.age_s, fathom::archive::at_least_zero());
-  archive("gradient", self.gradient, fathom::archive::finite());
-  archive("curvature", self.curvature, fathom::archive::at_least_zero());
-  if (archive.since(17)) archive("considered", self.considered.sums, fathom::archive::finite());
-}
-
-template <class Archive, class Self>
-void MotionNoise::fields(Archive& archive, Self& self) {
-  archive.left_out(self.estimated_);
-  archive("now", self.now_, fathom::archive::finite());
-  archive("blocks", self.blocks_);
-  archive("kinds", self.kinds_);
 }
 
 template <class Archive, class Self>
