@@ -41,6 +41,7 @@ inline constexpr double kMostAltitude_m = 5e4;
 struct GpsNoise {
   double sigma_m = 0.0;
   double slow_share = 1.0;
+  double perhaps_slow_m2 = 0.0;  ///< of a stated total, what is beyond the slow error that is known
 };
 
 /// `bias_sigma_m`: of the slow error along this axis, 0 where there is no such state. A total that the
@@ -61,8 +62,10 @@ struct GpsNoise {
   if (sample.fix == GpsFix::rtk_float) total = std::min(total, kRtkFloat_m);
   GpsNoise out{sigma, std::min(1.0, std::sqrt(kMostSlow) * total / bias_sigma_m)};
   const double slow = out.slow_share * bias_sigma_m;
-  if (told)
+  if (told) {
     out.sigma_m = std::max(sensor.sigma[axis], std::sqrt(std::max(0.0, stated * stated - slow * slow)));
+    out.perhaps_slow_m2 = std::max(0.0, total * total - slow * slow);
+  }
   return out;
 }
 
@@ -76,8 +79,9 @@ class GpsPosition {
   [[nodiscard]] static Usable append_rows(const AidingInput& in, const Sample& sample, Observation& out) {
     if (!in.sensor.use_position) return Usable::not_estimated;
     const Usable can = usable(in.sensor, sample);
-    return can == Usable::yes ? append(GpsPosition(in.state, in.sensor, sample, in.gps_bias_sigma_m), in, out)
-                              : can;
+    return can == Usable::yes
+               ? append(GpsPosition(in.state, in.sensor, sample, in.gps_bias_sigma_N_m), in, out)
+               : can;
   }
   [[nodiscard]] static AidingPolicy policy(const SensorConfig& /*sensor*/, const Sample& sample) {
     AidingPolicy policy;
@@ -91,16 +95,14 @@ class GpsPosition {
   }
 
   GpsPosition(const AidingState& s, const SensorConfig& sensor, const GpsSample& sample,
-              double bias_sigma_m = 0.0)
+              const std::array<double, 3>& bias_sigma_N_m = {})
       : s_(s),
         sample_(sample),
         lever_B_(geo::vec(sensor.lever_B_m) + s.value3(Group::gps_lever)),
         lever_N_(s.C_NB * lever_B_),
         swing_N_(s.C_NB * geo::cross(s.rate_nb_B_rad_s, lever_B_)),
         latency_s_(s.value(Group::gps_latency, 0)) {
-    const bool slow = s.index.has(Group::gps_position_bias);
-    for (std::size_t i = 0; i < 3; ++i)
-      noise_[i] = gps_noise(sensor, sample, i, slow ? (i == 2 ? 2.0 : 1.0) * bias_sigma_m : 0.0);
+    for (std::size_t i = 0; i < 3; ++i) noise_[i] = gps_noise(sensor, sample, i, bias_sigma_N_m[i]);
     slow_share_ = {noise_[0].slow_share, noise_[1].slow_share, noise_[2].slow_share};
   }
 
@@ -133,6 +135,9 @@ class GpsPosition {
     h.block(Group::gps_lever, s_.C_NB * (latency_s_ * geo::skew(s_.rate_nb_B_rad_s) - Matrix3::Identity()));
   }
   [[nodiscard]] Vector3 noise() const { return {noise_[0].sigma_m, noise_[1].sigma_m, noise_[2].sigma_m}; }
+  [[nodiscard]] double perhaps_slow(int axis) const {
+    return noise_[static_cast<std::size_t>(axis)].perhaps_slow_m2;
+  }
 
  private:
   const AidingState& s_;

@@ -118,7 +118,7 @@ struct AidingInput {
   double unused_s = kUnknown;                   ///< since the last measurement of this sensor that was used
   /// Of the position of the IMU, for rows that are not straight within it.
   Matrix3 position_covariance_N_m2 = Matrix3::Zero();
-  double gps_bias_sigma_m = 0.0;  ///< of the horizontal slow error of GPS, where it is a state or considered
+  std::array<double, 3> gps_bias_sigma_N_m{};  ///< of the slow error of GPS; 0 where there is no state of it
 };
 
 /// Appends the components of a model that are known to an observation. A model offers
@@ -126,6 +126,7 @@ struct AidingInput {
 ///   Vector3 measured() const, predicted() const, noise() const    (noise: sigmas; longer vectors likewise)
 ///   void jacobian(Jacobian&) const                                 d(predicted - measured)/dx
 ///   double wrapped(double) const      only where the innovation is an angle
+///   double perhaps_slow(int) const    only where noise and slow error are stated in one
 ///   static constexpr int kFirstComponent                          where another model of its source has
 ///   those before
 /// and to the registry
@@ -157,6 +158,7 @@ void observe(const Model& model, const StateIndex& index, Observation& out) {
     }
     out.innovation[to] = z;
     out.sigma[to] = sigma(i);
+    if constexpr (requires { model.perhaps_slow(i); }) out.perhaps_slow[to] = model.perhaps_slow(i);
     out.component[to] = static_cast<std::uint8_t>(first_component + i);
     ++out.rows;
   }

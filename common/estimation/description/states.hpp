@@ -106,7 +106,7 @@ void describe(Walk<StateModelConfig>& s) {
       .unit("m")
       .range(1e-6, 1e4);
   s.field("gps_bias_sigma_m", &C::gps_bias_sigma_m,
-          "correlated GPS error, each horizontal component; the vertical one is twice it")
+          "correlated GPS error, each horizontal component, at least; the vertical one is twice it")
       .unit("m")
       .range(1e-6, 100);
   s.field("gps_bias_time_constant_s", &C::gps_bias_time_constant_s,

@@ -53,7 +53,8 @@ void AdaptiveNoise::Component::compare(double innovation, double state_variance,
   constexpr double kSpread = 2.5;
   constexpr double kSigmas = 4.0;
   constexpr double kSlowest = 0.01;
-  constexpr double kLeast = 0.5;  // a noise larger by a quarter is none that anybody would correct
+  constexpr double kLeast = 0.5;      // a noise larger by a quarter is none that anybody would correct
+  constexpr double kQuietest = -9.0;  // a hundredth of the sigma
   constexpr int kStart = 4;
   constexpr int kCounted = 1000;
   // An error of the state that stays is in both; so much of it does not, as the vehicle turns.
@@ -67,9 +68,11 @@ void AdaptiveNoise::Component::compare(double innovation, double state_variance,
   constexpr int kAnew = 25;
   // The trend has a share of the noise of the measurement that is compared with.
   constexpr double kShared = (1.0 + kTrendGain) * (1.0 + kTrendGain);
-  const double noise = std::exp(log_square) * (kShared * with.said_variance + said_variance);
-  const double expected = noise + std::abs(state_variance - with.state_variance) +
-                          kStateShare * (state_variance + with.state_variance);
+  const double said = kShared * with.said_variance + said_variance;
+  const double of_state =
+      std::abs(state_variance - with.state_variance) + kStateShare * (state_variance + with.state_variance);
+  const double noise = std::exp(log_square) * said;
+  const double expected = noise + of_state;
   if (!std::isfinite(expected)) return;
   const double beside = innovation - with.residual - trend;
   trend += kTrendGain * std::clamp(beside, -3.0 * std::sqrt(expected), 3.0 * std::sqrt(expected));
@@ -77,11 +80,17 @@ void AdaptiveNoise::Component::compare(double innovation, double state_variance,
   recent += kRecentGain * (clipped - recent);
   const bool changed = recent > kMore || (recent < kLess && log_square > kLeast);
   count = std::min(count + 1, changed ? kAnew : kCounted);
-  const double gain = noise / expected * std::max(kSlowest, 1.0 / (kSlope * (count + kStart)));
-  log_square += gain * (clipped / kMean - 1.0);
+  const double gain = std::max(kSlowest, 1.0 / (kSlope * (count + kStart)));
+  log_square += noise / expected * gain * (clipped / kMean - 1.0);
   log_square = std::clamp(log_square, 0.0, 2.0 * std::log(most));
   const double doubt = std::max(kLeast, kSigmas * kSpread / std::sqrt(static_cast<double>(count)));
   noisy = log_square > (noisy ? 0.5 * kLeast : doubt);
+  // (GATE-13): the same from below.
+  const double white = std::exp(log_white) * said;
+  const double least = white + of_state;
+  log_white += white / least * gain * (std::min(beside * beside / least, 1.0) / kMean - 1.0);
+  log_white = std::clamp(log_white, kQuietest, 0.0);
+  quiet = log_white < -(quiet ? 0.5 * kLeast : doubt);
 }
 
 }  // namespace fathom::estimation

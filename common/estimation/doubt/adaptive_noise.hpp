@@ -26,6 +26,12 @@ class AdaptiveNoise {
     const Component& one = components_[component];
     return one.noisy ? std::exp(0.5 * one.log_square) : 1.0;
   }
+  /// Of the variance that the component is said to have, the share by which it scatters from one measurement
+  /// to the next; 1 as long as it may be all of it. The rest is no noise.
+  [[nodiscard]] double white_share(std::size_t component) const {
+    const Component& one = components_[component];
+    return one.quiet ? std::exp(one.log_white) : 1.0;
+  }
   /// The largest of all components.
   [[nodiscard]] double largest_factor() const {
     double out = 1.0;
@@ -51,7 +57,7 @@ class AdaptiveNoise {
     visit(self.last_ns_);
     visit(self.used_ns_);
   }
-  /// For archives: see fields/navigator.hpp.
+  /// For archives: see fields/doubt.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
 
@@ -74,6 +80,8 @@ class AdaptiveNoise {
     int count = 0;            ///< of comparisons; the estimate gets slower with them, down to a limit
     double recent = 0.5;      ///< mean of the last comparisons: far off, the noise has changed
     bool noisy = false;       ///< so many cannot be wrong
+    double log_white = 0.0;   ///< of the share that scatters, where that is less than what is said
+    bool quiet = false;       ///< likewise
 
     void compare(double innovation, double state_variance, double said_variance, const Left& with,
                  double most);

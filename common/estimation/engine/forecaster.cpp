@@ -148,7 +148,7 @@ void Forecaster::step(int lost, double dt_s) {
   ProcessNoise noise = setup_->process_noise(c, SquaredInputs(c, motion.rate_B_rad_s, motion.force_B_m_s2));
   navigator_.estimate().motion_noise.widen(setup_->imu_noise, noise);
   filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s), noise);
-  navigator_.settle_biases(filter_, ahead_s_, dt_s);
+  navigator_.drive_biases(filter_, ahead_s_, dt_s);
   ahead_s_ += dt_s;
   if (lost == kAll) return;
   const AidingState state(setup_->index, state_, motion.rate_B_rad_s, 0.0, motion.force_B_m_s2);
@@ -173,7 +173,7 @@ void Forecaster::aid(int sensor, int instrument, const Instrument& known, const 
                           .water = modelled ? &navigator_.water_velocity() : nullptr,
                           .unused_s = dt_s,
                           .position_covariance_N_m2 = filter_.block3(0, 0),
-                          .gps_bias_sigma_m = setup_->config.states.gps_bias_sigma_m};
+                          .gps_bias_sigma_N_m = navigator_.gps_bias_sigma_N_m()};
   Observation observation;
   for (const AidingEntry& entry : aiding_registry())
     if (entry.source == config.kind)

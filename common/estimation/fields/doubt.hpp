@@ -4,6 +4,7 @@
 #include "estimation/doubt/adaptive_noise.hpp"
 #include "estimation/doubt/bias_prior.hpp"
 #include "estimation/doubt/motion_noise.hpp"
+#include "estimation/doubt/slow_error.hpp"
 #include "estimation/doubt/start_heading.hpp"
 
 /// Fields of what is found to be other than was said.
@@ -25,6 +26,9 @@ void AdaptiveNoise::Component::fields(Archive& archive, Self& self) {
   archive("count", self.count, fathom::archive::kCount);
   archive("recent", self.recent, fathom::archive::within(0.0, 1.0));
   archive("noisy", self.noisy);
+  if (!archive.since(19)) return;
+  archive("log_white", self.log_white, fathom::archive::within(-10.0, 0.0));
+  archive("quiet", self.quiet);
 }
 
 template <class Archive, class Self>
@@ -95,6 +99,13 @@ void MotionNoise::fields(Archive& archive, Self& self) {
   archive("now", self.now_, fathom::archive::finite());
   archive("blocks", self.blocks_);
   archive("kinds", self.kinds_);
+}
+
+template <class Archive, class Self>
+void SlowError::fields(Archive& archive, Self& self) {
+  archive.left_out(self.first_);
+  archive.left_out(self.said_N_m2_);
+  archive("variance_N_m2", self.variance_N_m2_, fathom::archive::within(0.0, 1e12));
 }
 
 }  // namespace fathom::estimation

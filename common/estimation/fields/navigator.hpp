@@ -296,6 +296,11 @@ void Navigator::fields(Archive& archive, Self& self) {
     self.starter_.forget_fix();
     self.ordered_.set_ns = self.estimate_.now_ns;
   }
+  if (archive.since(19)) {
+    archive("slow_error", self.estimate_.slow_error);
+  } else if constexpr (Archive::kReads) {
+    self.estimate_.slow_error.begin();
+  }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

@@ -16,6 +16,9 @@ struct Observation {
   bool each_alone = false;  ///< rows are gated one by one whatever the configuration says
   std::array<double, kMaxRows> innovation{};
   std::array<double, kMaxRows> sigma{};
+  /// Of the variance of each row, what counts as noise but may be slow error: its instrument states the sum
+  /// of both.
+  std::array<double, kMaxRows> perhaps_slow{};
   /// Which component of what its instrument measures each row is; rows that are unknown are left out.
   std::array<std::uint8_t, kMaxRows> component{};
   std::array<std::array<double, kMaxStates>, kMaxRows> h{};

@@ -1,4 +1,4 @@
-// What a measurement says against what was assumed: of the start, of an instrument's noise.
+// What a measurement says against what was assumed: of the start, of an instrument's noise and slow error.
 #include <cmath>
 
 #include "estimation/navigator/trial.hpp"
@@ -42,6 +42,23 @@ void Navigator::note_noise(Trial& trial) const {
                                .innovation_sigma = trial.gated.innovation_sigma,
                                .moved = trial.x,
                                .most = trial.config.max_noise_factor});
+}
+
+bool Navigator::correct_slow_error(Trial& trial) {
+  // (GATE-13)
+  const int first = setup_->index.of(Group::gps_position_bias);
+  if (first < 0 || trial.then != nullptr || !adapts_noise(trial)) return false;
+  bool corrected = false;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(trial.whole.rows); ++row) {
+    const double perhaps_m2 = trial.whole.perhaps_slow[row];
+    if (!(perhaps_m2 > 0.0)) continue;
+    const std::size_t axis = trial.whole.component[row];
+    const double shown = trial.whole.h[row][static_cast<std::size_t>(first) + axis];
+    const double more_m2 = (1.0 - trial.instrument.noise.white_share(axis)) * perhaps_m2 / (shown * shown);
+    corrected = estimate_.correct_slow_error(*setup_, axis, more_m2, velocity_along(trial.policy), trial.x) ||
+                corrected;
+  }
+  return corrected;
 }
 
 }  // namespace fathom::estimation

@@ -97,6 +97,7 @@ void Estimate::follow(const Setup& setup) {
     settle(setup, share, filter);
     settle(setup, share, bias_prior);
   }
+  slow_error.drive(setup.drift, dt, filter);
   for (const std::uint8_t one : setup.drift.decaying()) state.x[one] *= setup.drift.kept(one, dt);
   stride = {};
 }
@@ -141,7 +142,8 @@ double Estimate::settling_share(const Setup& setup, double ahead_s, double dt_s)
   return std::exp(-rate * age_s) - std::exp(-rate * (age_s + dt_s));
 }
 
-void Estimate::settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {
+void Estimate::drive_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {
+  slow_error.drive(setup.drift, dt_s, covariance);
   if (const double share = settling_share(setup, ahead_s, dt_s); share > 0.0)
     settle(setup, share, covariance);
 }
@@ -223,18 +225,34 @@ bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<d
   // (GATE-11)
   const std::optional<BiasPrior::Wrong> wrong = bias_prior.wrong(state, filter);
   if (!wrong) return false;
+  motion_noise.interrupt();
+  take_back(setup, wrong->state, wrong->share, wrong->beyond, along, x);
+  bias_prior.corrected(*wrong);
+  return true;
+}
+
+bool Estimate::correct_slow_error(const Setup& setup, std::size_t axis, double more_m2, VelocityOver along,
+                                  std::array<double, kMaxStates>& x) {
+  // (GATE-13)
+  const double share = slow_error.share_of(axis, more_m2, filter);
+  if (share <= 0.0) return false;
+  const int error = slow_error.state_of(axis);
+  take_back(setup, error, share, state.x[static_cast<std::size_t>(error)], along, x);
+  slow_error.grow(axis, more_m2);
+  return true;
+}
+
+void Estimate::take_back(const Setup& setup, int state_number, double share, double beyond,
+                         VelocityOver along, std::array<double, kMaxStates>& x) {
   const Vector3d before = velocity_N_m_s(setup, along);
-  const double by = wrong->share * wrong->beyond;
+  const double by = share * beyond;
   std::array<double, kMaxStates> column{};
-  for (int i = 0; i < filter.size(); ++i) column[static_cast<std::size_t>(i)] = filter(i, wrong->state);
+  for (int i = 0; i < filter.size(); ++i) column[static_cast<std::size_t>(i)] = filter(i, state_number);
   std::array<double, kMaxStates> moved{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(filter.estimated()); ++i) moved[i] = by * column[i];
-  filter.shift(column, by, wrong->share);
-  start_heading.shifted(column, wrong->share, static_cast<std::size_t>(wrong->state));
-  bias_prior.corrected(*wrong);
-  motion_noise.interrupt();
+  filter.shift(column, by, share);
+  start_heading.shifted(column, share, static_cast<std::size_t>(state_number));
   move_further(setup, moved, before, along, x);
-  return true;
 }
 
 void Estimate::move_further(const Setup& setup, const std::array<double, kMaxStates>& moved,
@@ -282,6 +300,7 @@ void Estimate::forget_covariance(const std::array<double, kMaxStates>& sigma) {
   filter.reset(sigma);
   start_heading.end();
   bias_prior.begin(state, filter);
+  slow_error.begin();
   motion_noise.begin();
   stride = {};
 }

@@ -8,6 +8,7 @@
 #include "estimation/aiding/policy.hpp"
 #include "estimation/doubt/bias_prior.hpp"
 #include "estimation/doubt/motion_noise.hpp"
+#include "estimation/doubt/slow_error.hpp"
 #include "estimation/doubt/start_heading.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/navigator/inertial_step.hpp"
@@ -19,7 +20,10 @@ namespace fathom::estimation {
 /// the navigator acts on it; what only one part needs is kept there.
 struct Estimate {
   explicit Estimate(const Setup& setup)
-      : filter(setup.index), bias_prior(setup.index), motion_noise(setup.index.estimated()) {}
+      : filter(setup.index),
+        bias_prior(setup.index),
+        motion_noise(setup.index.estimated()),
+        slow_error(setup.index.of(Group::gps_position_bias), setup.initial_sigma) {}
 
   TimeNs now_ns = 0;
   bool navigating = false;  ///< state and filter are an estimate
@@ -35,6 +39,7 @@ struct Estimate {
   StartHeading start_heading;
   BiasPrior bias_prior;
   MotionNoise motion_noise;
+  SlowError slow_error;
   Stride stride;  ///< by which the filter is behind the state
 
   /// Seconds since an instant; unknown when it is 0, which stands for never.
@@ -47,8 +52,9 @@ struct Estimate {
   void advance(const Setup& setup, const ImuStep& step, TimeNs until_ns);
   /// Lets the filter follow to now: before anything is done with its covariance but to show it.
   void follow(const Setup& setup);
-  /// Adds to `covariance` what the settling biases move by in `dt_s` from `ahead_s` after now on (NOISE-2).
-  void settle_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const;
+  /// Adds to `covariance` what moves biases in `dt_s` from `ahead_s` after now on, beside the drift of the
+  /// setup: those that settle (NOISE-2), and a slow error that is larger than configured (GATE-13).
+  void drive_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const;
   /// Something may have happened while nothing was measured.
   void widen(const GapSigma& sigma);
   /// The heading has drifted by more than the filter knew, and so has what hangs on it; where the vehicle
@@ -64,6 +70,10 @@ struct Estimate {
   /// A bias of the inertial unit is larger than is said of it (GATE-11): takes back what was concluded from
   /// what is said. Adds to `x` what the state is moved by. False, with nothing changed, if none is.
   bool correct_bias(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x);
+  /// The slow error of GPS along one axis is larger by so much than was taken for true (GATE-13), as
+  /// correct_bias().
+  bool correct_slow_error(const Setup& setup, std::size_t axis, double more_m2, VelocityOver along,
+                          std::array<double, kMaxStates>& x);
   /// Another estimate for the same instant, as the smoother has it.
   void replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance);
   /// What was known of this state is not known any more.
@@ -107,6 +117,10 @@ struct Estimate {
   void move_further(const Setup& setup, const std::array<double, kMaxStates>& moved,
                     const Eigen::Vector3d& before_N_m_s, VelocityOver along,
                     std::array<double, kMaxStates>& x);
+  /// The variance of a state was said too small: P grows by `share` times the square of its column, and the
+  /// estimate goes on by as much where it is `beyond` what was expected (GATE-11).
+  void take_back(const Setup& setup, int state, double share, double beyond, VelocityOver along,
+                 std::array<double, kMaxStates>& x);
   /// (NOISE-4) What the stride's force, where it is not usual, makes of the gyros' g-sensitivity.
   void add_g_sensitivity(const Setup& setup, ProcessNoise& noise);
   /// (NOISE-3) What the products of heading error, tilt and rate leave out of a linear step.

@@ -124,7 +124,7 @@ bool Navigator::observe(Trial& trial) {
                           .water = trial.modelled ? &model_.water_velocity() : nullptr,
                           .unused_s = estimate_.since(trial.instrument.used_ns),
                           .position_covariance_N_m2 = estimate_.filter.block3(0, 0),
-                          .gps_bias_sigma_m = config.states.gps_bias_sigma_m};
+                          .gps_bias_sigma_N_m = estimate_.slow_error.sigma_N_m()};
   Usable first_refusal = Usable::yes;
   for (const AidingEntry& entry : aiding_registry()) {
     if (entry.source != trial.measurement.source) continue;
@@ -220,6 +220,7 @@ bool Navigator::update(Trial& trial) {
   bool corrected = start_was_wrong(trial);
   if (corrected) estimate_.correct_start(*setup_, velocity_along(trial.policy), trial.x);
   corrected = estimate_.correct_bias(*setup_, velocity_along(trial.policy), trial.x) || corrected;
+  corrected = correct_slow_error(trial) || corrected;
   if (corrected) trial.stepped = trial.stepped || std::hypot(trial.x[0], trial.x[1]) > kNoticed_m;
   return true;
 }

@@ -59,9 +59,9 @@ class Navigator {
   }
   /// Sigmas of roll, pitch and yaw of the axes that are published; unknown without navigation.
   [[nodiscard]] Eigen::Vector3d rpy_sigma_rad() const;
-  /// Adds to `filter` what the settling biases move by in `dt_s` from `ahead_s` after now on.
-  void settle_biases(ErrorFilter& filter, double ahead_s, double dt_s) const {
-    estimate_.settle_biases(*setup_, filter, ahead_s, dt_s);
+  /// Adds to `filter` what moves biases in `dt_s` from `ahead_s` after now on, beside the drift of the setup.
+  void drive_biases(ErrorFilter& filter, double ahead_s, double dt_s) const {
+    estimate_.drive_biases(*setup_, filter, ahead_s, dt_s);
   }
 
   [[nodiscard]] const AlignmentWatch& alignment() const { return alignment_; }
@@ -100,6 +100,8 @@ class Navigator {
   }
   /// How many times as much a sensor scatters as is said of it, of its worst component (GATE-10).
   [[nodiscard]] double noise_factor(int number) const { return instruments_.noise_factor(*setup_, number); }
+  /// Of the slow error of GPS; 0 where there is no state of it.
+  [[nodiscard]] std::array<double, 3> gps_bias_sigma_N_m() const { return estimate_.slow_error.sigma_N_m(); }
   [[nodiscard]] const hydro::WaterVelocity& water_velocity() const { return model_.water_velocity(); }
 
   /// For archives: see fields/navigator.hpp.
@@ -142,6 +144,8 @@ class Navigator {
   /// (GATE-10)
   [[nodiscard]] bool adapts_noise(const Trial& trial) const;
   void note_noise(Trial& trial) const;
+  /// (GATE-13) False, with nothing changed, if it is not larger than is known.
+  bool correct_slow_error(Trial& trial);
 
   // navigator.cpp
   /// `used` when it is done. `rejected` when it is a position that is held until it is confirmed; innovation

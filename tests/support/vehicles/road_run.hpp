@@ -66,6 +66,9 @@ struct RoadRun {
       header.sequence = ++sequence;
       Truth one;
       one.header = header;
+      one.latitude_rad = vehicle.position().latitude_rad;
+      one.longitude_rad = vehicle.position().longitude_rad;
+      one.altitude_m = vehicle.position().altitude_m;
       one.velocity_N_m_s = geo::arr(vehicle.v_N_m_s());
       one.rpy_rad = geo::arr(vehicle.rpy_rad());
       truth.push_back(one);

@@ -69,8 +69,28 @@ TEST(AdaptiveNoise, LeavesAnInstrumentAloneThatIsAsSaid) {
     for (int i = 0; i < 3'000; ++i) {
       filtered.measure(filtered.draw(kSaid));
       ASSERT_EQ(filtered.noise.factor(0), 1.0) << seed << " " << i;
+      ASSERT_EQ(filtered.noise.white_share(0), 1.0) << seed << " " << i;
     }
   }
+}
+
+/// (GATE-13)
+TEST(AdaptiveNoise, FindsTheShareOfTheNoiseThatIsThere) {
+  for (const double share : {0.01, 0.1, 0.3}) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      Filtered filtered(seed);
+      for (int i = 0; i < 1'000; ++i) filtered.measure(0.7 * kSaid + filtered.draw(std::sqrt(share) * kSaid));
+      EXPECT_NEAR(filtered.noise.white_share(0) / share, 1.0, 0.3) << share << " " << seed;
+      EXPECT_EQ(filtered.noise.factor(0), 1.0) << "what is said is the least";
+    }
+  }
+}
+
+/// (GATE-13)
+TEST(AdaptiveNoise, SeesWithinSecondsThatThereIsHardlyAny) {
+  Filtered filtered(1);
+  for (int i = 0; i < 40; ++i) filtered.measure(filtered.draw(0.1 * kSaid));
+  EXPECT_LT(filtered.noise.white_share(0), 0.1);
 }
 
 TEST(AdaptiveNoise, FindsTheNoiseThatIsThereFromBelowTheGateAndFarBeyondIt) {

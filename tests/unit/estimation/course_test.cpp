@@ -127,13 +127,13 @@ TEST(SettlingBias, AddsItsWholeVarianceHoweverTheTimeIsCut) {
   const int accel = setup.index.of(Group::accel_bias);
   ErrorFilter whole(setup.index.size());
   ErrorFilter parts(setup.index.size());
-  navigator.settle_biases(whole, 0.0, 15.0);
-  for (int i = 0; i < 60; ++i) navigator.settle_biases(parts, 0.25 * i, 0.25);
+  navigator.drive_biases(whole, 0.0, 15.0);
+  for (int i = 0; i < 60; ++i) navigator.drive_biases(parts, 0.25 * i, 0.25);
   EXPECT_NEAR(parts(gyro + 2, gyro + 2), whole(gyro + 2, gyro + 2),
               1e-12 * whole(gyro + 2, gyro + 2) + 1e-20);
   EXPECT_NEAR(whole(gyro, gyro), 9e-6 * (1.0 - std::exp(-1.5)), 1e-15);
   EXPECT_EQ(whole(accel, accel), 0.0);
-  navigator.settle_biases(whole, 15.0, 1e4);
+  navigator.drive_biases(whole, 15.0, 1e4);
   EXPECT_NEAR(whole(gyro, gyro), 9e-6, 1e-15);
 }
 
