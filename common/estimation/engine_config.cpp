@@ -183,6 +183,7 @@ StateGroups EngineConfig::considered() const {
     return one.kind == SourceKind::heading && !one.two_antenna;
   });
   out.gps_position_bias = carries(SourceKind::gps) && !groups.gps_position_bias;
+  out.usbl_bias = carries(SourceKind::usbl) && !groups.usbl_bias;
   return out;
 }
 

@@ -41,7 +41,7 @@ inline constexpr double kMostAltitude_m = 5e4;
 struct GpsNoise {
   double sigma_m = 0.0;
   double slow_share = 1.0;
-  double perhaps_slow_m2 = 0.0;  ///< of a stated total, what is beyond the slow error that is known
+  double stated_m2 = 0.0;  ///< of both, where the receiver states it
 };
 
 /// `bias_sigma_m`: of the slow error along this axis, 0 where there is no such state. A total that the
@@ -64,7 +64,7 @@ struct GpsNoise {
   const double slow = out.slow_share * bias_sigma_m;
   if (told) {
     out.sigma_m = std::max(sensor.sigma[axis], std::sqrt(std::max(0.0, stated * stated - slow * slow)));
-    out.perhaps_slow_m2 = std::max(0.0, total * total - slow * slow);
+    out.stated_m2 = total * total;
   }
   return out;
 }
@@ -135,8 +135,8 @@ class GpsPosition {
     h.block(Group::gps_lever, s_.C_NB * (latency_s_ * geo::skew(s_.rate_nb_B_rad_s) - Matrix3::Identity()));
   }
   [[nodiscard]] Vector3 noise() const { return {noise_[0].sigma_m, noise_[1].sigma_m, noise_[2].sigma_m}; }
-  [[nodiscard]] double perhaps_slow(int axis) const {
-    return noise_[static_cast<std::size_t>(axis)].perhaps_slow_m2;
+  [[nodiscard]] StatedError stated(int axis) const {
+    return {noise_[static_cast<std::size_t>(axis)].stated_m2, Group::gps_position_bias, axis};
   }
 
  private:

@@ -121,12 +121,19 @@ struct AidingInput {
   std::array<double, 3> gps_bias_sigma_N_m{};  ///< of the slow error of GPS; 0 where there is no state of it
 };
 
+/// What an instrument states of noise and slow error in one.
+struct StatedError {
+  double variance = 0.0;  ///< 0: nothing
+  Group slow = Group::position;
+  int component = 0;  ///< of the group
+};
+
 /// Appends the components of a model that are known to an observation. A model offers
 ///   int dimension() const
 ///   Vector3 measured() const, predicted() const, noise() const    (noise: sigmas; longer vectors likewise)
 ///   void jacobian(Jacobian&) const                                 d(predicted - measured)/dx
 ///   double wrapped(double) const      only where the innovation is an angle
-///   double perhaps_slow(int) const    only where noise and slow error are stated in one
+///   StatedError stated(int) const     only where noise and slow error are stated in one
 ///   static constexpr int kFirstComponent                          where another model of its source has
 ///   those before
 /// and to the registry
@@ -158,7 +165,12 @@ void observe(const Model& model, const StateIndex& index, Observation& out) {
     }
     out.innovation[to] = z;
     out.sigma[to] = sigma(i);
-    if constexpr (requires { model.perhaps_slow(i); }) out.perhaps_slow[to] = model.perhaps_slow(i);
+    if constexpr (requires { model.stated(i); }) {
+      const StatedError stated = model.stated(i);
+      const int slow = index.of(stated.slow);
+      out.stated[to] = slow < 0 ? 0.0 : stated.variance;
+      out.slow_state[to] = static_cast<std::uint8_t>(slow < 0 ? 0 : slow + stated.component);
+    }
     out.component[to] = static_cast<std::uint8_t>(first_component + i);
     ++out.rows;
   }

@@ -82,6 +82,13 @@ class UsblPosition {
     return {horizontal, horizontal, sigma_of(sensor_.sigma[2], sample_.sigma_m, sensor_.use_sample_sigma)};
   }
 
+  [[nodiscard]] StatedError stated(int axis) const {
+    if (axis > 1) return {};
+    const bool told = sensor_.use_sample_sigma && known(sample_.sigma_m);
+    const double sigma = told ? sample_.sigma_m : sensor_.sigma[static_cast<std::size_t>(axis)];
+    return {sigma * sigma, Group::usbl_bias, axis};
+  }
+
  private:
   const AidingState& s_;
   const SensorConfig& sensor_;

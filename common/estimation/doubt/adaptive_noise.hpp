@@ -32,6 +32,11 @@ class AdaptiveNoise {
     const Component& one = components_[component];
     return one.quiet ? std::exp(one.log_white) : 1.0;
   }
+  /// What of it is no noise has been taken for something else: is it noise now?
+  void expect_noise(std::size_t component) {
+    components_[component].log_white = 0.0;
+    components_[component].quiet = false;
+  }
   /// The largest of all components.
   [[nodiscard]] double largest_factor() const {
     double out = 1.0;

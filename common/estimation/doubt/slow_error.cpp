@@ -4,10 +4,11 @@
 
 namespace fathom::estimation {
 
-SlowError::SlowError(int first, const std::array<double, kMaxStates>& sigma) : first_(first) {
-  for (std::size_t axis = 0; axis < kAxes && first >= 0; ++axis) {
-    const double one = sigma[static_cast<std::size_t>(state_of(axis))];
-    said_N_m2_[axis] = one * one;
+SlowError::SlowError(const StateIndex& index, Group group, const std::array<double, kMaxStates>& sigma)
+    : first_(index.of(group)), axes_(index.has(group) ? group_size(group) : 0) {
+  for (int i = first_; has(i); ++i) {
+    const double one = sigma[static_cast<std::size_t>(i)];
+    said_N_m2_[axis_of(i)] = one * one;
   }
   begin();
 }
@@ -18,21 +19,20 @@ std::array<double, SlowError::kAxes> SlowError::sigma_N_m() const {
   return out;
 }
 
-double SlowError::share_of(std::size_t axis, double more_m2, const ErrorFilter& filter) const {
+double SlowError::share_of(int state, double variance_m2, const ErrorFilter& filter) const {
   // (GATE-13)
-  constexpr double kWorthIt = 0.2;  // of the variance: a tenth of the sigma
-  const int state = state_of(axis);
-  const double variance = variance_N_m2_[axis];
-  if (state < 0 || !(variance > 0.0) || !(more_m2 > kWorthIt * variance)) return 0.0;
-  const double taken_back = 1.0 / variance - 1.0 / (variance + more_m2);
+  constexpr double kWorthIt = 1.2;  // of the variance: a tenth of the sigma
+  const double variance = variance_N_m2_[axis_of(state)];
+  if (!(variance > 0.0) || !(variance_m2 > kWorthIt * variance)) return 0.0;
+  const double taken_back = 1.0 / variance - 1.0 / variance_m2;
   return taken_back / (1.0 - taken_back * filter(state, state));
 }
 
 void SlowError::drive(const StateDrift& drift, double dt_s, ErrorFilter& covariance) const {
-  for (std::size_t axis = 0; axis < kAxes; ++axis) {
+  for (int i = first_; has(i); ++i) {
+    const std::size_t axis = axis_of(i);
     if (!(variance_N_m2_[axis] > said_N_m2_[axis])) continue;
-    const double more = variance_N_m2_[axis] / said_N_m2_[axis] - 1.0;
-    covariance.widen(state_of(axis), more * drift.walk(state_of(axis)) * dt_s);
+    covariance.widen(i, (variance_N_m2_[axis] / said_N_m2_[axis] - 1.0) * drift.walk(i) * dt_s);
   }
 }
 

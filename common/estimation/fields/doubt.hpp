@@ -104,6 +104,7 @@ void MotionNoise::fields(Archive& archive, Self& self) {
 template <class Archive, class Self>
 void SlowError::fields(Archive& archive, Self& self) {
   archive.left_out(self.first_);
+  archive.left_out(self.axes_);
   archive.left_out(self.said_N_m2_);
   archive("variance_N_m2", self.variance_N_m2_, fathom::archive::within(0.0, 1e12));
 }

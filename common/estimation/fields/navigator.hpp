@@ -248,7 +248,12 @@ void Navigator::fields(Archive& archive, Self& self) {
   archive.left_out(self.setup_);
   Estimate::fields(archive, self.estimate_);
   if constexpr (Archive::kReads) {
-    if (!archive.since(4)) self.estimate_.consider_anew(*self.setup_);
+    const StateIndex& index = self.setup_->index;
+    if (!archive.since(4)) {
+      self.estimate_.consider_anew(*self.setup_, index.estimated());
+    } else if (!archive.since(19)) {
+      self.estimate_.consider_anew(*self.setup_, index.size() - index.considered_since_19());
+    }
   }
   archive("sensors", self.instruments_.sensors);
   archive.left_out(self.instruments_.count);
@@ -297,9 +302,11 @@ void Navigator::fields(Archive& archive, Self& self) {
     self.ordered_.set_ns = self.estimate_.now_ns;
   }
   if (archive.since(19)) {
-    archive("slow_error", self.estimate_.slow_error);
+    archive("slow_gps", self.estimate_.slow_gps);
+    archive("slow_usbl", self.estimate_.slow_usbl);
   } else if constexpr (Archive::kReads) {
-    self.estimate_.slow_error.begin();
+    self.estimate_.slow_gps.begin();
+    self.estimate_.slow_usbl.begin();
   }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }

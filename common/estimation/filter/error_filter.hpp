@@ -42,13 +42,16 @@ class FilterTape;
 class ErrorFilter {
  public:
   explicit ErrorFilter(int states = 0) : n_(states), estimated_(states) {}
-  explicit ErrorFilter(const StateIndex& index) : n_(index.size()), estimated_(index.estimated()) {}
-  ErrorFilter(const ErrorFilter& other) : n_(other.n_), estimated_(other.estimated_), tape_(other.tape_) {
+  explicit ErrorFilter(const StateIndex& index)
+      : n_(index.size()), estimated_(index.estimated()), since_19_(index.considered_since_19()) {}
+  ErrorFilter(const ErrorFilter& other)
+      : n_(other.n_), estimated_(other.estimated_), since_19_(other.since_19_), tape_(other.tape_) {
     copy(other);
   }
   ErrorFilter& operator=(const ErrorFilter& other) {
     n_ = other.n_;
     estimated_ = other.estimated_;
+    since_19_ = other.since_19_;
     tape_ = other.tape_;
     if (this != &other) copy(other);
     return *this;
@@ -121,6 +124,7 @@ class ErrorFilter {
 
   int n_;
   int estimated_;
+  int since_19_ = 0;  ///< the last ones, which older archives do not hold
   FilterTape* tape_ = nullptr;
   alignas(64) std::array<double, static_cast<std::size_t>(kMaxStates) * kRowStride> p_{};
 };

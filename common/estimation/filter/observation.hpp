@@ -16,9 +16,10 @@ struct Observation {
   bool each_alone = false;  ///< rows are gated one by one whatever the configuration says
   std::array<double, kMaxRows> innovation{};
   std::array<double, kMaxRows> sigma{};
-  /// Of the variance of each row, what counts as noise but may be slow error: its instrument states the sum
-  /// of both.
-  std::array<double, kMaxRows> perhaps_slow{};
+  /// What the instrument of each row states of noise and slow error in one, a variance; 0: nothing of the
+  /// kind.
+  std::array<double, kMaxRows> stated{};
+  std::array<std::uint8_t, kMaxRows> slow_state{};  ///< of that slow error
   /// Which component of what its instrument measures each row is; rows that are unknown are left out.
   std::array<std::uint8_t, kMaxRows> component{};
   std::array<std::array<double, kMaxStates>, kMaxRows> h{};

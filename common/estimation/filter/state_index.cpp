@@ -111,11 +111,18 @@ StateIndex::StateIndex(const StateGroups& groups, const StateGroups& considered,
     if (i == static_cast<std::size_t>(Group::gyro_misalignment)) imu_end_ = size_;
   }
   estimated_ = size_;
-  for (std::size_t i = 0; i < also.size(); ++i) {
-    if (on[i] || !also[i]) continue;
+  const auto consider = [&](std::size_t i) {
+    if (on[i] || !also[i]) return;
     start_[i] = size_;
     size_ += kGroupRows[i].size;
-  }
+  };
+  // What came later stands behind what an older archive holds.
+  constexpr auto kSince19 = static_cast<std::size_t>(Group::usbl_bias);
+  for (std::size_t i = 0; i < also.size(); ++i)
+    if (i != kSince19) consider(i);
+  const int before_19 = size_;
+  consider(kSince19);
+  since_19_ = size_ - before_19;
   assert(size_ <= kMaxStates);
 }
 

@@ -68,6 +68,8 @@ class StateIndex {
   [[nodiscard]] int size() const { return size_; }
   /// The first ones, which are estimated.
   [[nodiscard]] int estimated() const { return estimated_; }
+  /// The last ones, which are considered since version 19 of the state archive.
+  [[nodiscard]] int considered_since_19() const { return since_19_; }
   /// One past the last estimated state that drives the navigation error.
   [[nodiscard]] int imu_end() const { return imu_end_; }
   /// Index of the group's first state, -1 when it is neither estimated nor considered.
@@ -80,6 +82,7 @@ class StateIndex {
   std::array<int, kGroups> start_{};
   int size_ = 0;
   int estimated_ = 0;
+  int since_19_ = 0;
   int imu_end_ = 0;
 };
 

@@ -46,17 +46,20 @@ void Navigator::note_noise(Trial& trial) const {
 
 bool Navigator::correct_slow_error(Trial& trial) {
   // (GATE-13)
-  const int first = setup_->index.of(Group::gps_position_bias);
-  if (first < 0 || trial.then != nullptr || !adapts_noise(trial)) return false;
+  if (trial.then != nullptr || !adapts_noise(trial)) return false;
+  const Observation& rows = trial.whole;
   bool corrected = false;
-  for (std::size_t row = 0; row < static_cast<std::size_t>(trial.whole.rows); ++row) {
-    const double perhaps_m2 = trial.whole.perhaps_slow[row];
-    if (!(perhaps_m2 > 0.0)) continue;
-    const std::size_t axis = trial.whole.component[row];
-    const double shown = trial.whole.h[row][static_cast<std::size_t>(first) + axis];
-    const double more_m2 = (1.0 - trial.instrument.noise.white_share(axis)) * perhaps_m2 / (shown * shown);
-    corrected = estimate_.correct_slow_error(*setup_, axis, more_m2, velocity_along(trial.policy), trial.x) ||
-                corrected;
+  for (std::size_t row = 0; row < static_cast<std::size_t>(rows.rows); ++row) {
+    if (!(rows.stated[row] > 0.0)) continue;
+    const std::size_t component = rows.component[row];
+    const int error = rows.slow_state[row];
+    const double scatters = trial.instrument.noise.white_share(component) * rows.sigma[row] * rows.sigma[row];
+    const double shown = rows.h[row][static_cast<std::size_t>(error)];
+    const double variance = (rows.stated[row] - scatters) / (shown * shown);
+    if (!estimate_.correct_slow_error(*setup_, error, variance, velocity_along(trial.policy), trial.x))
+      continue;
+    trial.instrument.noise.expect_noise(component);
+    corrected = true;
   }
   return corrected;
 }

@@ -97,7 +97,7 @@ void Estimate::follow(const Setup& setup) {
     settle(setup, share, filter);
     settle(setup, share, bias_prior);
   }
-  slow_error.drive(setup.drift, dt, filter);
+  slow_gps.drive(setup.drift, dt, filter);
   for (const std::uint8_t one : setup.drift.decaying()) state.x[one] *= setup.drift.kept(one, dt);
   stride = {};
 }
@@ -143,7 +143,7 @@ double Estimate::settling_share(const Setup& setup, double ahead_s, double dt_s)
 }
 
 void Estimate::drive_biases(const Setup& setup, ErrorFilter& covariance, double ahead_s, double dt_s) const {
-  slow_error.drive(setup.drift, dt_s, covariance);
+  slow_gps.drive(setup.drift, dt_s, covariance);
   if (const double share = settling_share(setup, ahead_s, dt_s); share > 0.0)
     settle(setup, share, covariance);
 }
@@ -231,14 +231,14 @@ bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<d
   return true;
 }
 
-bool Estimate::correct_slow_error(const Setup& setup, std::size_t axis, double more_m2, VelocityOver along,
+bool Estimate::correct_slow_error(const Setup& setup, int error, double variance_m2, VelocityOver along,
                                   std::array<double, kMaxStates>& x) {
   // (GATE-13)
-  const double share = slow_error.share_of(axis, more_m2, filter);
+  SlowError& slow = slow_gps.has(error) ? slow_gps : slow_usbl;
+  const double share = slow.share_of(error, variance_m2, filter);
   if (share <= 0.0) return false;
-  const int error = slow_error.state_of(axis);
   take_back(setup, error, share, state.x[static_cast<std::size_t>(error)], along, x);
-  slow_error.grow(axis, more_m2);
+  slow.grow(error, variance_m2);
   return true;
 }
 
@@ -300,7 +300,8 @@ void Estimate::forget_covariance(const std::array<double, kMaxStates>& sigma) {
   filter.reset(sigma);
   start_heading.end();
   bias_prior.begin(state, filter);
-  slow_error.begin();
+  slow_gps.begin();
+  slow_usbl.begin();
   motion_noise.begin();
   stride = {};
 }
@@ -312,8 +313,8 @@ void Estimate::begin(const FilterState& start, const std::array<double, kMaxStat
   began_ns = now_ns;
 }
 
-void Estimate::consider_anew(const Setup& setup) {
-  for (int i = filter.estimated(); i < filter.size(); ++i)
+void Estimate::consider_anew(const Setup& setup, int from) {
+  for (int i = from; i < filter.size(); ++i)
     filter.forget(i, setup.initial_sigma[static_cast<std::size_t>(i)]);
 }
 

@@ -23,7 +23,8 @@ struct Estimate {
       : filter(setup.index),
         bias_prior(setup.index),
         motion_noise(setup.index.estimated()),
-        slow_error(setup.index.of(Group::gps_position_bias), setup.initial_sigma) {}
+        slow_gps(setup.index, Group::gps_position_bias, setup.initial_sigma),
+        slow_usbl(setup.index, Group::usbl_bias, setup.initial_sigma) {}
 
   TimeNs now_ns = 0;
   bool navigating = false;  ///< state and filter are an estimate
@@ -39,7 +40,8 @@ struct Estimate {
   StartHeading start_heading;
   BiasPrior bias_prior;
   MotionNoise motion_noise;
-  SlowError slow_error;
+  SlowError slow_gps;
+  SlowError slow_usbl;
   Stride stride;  ///< by which the filter is behind the state
 
   /// Seconds since an instant; unknown when it is 0, which stands for never.
@@ -70,16 +72,16 @@ struct Estimate {
   /// A bias of the inertial unit is larger than is said of it (GATE-11): takes back what was concluded from
   /// what is said. Adds to `x` what the state is moved by. False, with nothing changed, if none is.
   bool correct_bias(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x);
-  /// The slow error of GPS along one axis is larger by so much than was taken for true (GATE-13), as
+  /// The slow error that is this state has this variance, and was taken for less (GATE-13): as
   /// correct_bias().
-  bool correct_slow_error(const Setup& setup, std::size_t axis, double more_m2, VelocityOver along,
+  bool correct_slow_error(const Setup& setup, int error, double variance_m2, VelocityOver along,
                           std::array<double, kMaxStates>& x);
   /// Another estimate for the same instant, as the smoother has it.
   void replace(const Setup& setup, const FilterState& other, const ErrorFilter& covariance);
   /// What was known of this state is not known any more.
   void forget(int state, double sigma);
-  /// What is considered is as uncertain as at the start and shares nothing with the states.
-  void consider_anew(const Setup& setup);
+  /// What is considered, from this state on, is as uncertain as at the start and shares nothing with others.
+  void consider_anew(const Setup& setup, int from);
   /// The filter knows nothing but `sigma`.
   void forget_covariance(const std::array<double, kMaxStates>& sigma);
   /// Begins to navigate: the filter knows nothing but `sigma`.

@@ -119,6 +119,14 @@ SurveyRun::SurveyRun(const Options& options) {
       usbl.longitude_rad = at.longitude_rad;
       usbl.depth_m = depth + normal(2.0);
       usbl.sigma_m = 2.0;
+      if (options.usbl_slow_m > 0.0) {
+        Normal slow(options.seed + 1'000);
+        const geo::Geodetic off =
+            geo::moved_by(vehicle.position(), slow.vector(options.usbl_slow_m) + normal.vector(0.2));
+        usbl.latitude_rad = off.latitude_rad;
+        usbl.longitude_rad = off.longitude_rad;
+        usbl.sigma_m = options.usbl_slow_m;
+      }
       samples.emplace_back(usbl);
     }
   }

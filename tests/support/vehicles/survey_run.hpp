@@ -34,6 +34,8 @@ struct SurveyRun {
     double gps_delay_s = 0.2;
     double dvl_delay_s = 0.1;
     bool usbl = true;
+    double usbl_slow_m =
+        0.0;  ///< where it is not 0, the acoustic fixes are off by a constant and hardly scatter
   };
 
   std::vector<Sample> samples;  ///< by received_ns

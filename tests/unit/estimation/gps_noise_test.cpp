@@ -31,7 +31,7 @@ TEST(GpsNoise, IsWhatTheSlowErrorLeavesOfTheTotal) {
   const GpsNoise noise = gps_noise(receiver(), fix(GpsFix::fix_3d, 2.5), 0, kSlow_m);
   EXPECT_EQ(noise.slow_share, 1.0);
   EXPECT_NEAR(noise.sigma_m, 2.0, 1e-12);
-  EXPECT_NEAR(noise.perhaps_slow_m2, 4.0, 1e-12);
+  EXPECT_EQ(noise.stated_m2, 2.5 * 2.5);
 }
 
 TEST(GpsNoise, TakesLessOfTheSlowStateWhereTheReceiverIsBetterThanThat) {
@@ -54,7 +54,7 @@ TEST(GpsNoise, IsAsConfiguredWhereTheSampleIsNotAsked) {
   const GpsNoise noise = gps_noise(sensor, fix(GpsFix::fix_3d, 2.5), 0, kSlow_m);
   EXPECT_EQ(noise.sigma_m, 0.4);
   EXPECT_EQ(noise.slow_share, 1.0);
-  EXPECT_EQ(noise.perhaps_slow_m2, 0.0);
+  EXPECT_EQ(noise.stated_m2, 0.0);
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/wgs84.hpp"
-#include "support/vehicles/survey_run.hpp"
 #include "support/vehicles/road_run.hpp"
+#include "support/vehicles/spoilt_survey.hpp"
 #include "unit/estimation/linear_loop.hpp"
 
 namespace fathom::estimation {
@@ -69,8 +69,8 @@ TEST(SlowError, BecomesWhatALargerOneWouldHaveBeenFromTheStart) {
     };
     LinearLoop told = run(1.5);
     const LinearLoop open = run(5.0);
-    const SlowError slow(with_slow_error().of(Group::gps_position_bias), Fixes::sigmas(1.5));
-    const double share = slow.share_of(Fixes::kEast, 25.0 - 1.5 * 1.5, told.filter);
+    const SlowError slow(with_slow_error(), Group::gps_position_bias, Fixes::sigmas(1.5));
+    const double share = slow.share_of(Fixes::state(), 25.0, told.filter);
     const double estimated_m = kTrue_m - told.error(Fixes::state());
     std::array<double, kMaxStates> column{};
     std::array<double, kMaxStates> moved{};
@@ -89,15 +89,15 @@ TEST(SlowError, BecomesWhatALargerOneWouldHaveBeenFromTheStart) {
 
 TEST(SlowError, IsNotTouchedForLessThanAFifth) {
   const ErrorFilter filter = Fixes::filter(1.5);
-  SlowError slow(with_slow_error().of(Group::gps_position_bias), Fixes::sigmas(1.5));
-  EXPECT_EQ(slow.share_of(0, 0.4, filter), 0.0);
-  EXPECT_GT(slow.share_of(0, 0.5, filter), 0.0);
-  EXPECT_EQ(SlowError(-1, {}).share_of(0, 100.0, filter), 0.0);
-  slow.grow(0, 4.0);
-  EXPECT_NEAR(slow.sigma_N_m()[0], 2.5, 1e-12);
-  EXPECT_EQ(slow.sigma_N_m()[1], 1.5);
-  slow.begin();
+  SlowError slow(with_slow_error(), Group::gps_position_bias, Fixes::sigmas(1.5));
+  EXPECT_EQ(slow.share_of(Fixes::state(), 1.5 * 1.5 + 0.4, filter), 0.0);
+  EXPECT_GT(slow.share_of(Fixes::state(), 1.5 * 1.5 + 0.5, filter), 0.0);
+  EXPECT_FALSE(SlowError(StateIndex{StateGroups{}}, Group::gps_position_bias, {}).has(Fixes::state()));
+  slow.grow(Fixes::state(), 6.25);
+  EXPECT_NEAR(slow.sigma_N_m()[Fixes::kEast], 2.5, 1e-12);
   EXPECT_EQ(slow.sigma_N_m()[0], 1.5);
+  slow.begin();
+  EXPECT_EQ(slow.sigma_N_m()[Fixes::kEast], 1.5);
 }
 
 /// How a car fares whose GPS is off by a constant of `slow_m` and noise of `noise_m` and states the sum.
@@ -151,6 +151,15 @@ TEST(SlowError, IsFoundWhereFixesDoNotScatterAsTheyAreSaidTo) {
 
 TEST(SlowError, IsAsConfiguredWhereFixesScatterAsTheyAreSaidTo) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) EXPECT_LT(drive(seed, 0.0, 5.0, {}).sigma_m, 2.2) << seed;
+}
+
+// Of acoustic fixes, all of whose error is slow: before there were any, the position was known better.
+TEST(SlowError, OfAcousticFixesDoesNotAverageOut) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const test::SurveyRun run({.duration_s = 400.0, .seed = seed, .usbl_slow_m = 5.0});
+    const test::SpoiltSurvey fared = test::survey(run, 60.0, [](test::Sample&, double) {});
+    EXPECT_LT(fared.worst_h_sigmas, 3.5) << seed;
+  }
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "archive/reader.hpp"
+#include "archive/writer.hpp"
 #include "estimation/fields/imu_preprocessor.hpp"
 #include "estimation/fields/measurement.hpp"
 #include "estimation/fields/navigator.hpp"
@@ -113,6 +115,31 @@ TEST(StateFields, NoneOfASampleIsForgotten) {
   EXPECT_EQ(holes(AirspeedSample()), "");
   EXPECT_EQ(holes(PropulsionSample()), "");
   EXPECT_EQ(holes(FinsSample()), "");
+}
+
+TEST(StateFields, OfAnOlderStateConsiderAnewWhatThatDidNotHold) {
+  EngineConfig config;
+  config.sensors = {default_sensor(SourceKind::gps, "gps"), default_sensor(SourceKind::usbl, "usbl")};
+  const estimation::Setup setup(config);
+  const int later = setup.index.of(Group::usbl_bias);
+  ASSERT_GE(later, setup.index.estimated());
+  Navigator navigator(setup);
+  navigator.start(InitialState{}, kNsPerSecond);
+  std::vector<std::byte> image;
+  constexpr std::uint32_t kWithout = 18;
+  archive::Writer writer(image, kWithout);
+  writer("navigator", navigator);
+  archive::Reader reader(image);
+  reader.set_version(kWithout);
+  Navigator read(setup);
+  reader("navigator", read);
+  ASSERT_TRUE(reader.good()) << reader.complaint();
+  for (int i = 0; i < setup.index.size(); ++i) {
+    for (int j = 0; j < i; ++j)
+      EXPECT_EQ(read.filter()(i, j), i < later ? navigator.filter()(i, j) : 0.0) << i << " " << j;
+    const double begins = setup.initial_sigma[static_cast<std::size_t>(i)];
+    EXPECT_EQ(read.filter()(i, i), i < later ? navigator.filter()(i, i) : begins * begins) << i;
+  }
 }
 
 struct Forgetful {
