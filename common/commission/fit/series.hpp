@@ -65,6 +65,4 @@ struct Series {
 [[nodiscard]] std::optional<Eigen::Vector3d> at(const VectorSeries& series, double t_s, double longest_gap_s);
 [[nodiscard]] std::optional<double> at(const ScalarSeries& series, double t_s, double longest_gap_s);
 
-/// Middle value; unknown of nothing.
-
 }  // namespace fathom::commission
