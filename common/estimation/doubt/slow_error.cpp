@@ -19,6 +19,12 @@ std::array<double, SlowError::kAxes> SlowError::sigma_N_m() const {
   return out;
 }
 
+std::optional<SlowError::Grown> SlowError::grown() const {
+  const std::size_t worse = variance_N_m2_[1] > variance_N_m2_[0] ? 1 : 0;
+  if (!(variance_N_m2_[worse] > said_N_m2_[worse])) return std::nullopt;
+  return Grown{std::sqrt(variance_N_m2_[worse]), std::sqrt(said_N_m2_[worse])};
+}
+
 double SlowError::share_of(int state, double variance_m2, const ErrorFilter& filter) const {
   // (GATE-13)
   constexpr double kWorthIt = 1.2;  // of the variance: a tenth of the sigma

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 #include "estimation/filter/error_filter.hpp"
 #include "estimation/filter/state_drift.hpp"
@@ -24,6 +25,12 @@ class SlowError {
 
   /// Zero where there is no state of it.
   [[nodiscard]] std::array<double, kAxes> sigma_N_m() const;
+  struct Grown {
+    double sigma_m = 0.0;
+    double configured_m = 0.0;
+  };
+  /// Of the worse of north and east, where that is more than is configured.
+  [[nodiscard]] std::optional<Grown> grown() const;
   [[nodiscard]] bool has(int state) const { return state >= first_ && state < first_ + axes_; }
   /// By what P grows per square of the state's column where its variance becomes `variance_m2`, as if it had
   /// been that from the start; 0 where that is not worth it. Precondition: has(state).

@@ -265,6 +265,16 @@ FoundBias add_found_biases(const Setup& setup, const Estimate& estimate, Alignme
   return worst;
 }
 
+void add_slow_errors(const Estimate& estimate, AlignmentStatus& out) {
+  const auto add = [&](SourceKind kind, const SlowError& slow) {
+    if (const auto grown = slow.grown())
+      add_condition(out, name_of(kSlowErrorPrefix, to_string(kind)).data(), grown->sigma_m,
+                    grown->configured_m, true);
+  };
+  add(SourceKind::gps, estimate.slow_gps);
+  add(SourceKind::usbl, estimate.slow_usbl);
+}
+
 }  // namespace
 
 void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) {
@@ -295,6 +305,7 @@ void fill(const Setup& setup, const Navigator& navigator, AlignmentStatus& out) 
       navigator.navigating() ? add_found_biases(setup, navigator.estimate(), out) : FoundBias{};
   const NoiseFactor noisy =
       navigator.navigating() ? add_noise_factors(setup.config, navigator, out) : NoiseFactor{};
+  if (navigator.navigating()) add_slow_errors(navigator.estimate(), out);
   if (implausible) return write_sentence(implausible, setup.config.imu.nominal_rate_hz, out.advice);
   write(out.advice, "%s", advice(c, navigator, config, sigma));
   if (out.advice[0] == '\0' && start_rad != 0.0)

@@ -10,10 +10,10 @@
 
 namespace fathom::estimation {
 
-/// Covariance of an innovation and what follows from it.
 /// Of a row of S to the next one.
 inline constexpr std::size_t kStatisticsStride = Observation::kMaxRows;
 
+/// Covariance of an innovation and what follows from it.
 struct InnovationStatistics {
   int rows = 0;
   /// S = H P H' + R, row-major with stride kMaxRows.

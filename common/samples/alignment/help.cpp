@@ -129,6 +129,14 @@ std::vector<FoundBias> found_biases(const AlignmentStatus& status) {
   return out;
 }
 
+std::vector<SlowFixes> slow_fixes(const AlignmentStatus& status) {
+  std::vector<SlowFixes> out;
+  for (const AlignmentCondition& one : conditions(status))
+    if (one.name.view().starts_with(kSlowErrorPrefix))
+      out.push_back({one.name.view().substr(kSlowErrorPrefix.size()), one.value, one.limit});
+  return out;
+}
+
 Blame blame_of(const AlignmentCondition& condition) {
   if (!is_implausible(condition)) return {};
   const std::string_view name = condition.name.view().substr(kImplausiblePrefix.size());

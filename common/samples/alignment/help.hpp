@@ -58,6 +58,18 @@ struct FoundBias {
 /// All of a status.
 [[nodiscard]] std::vector<FoundBias> found_biases(const AlignmentStatus& status);
 
+/// A condition of this kind says that the fixes of GPS or USBL are off slowly by more than is configured, and
+/// that navigation counts with that: `value` the sigma, `limit` the one that is configured, m, of the worse
+/// of north and east. Its name goes on with the kind. Always met, and absent where it is as configured.
+inline constexpr std::string_view kSlowErrorPrefix = "slow_error_of_";
+struct SlowFixes {
+  std::string_view kind;
+  double sigma_m = 0.0;
+  double configured_m = 0.0;
+};
+/// All of a status. The kinds are its own.
+[[nodiscard]] std::vector<SlowFixes> slow_fixes(const AlignmentStatus& status);
+
 /// Which instrument is meant and in what it is wrong: "unit", "sign", "axes", "rate" or "mounting", as
 /// findings of commissioning are named.
 struct Blame {

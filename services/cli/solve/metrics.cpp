@@ -218,6 +218,10 @@ std::string to_json(const SolveReport& report) {
       out["biases"][std::string(axis)] = {{"value", number(one.in_unit(one.value))},
                                           {"configured_sigma", number(one.in_unit(one.said_sigma))},
                                           {"unit", one.unit()}};
+    out["slow_errors"] = json::object();
+    for (const auto& [kind, one] : report.result.slow_errors)
+      out["slow_errors"][kind] = {{"sigma_m", number(one.sigma_m)},
+                                  {"configured_sigma_m", number(one.configured_m)}};
   }
   out["wall_time_s"] = report.result.wall_s;
   out["time_per_imu_sample_us"] = number(us_per_sample(report.result));
@@ -294,6 +298,11 @@ std::string to_text(const SolveReport& report) {
                 sensor.c_str(), factor);
   for (const auto& [axis, one] : report.result.biases)
     out += line("the %s; navigation counts with the bias", one.text().data());
+  for (const auto& [kind, one] : report.result.slow_errors)
+    out += line(
+        "the fixes of %s are off slowly by %.1f m (sigma), and %.1f m is configured; navigation counts with "
+        "that",
+        kind.c_str(), one.sigma_m, one.configured_m);
   if (known(report.heading.aligned_after_s))
     out += line("aligned %.1f s after the first position", report.heading.aligned_after_s);
   if (const double start_rad = start_heading_error_rad(report.result.alignment); start_rad != 0.0)

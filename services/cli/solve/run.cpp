@@ -97,6 +97,8 @@ void SolveResult::note(const AlignmentStatus& status, const estimation::EngineCo
     largest = std::max(largest, one.factor);
   }
   for (const FoundBias& one : found_biases(status)) biases[one.axis] = one;
+  for (const SlowFixes& one : slow_fixes(status))
+    slow_errors[std::string(one.kind)] = {one.sigma_m, one.configured_m};
   const AlignmentCondition* found = implausible(status);
   if (found == nullptr) return;
   auto known = std::find_if(implausibles.begin(), implausibles.end(),

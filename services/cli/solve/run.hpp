@@ -127,7 +127,14 @@ struct SolveResult {
   /// By axis, what they are at the end: see samples/alignment/help.hpp.
   std::map<std::string_view, FoundBias> biases;
 
-  /// Keeps what a status finds implausible, noisy or biased.
+  struct SlowError {
+    double sigma_m = 0.0;
+    double configured_m = 0.0;
+  };
+  /// By kind, what they are at the end: see samples/alignment/help.hpp.
+  std::map<std::string, SlowError> slow_errors;
+
+  /// Keeps what a status finds implausible, noisy, biased or slow.
   void note(const AlignmentStatus& status, const estimation::EngineConfig& config, double at_s);
   /// Counts a final verdict; others change nothing.
   void add(const Verdict& verdict);

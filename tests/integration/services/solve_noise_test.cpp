@@ -57,6 +57,17 @@ TEST_F(WorseThanSaid, NoiseOfTheInertialUnitIsNamed) {
   }
 }
 
+TEST_F(WorseThanSaid, ASlowErrorOfGpsIsNamedWithItsSigma) {
+  simulate({"--set", "sensors.gps.correlated_sigma_m=4"});
+  const auto metrics = nlohmann::json::parse(told("solve", {"--json", "--out", path("nav.csv")}));
+  ASSERT_TRUE(metrics["slow_errors"].contains("gps")) << metrics["slow_errors"];
+  const auto& slow = metrics["slow_errors"]["gps"];
+  EXPECT_NEAR(slow["sigma_m"].get<double>(), 4.0, 0.8);
+  EXPECT_NEAR(slow["configured_sigma_m"].get<double>(), 1.5, 1e-9);
+  EXPECT_NE(told("solve", {"--out", path("nav.csv")}).find("the fixes of gps are off slowly by "),
+            std::string::npos);
+}
+
 TEST_F(WorseThanSaid, ABiasIsNamedWithItsAxis) {
   simulate({"--set", "sensors.imu.gyro.bias_sigma_deg_h=100"});
   const auto metrics = nlohmann::json::parse(told("solve", {"--json", "--out", path("nav.csv")}));
