@@ -184,6 +184,9 @@ StateGroups EngineConfig::considered() const {
   });
   out.gps_position_bias = carries(SourceKind::gps) && !groups.gps_position_bias;
   out.usbl_bias = carries(SourceKind::usbl) && !groups.usbl_bias;
+  out.antenna_bias = !groups.antenna_bias && std::any_of(sensors.begin(), sensors.end(), [](const auto& one) {
+    return one.kind == SourceKind::heading && one.two_antenna;
+  });
   return out;
 }
 

@@ -84,10 +84,12 @@ struct StateGroups {
   bool mount_lever = false;
   bool model_scale = false;
   bool model_bias = false;
+  bool antenna_bias = false;
 };
 
 /// What becomes of the errors of the instruments that no state is estimated for: scale and misalignment of
-/// the inertial unit and of the DVL, the bias of a compass and the slow error of GPS.
+/// the inertial unit and of the DVL, the bias of a compass and the slow error of GPS, of USBL and of a
+/// heading by two antennas.
 enum class LeftOut : std::uint8_t {
   considered = 0,  ///< their covariance with the states is kept, their values are not found (KF-6)
   noise = 1,       ///< those of the inertial unit enter as noise (NOISE-1), the others are taken for none

@@ -37,7 +37,7 @@ inline void set_defaults(SensorConfig& sensor, const HeadingSample* /*kind*/) {
 }
 
 /// Heading of the vehicle with the compass's deviation curve A to E (AID-HDG-1..2). The baseline between two
-/// antennas has none.
+/// antennas has none, but a slow error: how it is mounted, and multipath.
 class Heading {
  public:
   using Sample = HeadingSample;
@@ -70,7 +70,7 @@ class Heading {
   [[nodiscard]] Vector3 predicted() const {
     // (AID-HDG-1)
     const double psi = rpy_.z();
-    if (sensor_.two_antenna) return {psi, 0.0, 0.0};
+    if (sensor_.two_antenna) return {psi + s_.value(Group::antenna_bias, 0), 0.0, 0.0};
     return {psi + s_.value(Group::heading_bias, 0) + s_.value(Group::heading_deviation, 0) * std::sin(psi) +
                 s_.value(Group::heading_deviation, 1) * std::cos(psi) +
                 s_.value(Group::heading_deviation, 2) * std::sin(2.0 * psi) +
@@ -91,7 +91,10 @@ class Heading {
     h.set(0, Group::attitude, 0, -slope * cosine * tilt);
     h.set(0, Group::attitude, 1, -slope * sine * tilt);
     h.set(0, Group::attitude, 2, -slope);
-    if (sensor_.two_antenna) return;
+    if (sensor_.two_antenna) {
+      h.set(0, Group::antenna_bias, 0, -1.0);
+      return;
+    }
     h.set(0, Group::heading_bias, 0, -1.0);
     h.set(0, Group::heading_deviation, 0, -sine);
     h.set(0, Group::heading_deviation, 1, -cosine);
@@ -100,6 +103,12 @@ class Heading {
   }
   [[nodiscard]] Vector3 noise() const {
     return {sigma_of(sensor_.sigma[0], sample_.sigma_rad, sensor_.use_sample_sigma), 0.0, 0.0};
+  }
+  [[nodiscard]] StatedError stated(int /*axis*/) const {
+    if (!sensor_.two_antenna) return {};
+    const bool told = sensor_.use_sample_sigma && known(sample_.sigma_rad);
+    const double sigma = told ? sample_.sigma_rad : sensor_.sigma[0];
+    return {sigma * sigma, Group::antenna_bias, 0};
   }
   [[nodiscard]] static double wrapped(double difference_rad) { return geo::wrap_pi(difference_rad); }
 

@@ -40,6 +40,7 @@ void describe(Walk<StateGroups>& s) {
           "share by which the vehicle model errs, ahead and across, 2 states");
   s.field("model_bias", &C::model_bias,
           "slow error of the vehicle model's velocity, ahead and across, 2 states");
+  s.field("antenna_bias", &C::antenna_bias, "slow error of a heading by two antennas");
   s.field("mount_lever", &C::mount_lever,
           "place of the non-holonomic constraint beyond the configured one, 3 states");
 }

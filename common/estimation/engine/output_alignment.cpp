@@ -268,8 +268,8 @@ FoundBias add_found_biases(const Setup& setup, const Estimate& estimate, Alignme
 void add_slow_errors(const Estimate& estimate, AlignmentStatus& out) {
   const auto add = [&](SourceKind kind, const SlowError& slow) {
     if (const auto grown = slow.grown())
-      add_condition(out, name_of(kSlowErrorPrefix, to_string(kind)).data(), grown->sigma_m,
-                    grown->configured_m, true);
+      add_condition(out, name_of(kSlowErrorPrefix, to_string(kind)).data(), grown->sigma, grown->configured,
+                    true);
   };
   add(SourceKind::gps, estimate.slow_gps);
   add(SourceKind::usbl, estimate.slow_usbl);

@@ -105,8 +105,8 @@ template <class Archive, class Self>
 void SlowError::fields(Archive& archive, Self& self) {
   archive.left_out(self.first_);
   archive.left_out(self.axes_);
-  archive.left_out(self.said_N_m2_);
-  archive("variance_N_m2", self.variance_N_m2_, fathom::archive::within(0.0, 1e12));
+  archive.left_out(self.said_);
+  archive("variance", self.variance_, fathom::archive::within(0.0, 1e12));
 }
 
 }  // namespace fathom::estimation

@@ -304,9 +304,11 @@ void Navigator::fields(Archive& archive, Self& self) {
   if (archive.since(19)) {
     archive("slow_gps", self.estimate_.slow_gps);
     archive("slow_usbl", self.estimate_.slow_usbl);
+    archive("slow_antennas", self.estimate_.slow_antennas);
   } else if constexpr (Archive::kReads) {
     self.estimate_.slow_gps.begin();
     self.estimate_.slow_usbl.begin();
+    self.estimate_.slow_antennas.begin();
   }
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }

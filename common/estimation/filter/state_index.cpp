@@ -1,5 +1,6 @@
 #include "estimation/filter/state_index.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace fathom::estimation {
@@ -51,6 +52,7 @@ constexpr std::array<GroupRow, kGroups> kGroupRows{{
     {3, {"mount_lever_x_m", "mount_lever_y_m", "mount_lever_z_m"}},
     {2, {"model_scale_x", "model_scale_y"}},
     {2, {"model_bias_x_m_s", "model_bias_y_m_s"}},
+    {1, {"antenna_bias_rad"}},
 }};
 
 std::array<bool, kGroups> active(const StateGroups& g) {
@@ -85,7 +87,8 @@ std::array<bool, kGroups> active(const StateGroups& g) {
           g.mount_angles,
           g.mount_lever,
           g.model_scale,
-          g.model_bias};
+          g.model_bias,
+          g.antenna_bias};
 }
 
 }  // namespace
@@ -117,11 +120,12 @@ StateIndex::StateIndex(const StateGroups& groups, const StateGroups& considered,
     size_ += kGroupRows[i].size;
   };
   // What came later stands behind what an older archive holds.
-  constexpr auto kSince19 = static_cast<std::size_t>(Group::usbl_bias);
+  constexpr std::array kSince19{static_cast<std::size_t>(Group::usbl_bias),
+                                static_cast<std::size_t>(Group::antenna_bias)};
   for (std::size_t i = 0; i < also.size(); ++i)
-    if (i != kSince19) consider(i);
+    if (std::find(kSince19.begin(), kSince19.end(), i) == kSince19.end()) consider(i);
   const int before_19 = size_;
-  consider(kSince19);
+  for (const std::size_t one : kSince19) consider(one);
   since_19_ = size_ - before_19;
   assert(size_ <= kMaxStates);
 }

@@ -48,8 +48,9 @@ enum class Group : std::uint8_t {
   mount_lever,
   model_scale,
   model_bias,
+  antenna_bias,
 };
-inline constexpr int kGroups = 32;
+inline constexpr int kGroups = 33;
 inline constexpr int kNavStates = 9;  ///< position, velocity, attitude
 
 [[nodiscard]] int group_size(Group group);

@@ -234,7 +234,7 @@ bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<d
 bool Estimate::correct_slow_error(const Setup& setup, int error, double variance_m2, VelocityOver along,
                                   std::array<double, kMaxStates>& x) {
   // (GATE-13)
-  SlowError& slow = slow_gps.has(error) ? slow_gps : slow_usbl;
+  SlowError& slow = slow_gps.has(error) ? slow_gps : slow_usbl.has(error) ? slow_usbl : slow_antennas;
   const double share = slow.share_of(error, variance_m2, filter);
   if (share <= 0.0) return false;
   take_back(setup, error, share, state.x[static_cast<std::size_t>(error)], along, x);
@@ -302,6 +302,7 @@ void Estimate::forget_covariance(const std::array<double, kMaxStates>& sigma) {
   bias_prior.begin(state, filter);
   slow_gps.begin();
   slow_usbl.begin();
+  slow_antennas.begin();
   motion_noise.begin();
   stride = {};
 }

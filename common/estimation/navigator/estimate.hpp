@@ -24,7 +24,8 @@ struct Estimate {
         bias_prior(setup.index),
         motion_noise(setup.index.estimated()),
         slow_gps(setup.index, Group::gps_position_bias, setup.initial_sigma),
-        slow_usbl(setup.index, Group::usbl_bias, setup.initial_sigma) {}
+        slow_usbl(setup.index, Group::usbl_bias, setup.initial_sigma),
+        slow_antennas(setup.index, Group::antenna_bias, setup.initial_sigma) {}
 
   TimeNs now_ns = 0;
   bool navigating = false;  ///< state and filter are an estimate
@@ -42,6 +43,7 @@ struct Estimate {
   MotionNoise motion_noise;
   SlowError slow_gps;
   SlowError slow_usbl;
+  SlowError slow_antennas;
   Stride stride;  ///< by which the filter is behind the state
 
   /// Seconds since an instant; unknown when it is 0, which stands for never.

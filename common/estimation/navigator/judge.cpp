@@ -124,7 +124,7 @@ bool Navigator::observe(Trial& trial) {
                           .water = trial.modelled ? &model_.water_velocity() : nullptr,
                           .unused_s = estimate_.since(trial.instrument.used_ns),
                           .position_covariance_N_m2 = estimate_.filter.block3(0, 0),
-                          .gps_bias_sigma_N_m = estimate_.slow_gps.sigma_N_m()};
+                          .gps_bias_sigma_N_m = estimate_.slow_gps.sigma()};
   Usable first_refusal = Usable::yes;
   for (const AidingEntry& entry : aiding_registry()) {
     if (entry.source != trial.measurement.source) continue;

@@ -101,7 +101,7 @@ class Navigator {
   /// How many times as much a sensor scatters as is said of it, of its worst component (GATE-10).
   [[nodiscard]] double noise_factor(int number) const { return instruments_.noise_factor(*setup_, number); }
   /// Of the slow error of GPS; 0 where there is no state of it.
-  [[nodiscard]] std::array<double, 3> gps_bias_sigma_N_m() const { return estimate_.slow_gps.sigma_N_m(); }
+  [[nodiscard]] std::array<double, 3> gps_bias_sigma_N_m() const { return estimate_.slow_gps.sigma(); }
   [[nodiscard]] const hydro::WaterVelocity& water_velocity() const { return model_.water_velocity(); }
 
   /// For archives: see fields/navigator.hpp.

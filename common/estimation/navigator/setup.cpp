@@ -30,14 +30,16 @@ void markov(Setup& setup, Group group, double sigma, double time_constant_s) {
   fill(setup.decay_per_s, setup.index, group, 1.0 / time_constant_s);
 }
 
-/// Where no measurement finds it: the ship's place, the mounting of the array and the bent path of the sound
-/// are at least half of what fixes are off by. More of it is found (GATE-13).
-double considered_usbl_bias_m(const EngineConfig& config) {
+/// Where no measurement finds it, the slow error of these sensors is half of what they are off by, at least:
+/// of acoustic fixes by the ship's place, the mounting of the array and the bent path of the sound, of two
+/// antennas by how they are mounted and by multipath. More of it is found (GATE-13).
+template <class Is>
+double least_slow_error(const EngineConfig& config, const Is& is) {
   constexpr double kShare = 0.5;
-  double sigma_m = std::numeric_limits<double>::infinity();
+  double sigma = std::numeric_limits<double>::infinity();
   for (const SensorConfig& one : config.sensors)
-    if (one.kind == SourceKind::usbl) sigma_m = std::min({sigma_m, one.sigma[0], one.sigma[1]});
-  return kShare * sigma_m;
+    if (is(one)) sigma = std::min(sigma, one.sigma[0]);
+  return kShare * sigma;
 }
 
 }  // namespace
@@ -90,7 +92,13 @@ Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considere
   if (model.heading_bias_time_constant_s > 0.0)
     markov(*this, Group::heading_bias, model.heading_bias_sigma_rad, model.heading_bias_time_constant_s);
   sigma(Group::heading_deviation, model.heading_deviation_sigma_rad);
-  sigma(Group::usbl_bias, config.groups.usbl_bias ? model.usbl_bias_sigma_m : considered_usbl_bias_m(config));
+  sigma(Group::usbl_bias, config.groups.usbl_bias ? model.usbl_bias_sigma_m
+                                                  : least_slow_error(config, [](const SensorConfig& one) {
+                                                      return one.kind == SourceKind::usbl;
+                                                    }));
+  sigma(Group::antenna_bias, least_slow_error(config, [](const SensorConfig& one) {
+          return one.kind == SourceKind::heading && one.two_antenna;
+        }));
   sigma(Group::gps_position_bias, model.gps_bias_sigma_m);
   markov(*this, Group::gps_position_bias, model.gps_bias_sigma_m, model.gps_bias_time_constant_s);
   if (const int bias = index.of(Group::gps_position_bias); bias >= 0) {

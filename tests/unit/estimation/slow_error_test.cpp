@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "estimation/engine/fusion_engine.hpp"
 #include "geo/wgs84.hpp"
 #include "support/vehicles/road_run.hpp"
@@ -94,10 +95,10 @@ TEST(SlowError, IsNotTouchedForLessThanAFifth) {
   EXPECT_GT(slow.share_of(Fixes::state(), 1.5 * 1.5 + 0.5, filter), 0.0);
   EXPECT_FALSE(SlowError(StateIndex{StateGroups{}}, Group::gps_position_bias, {}).has(Fixes::state()));
   slow.grow(Fixes::state(), 6.25);
-  EXPECT_NEAR(slow.sigma_N_m()[Fixes::kEast], 2.5, 1e-12);
-  EXPECT_EQ(slow.sigma_N_m()[0], 1.5);
+  EXPECT_NEAR(slow.sigma()[Fixes::kEast], 2.5, 1e-12);
+  EXPECT_EQ(slow.sigma()[0], 1.5);
   slow.begin();
-  EXPECT_EQ(slow.sigma_N_m()[Fixes::kEast], 1.5);
+  EXPECT_EQ(slow.sigma()[Fixes::kEast], 1.5);
 }
 
 /// How a car fares whose GPS is off by a constant of `slow_m` and noise of `noise_m` and states the sum.
@@ -159,6 +160,31 @@ TEST(SlowError, OfAcousticFixesDoesNotAverageOut) {
     const test::SurveyRun run({.duration_s = 400.0, .seed = seed, .usbl_slow_m = 5.0});
     const test::SpoiltSurvey fared = test::survey(run, 60.0, [](test::Sample&, double) {});
     EXPECT_LT(fared.worst_h_sigmas, 3.5) << seed;
+  }
+}
+
+// Their baseline is mounted wrong by as much as they say they are off, and they hardly scatter.
+TEST(SlowError, OfTwoAntennasDoesNotAverageOut) {
+  for (const double off_deg : {0.4, -0.3}) {
+    const test::SurveyRun run({.duration_s = 200.0, .usbl = false});
+    EngineConfig config = test::SurveyRun::config();
+    for (SensorConfig& sensor : config.sensors) {
+      sensor.two_antenna = sensor.kind == SourceKind::heading;
+      if (sensor.two_antenna) sensor.sigma.fill(0.3 * kRadPerDeg);
+    }
+    Normal normal(5);
+    std::size_t row = 0;
+    const test::SpoiltSurvey fared = test::survey(
+        run, 60.0,
+        [&](test::Sample& sample, double t_s) {
+          auto* heading = std::get_if<HeadingSample>(&sample);
+          if (heading == nullptr) return;
+          row = std::min(run.truth.size() - 1, static_cast<std::size_t>(std::lround(t_s / 0.01)));
+          heading->heading_rad =
+              geo::wrap_two_pi(run.truth[row].rpy_rad[2] + off_deg * kRadPerDeg + normal(0.05 * kRadPerDeg));
+        },
+        config);
+    EXPECT_LT(fared.worst_yaw_sigmas, 3.0) << off_deg;
   }
 }
 
