@@ -72,7 +72,12 @@ std::string answer_of(const Asked& asked, const Program& program) {
 
 std::vector<Complaint> complaints_of(const std::vector<Program>& programs) {
   std::vector<Asked> asked;
-  for (const Program& program : programs) asked.push_back(ask(program));
+  try {
+    for (const Program& program : programs) asked.push_back(ask(program));
+  } catch (...) {  // those before it are not left behind
+    for (std::size_t i = 0; i < asked.size(); ++i) (void)answer_of(asked[i], programs[i]);
+    throw;
+  }
   std::vector<Complaint> out;
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const std::string text = answer_of(asked[i], programs[i]);

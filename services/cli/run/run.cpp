@@ -28,6 +28,8 @@ namespace {
 
 // A service that cannot go on for now (a card without a link, say) is tried again at this pace.
 constexpr DurationNs kRunRestartAfterNs = 2 * kNsPerSecond;
+// As long as systemd waits for a life sign (WatchdogSec of its unit). They come once a second.
+constexpr DurationNs kRunSilenceNs = 10 * kNsPerSecond;
 // As long as systemd leaves a service (TimeoutStopSec of its unit).
 constexpr DurationNs kRunStopGraceNs = 5 * kNsPerSecond;
 
@@ -153,7 +155,7 @@ ExitCode run_vehicle(RunCommand command) {
   }
 
   catch_stop_signals();
-  launch::Supervisor supervisor(folder.path(), kRunRestartAfterNs);
+  launch::Supervisor supervisor(folder.path(), kRunRestartAfterNs, kRunSilenceNs);
   for (const launch::Program& program : programs) supervisor.start(program);
   introduce(plan, folder.path());
   const SystemClock clock;
@@ -161,7 +163,7 @@ ExitCode run_vehicle(RunCommand command) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     for (const std::string& line : supervisor.poll(clock.monotonic_ns())) {
       tell(line);
-      if (!line.ends_with("refused its configuration")) continue;
+      if (line.find("refused its configuration") == std::string::npos) continue;
       tell("  " + last_line_of(supervisor.log_of(line.substr(0, line.find(' ')))));
     }
   }
@@ -181,8 +183,9 @@ void add_run(CLI::App& app, ExitCode& exit_code) {
       "Runs a vehicle on this machine without systemd: fusion, monitor, console, the bridges of its "
       "instruments, and the services that its file names. Ctrl-C ends them all.");
   run->footer(
-      "Every configuration is checked first; with any complaint nothing starts. A service that ends is "
-      "started again.\nExit code: 0 ended by Ctrl-C or SIGTERM, 2 a configuration was refused. A second "
+      "Every configuration is checked first; with any complaint nothing starts. A service that ends, "
+      "or gives no life sign for 10 s, is started again.\nExit code: 0 ended by Ctrl-C or SIGTERM, 2 a "
+      "configuration was refused. A second "
       "Ctrl-C ends at once.");
   RunRequest& request = command->request;
   run->add_option("vehicle", request.vehicle, "file of the vehicle, e.g. vehicle.json")->required();
