@@ -1,11 +1,14 @@
 #include "health/writers/service_watch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "health/text.hpp"
 
 namespace fathom::health {
 namespace {
+
+constexpr std::size_t kMaxVoices = 8;
 
 StreamLimits life_sign_limits(const ServiceWatchConfig& config) {
   // One life sign is enough to be back: it carries the state.
@@ -40,27 +43,53 @@ ServiceWatch::ServiceWatch(const std::vector<ExpectedService>& expected, const S
   }
 }
 
+ServiceWatch::Service* ServiceWatch::find_or_make(const Name& name, const Instant& now) {
+  if (const auto found = index_.find(name); found != index_.end()) return &services_[found->second];
+  Service fresh{{name}, false, StreamWatch(life_sign_limits(config_), now.monotonic_ns)};
+  if (services_.size() < kMaxServices) {
+    index_.emplace(name, services_.size());
+    return &services_.emplace_back(std::move(fresh));
+  }
+  const auto gone = std::find_if(services_.begin(), services_.end(), [](const Service& one) {
+    return !one.expected && one.stream.presence() == Presence::missing;
+  });
+  if (gone == services_.end()) return nullptr;
+  index_.erase(gone->what.name);
+  index_.emplace(name, static_cast<std::size_t>(gone - services_.begin()));
+  *gone = std::move(fresh);
+  return &*gone;
+}
+
 void ServiceWatch::add(const ServiceStatus& status, const Instant& now) {
-  const Name& name = status.header.sensor;
-  auto found = index_.find(name);
-  if (found == index_.end()) {
-    if (services_.size() >= kMaxServices) return;
-    found = index_.emplace(name, services_.size()).first;
-    services_.push_back({{name}, false, StreamWatch(life_sign_limits(config_), now.monotonic_ns)});
+  Service* service = find_or_make(status.header.sensor, now);
+  if (service == nullptr) {
+    unwatched_ = status.header.sensor;
+    unwatched_heard_ns_ = now.monotonic_ns;
+    return;
   }
-  Service& service = services_[found->second];
-  const bool known_before = service.stream.ever_heard();
-  if (known_before && (status.pid != service.pid || status.started_ns != service.started_ns)) {
-    service.restarted = true;
-  }
-  service.stream.heard(now.monotonic_ns);
-  service.pid = status.pid;
-  service.started_ns = status.started_ns;
-  service.state = status.state;
-  service.text = status.text;
+  hear(*service, status, now);
+  service->stream.heard(now.monotonic_ns);
+  service->state = status.state;
+  service->text = status.text;
   const bool unwell = status.state == ServiceState::degraded;
-  if (unwell && !service.unwell) service.unwell_since_ns = now.monotonic_ns;
-  service.unwell = unwell;
+  if (unwell && !service->unwell) service->unwell_since_ns = now.monotonic_ns;
+  service->unwell = unwell;
+}
+
+void ServiceWatch::hear(Service& service, const ServiceStatus& status, const Instant& now) const {
+  std::vector<Voice>& voices = service.voices;
+  const auto found = std::find_if(voices.begin(), voices.end(), [&](const Voice& one) {
+    return one.pid == status.pid && one.started_ns == status.started_ns && one.host == status.host;
+  });
+  if (found == voices.end()) {
+    service.restarted = service.stream.ever_heard();
+    if (voices.size() == kMaxVoices) voices.erase(voices.begin());
+    voices.push_back({status.pid, status.started_ns, status.host, now.monotonic_ns});
+    return;
+  }
+  if (found + 1 != voices.end()) ++service.returns;
+  found->heard_ns = now.monotonic_ns;
+  std::rotate(found, found + 1, voices.end());
 }
 
 void ServiceWatch::evaluate(const Instant& now) {
@@ -75,18 +104,60 @@ bool ServiceWatch::all_heard() const {
 void ServiceWatch::report(AlarmBook& book, const Instant& now) {
   for (Service& service : services_) {
     report_unwell(service, book, now);
+    report_twice(service, book, now);
     if (service.expected) {
       report_missing(service, book, now);
       if (service.restarted) {
         book.event({.key = alarm_key("service_restarted", service.what.name.view()),
                     .severity = Severity::notice,
                     .text = sentence("Service %s was restarted and is now process %u.",
-                                     service.what.name.c_str(), service.pid)},
+                                     service.what.name.c_str(), service.voices.back().pid)},
                    now);
       }
     }
     service.restarted = false;
   }
+  report_unwatched(book, now);
+}
+
+void ServiceWatch::report_twice(Service& service, AlarmBook& book, const Instant& now) const {
+  std::vector<Voice>& voices = service.voices;
+  // The last one stays, so that a restart is noticed after any silence.
+  while (voices.size() > 1 && to_seconds(now.monotonic_ns - voices.front().heard_ns) > config_.missing_s)
+    voices.erase(voices.begin());
+  if (voices.size() < 2) service.returns = 0;
+  // One that ends may be heard once more after its successor, and the successor then: two turns. Two that
+  // live go on.
+  const bool twice = service.returns >= 3;
+  Condition condition;
+  condition.key = alarm_key("service_twice", service.what.name.view());
+  condition.severity = service.what.severity;
+  if (twice) {
+    const Voice& one = voices[voices.size() - 2];
+    const Voice& other = voices.back();
+    condition.text = sentence(
+        "Several processes call themselves %s: process %u on host %s and process %u on host %s. End the one "
+        "that does not belong.",
+        service.what.name.c_str(), std::min(one.pid, other.pid),
+        (one.pid < other.pid ? one : other).host.c_str(), std::max(one.pid, other.pid),
+        (one.pid < other.pid ? other : one).host.c_str());
+    condition.value = static_cast<double>(voices.size());
+    condition.limit = 1.0;
+  }
+  book.set(twice, condition, now);
+}
+
+void ServiceWatch::report_unwatched(AlarmBook& book, const Instant& now) const {
+  const bool holds =
+      unwatched_heard_ns_ != 0 && to_seconds(now.monotonic_ns - unwatched_heard_ns_) <= config_.missing_s;
+  book.set(holds,
+           {.key = "services_unwatched",
+            .severity = Severity::warning,
+            .text = sentence("More than %zu services give life signs: what %s says of itself is not heard.",
+                             kMaxServices, unwatched_.c_str()),
+            .value = static_cast<double>(kMaxServices + 1),
+            .limit = static_cast<double>(kMaxServices)},
+           now);
 }
 
 void ServiceWatch::report_missing(const Service& service, AlarmBook& book, const Instant& now) const {

@@ -23,10 +23,11 @@ struct ServiceWatchConfig {
 };
 
 /// A watch over every service by its life signs. One that nobody expects may come and go, but what it says of
-/// itself is an alarm as well.
+/// itself is an alarm as well. One that is gone makes room for another one; where all the room is taken, the
+/// rest is an alarm.
 class ServiceWatch {
  public:
-  static constexpr std::size_t kMaxServices = 32;
+  static constexpr std::size_t kMaxServices = 32;  // of MonitorStatus
 
   ServiceWatch(const std::vector<ExpectedService>& expected, const ServiceWatchConfig& config,
                double startup_s, const Instant& start);
@@ -35,26 +36,37 @@ class ServiceWatch {
   void evaluate(const Instant& now);
   /// Whether each expected service has been heard at least once.
   [[nodiscard]] bool all_heard() const;
-  /// "service_unwell:<name>" of every service; of those expected "service_missing:<name>", and the momentary
-  /// notice "service_restarted:<name>".
+  /// "service_unwell:<name>" and "service_twice:<name>" of every service; "services_unwatched"; of those
+  /// expected "service_missing:<name>", and the momentary notice "service_restarted:<name>".
   void report(AlarmBook& book, const Instant& now);
   [[nodiscard]] std::vector<WatchedItem> items(const Instant& now) const;
 
  private:
+  /// A process that speaks as a service.
+  struct Voice {
+    std::uint32_t pid = 0;
+    TimeNs started_ns = 0;
+    std::string host{};
+    TimeNs heard_ns = 0;  ///< monotonic
+  };
   struct Service {
     ExpectedService what;
     bool expected = false;
     StreamWatch stream;
     ServiceState state = ServiceState::starting;
     std::string text{};
-    std::uint32_t pid = 0;
-    TimeNs started_ns = 0;
+    std::vector<Voice> voices{};  ///< heard lately, the newest last
+    int returns = 0;              ///< how often one spoke again after another had, while there are several
     bool unwell = false;
     TimeNs unwell_since_ns = 0;
     std::string first_reason{};  ///< why it was unwell when the alarm was raised; empty: there is no alarm
     bool restarted = false;      ///< since the last report
   };
 
+  [[nodiscard]] Service* find_or_make(const Name& name, const Instant& now);
+  void hear(Service& service, const ServiceStatus& status, const Instant& now) const;
+  void report_twice(Service& service, AlarmBook& book, const Instant& now) const;
+  void report_unwatched(AlarmBook& book, const Instant& now) const;
   void report_missing(const Service& service, AlarmBook& book, const Instant& now) const;
   void report_unwell(Service& service, AlarmBook& book, const Instant& now) const;
 
@@ -62,6 +74,8 @@ class ServiceWatch {
   double startup_s_;
   std::vector<Service> services_;
   std::map<Name, std::size_t> index_;
+  Name unwatched_;                 ///< the last one that found no room
+  TimeNs unwatched_heard_ns_ = 0;  ///< monotonic
 };
 
 }  // namespace fathom::health
