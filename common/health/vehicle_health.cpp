@@ -108,6 +108,7 @@ void VehicleHealth::add(const ServiceStatus& status, const Instant& now) {
   stamps_.add(status, now);
   intruders_.add(status, now);
   clocks_.add(status, now);
+  orders_.add(status, book_, now);
 }
 
 void VehicleHealth::add(const Verdict& verdict, const Instant& now) {

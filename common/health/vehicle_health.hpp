@@ -64,8 +64,7 @@ class VehicleHealth {
   void strangers(std::vector<std::string> present, const Instant& now) {
     intruders_.strangers(std::move(present), now);
   }
-  /// Takes acknowledgements, and orders of positions far from where navigation is. Other orders are not for
-  /// the monitor. Returns how many alarms were acknowledged.
+  /// Takes acknowledgements, and looks at orders to navigation. Returns how many alarms were acknowledged.
   int apply(const Command& command, const Instant& now);
   /// See AlarmBook::restore(). An active alarm stays active for as long as sensors and services may stay
   /// silent after the start.

@@ -23,7 +23,7 @@
 #include "fusion/intake/intake.hpp"
 #include "fusion/intake_publisher.hpp"
 #include "fusion/life_sign.hpp"
-#include "fusion/order_text.hpp"
+#include "fusion/order_answers.hpp"
 #include "fusion/replica/link.hpp"
 #include "fusion/verdict_publisher.hpp"
 
@@ -56,6 +56,8 @@ archive::CheckpointLabel label_of(host::ServiceHost& host) {
 struct Started {
   estimation::FusionEngine engine;
   Resumption resumption;
+  TimeNs begins_ns =
+      0;  ///< the instant of the given state, UTC; 0: there is none, or it is the first sample's
 };
 
 Started started(host::ServiceHost& host, const config::FusionConfig& config,
@@ -64,8 +66,11 @@ Started started(host::ServiceHost& host, const config::FusionConfig& config,
   out.resumption = resume(out.engine, config.checkpoint, own);
   host.log().write(out.resumption.refused ? runtime::LogLevel::warning : runtime::LogLevel::info,
                    out.resumption.how);
-  if (!out.resumption.resumed && config::starts_from_state(config.start.mode))
-    out.engine.start_from(config::initial_state(config));
+  if (out.resumption.resumed || !config::starts_from_state(config.start.mode)) return out;
+  const estimation::InitialState given = config::initial_state(config);
+  out.begins_ns = given.stamp_ns;
+  if (const std::string wait = wait_for(out.begins_ns, own.stamp_ns); !wait.empty()) host.log().warning(wait);
+  out.engine.start_from(given);
   return out;
 }
 
@@ -178,12 +183,12 @@ struct FusionService::Impl {
           newest_nav_state_ns = host.clock().monotonic_ns();
           if (std::exchange(phase, state.alignment) != state.alignment) engine.fill(alignment.emplace());
         }
-        collect(outcomes);
+        for (estimation::OrderOutcome one; engine.next_outcome(one);) outcomes.push_back(one);
       }
     }
     if (answer.fate == Intake::Fate::other_vehicle) return;
     if (answer.fate == Intake::Fate::other_imu) return refuse(arrival);
-    report(outcomes);
+    orders.tell(outcomes);
     if (link && answer.missed > 0) link->missed(answer.missed);
     if (fresh && (!link || link->own(state))) {
       nav_states.write(state);
@@ -219,25 +224,8 @@ struct FusionService::Impl {
       intake.take(command);
       objection = engine.apply(command);
       taken.add(command);
-      if (!objection.empty()) ++counts.orders_refused;
     }
-    if (!objection.empty()) host.log().warning(in_words(command) + ": refused: " + objection);
-  }
-
-  /// Collects what became of orders since the last call. Mutex held.
-  void collect(std::vector<estimation::OrderOutcome>& outcomes) {
-    for (estimation::OrderOutcome one; engine.next_outcome(one);) {
-      if (one.fate == estimation::OrderFate::held) ++counts.orders_held;
-      outcomes.push_back(one);
-    }
-  }
-  void report(const std::vector<estimation::OrderOutcome>& outcomes) {
-    for (const estimation::OrderOutcome& one : outcomes) {
-      const std::string text = in_words(one.order) + ": " + in_words(one) +
-                               (one.again ? " (judged anew, after a late measurement)" : "");
-      const bool done = one.fate == estimation::OrderFate::done;
-      host.log().write(done ? runtime::LogLevel::info : runtime::LogLevel::warning, text);
-    }
+    if (!objection.empty()) orders.refuse(command, objection);
   }
 
   bool save(TimeNs& stamp_ns, std::vector<std::byte>& archive) {
@@ -278,15 +266,13 @@ struct FusionService::Impl {
       counts.verdicts = verdicts.figures();
       counts.intake = intake.counts();
       moment = {counts, newest_nav_state_ns, phase, intake.imu_unit(), start.resumption.how};
+      moment.begins_ns = start.begins_ns;
+      moment.newest_stamp_ns = newest_nav_state_ns == 0 ? 0 : engine.nav_state().header.stamp_ns;
     }
+    moment.orders = orders.figures();
+    if (keeper) moment.checkpoints = keeper->counts();
     life_sign.fill(moment, host.clock(), status);
     if (link) link->fill(status);
-    if (!keeper) return;
-    const CheckpointKeeper::Counts kept = keeper->counts();
-    status.counters.push_back({"checkpoints", kept.written});
-    status.counters.push_back({"checkpoints_failed", kept.failed});
-    if (!kept.failure.empty())
-      status.text += (status.text.empty() ? "checkpoint " : "; checkpoint ") + kept.failure;
   }
 
   // The engine is given again what has arrived since the state was saved. The service that saved it has
@@ -300,6 +286,7 @@ struct FusionService::Impl {
     if (std::string why = gap_between(state, intake.log()); !why.empty())
       return {"", "does not reach this one: " + why};
     if (std::string why = engine.restore(state.archive); !why.empty()) return {"", "is none: " + why, true};
+    start.begins_ns = 0;
     taken.add_state(state.stamp_ns, archive::digest(state.archive), from);
     for (const Command& order : intake.log().orders()) {
       (void)engine.apply(order);
@@ -370,6 +357,7 @@ struct FusionService::Impl {
 
   bool ended = false;
 
+  OrderAnswers orders{host.log(), host.clock()};
   LifeSign life_sign;  // used by the thread of the life sign only
 
   bus::Writer<NavState> nav_states;

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "base/clock.hpp"
+#include "fusion/checkpoint/keeper.hpp"
 #include "fusion/intake/intake.hpp"
+#include "fusion/order_answers.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
@@ -18,6 +21,9 @@ struct VerdictFigures {
   std::uint64_t dropped = 0;  ///< verdicts that were never published, because too many waited
 };
 
+/// That navigation waits for the instant of a given start, in words; empty when it does not.
+[[nodiscard]] std::string wait_for(TimeNs begins_ns, TimeNs now_ns);
+
 /// The life sign of a fusion service, each second.
 class LifeSign {
  public:
@@ -26,15 +32,17 @@ class LifeSign {
     Intake::Counts intake;
     std::uint64_t nav_states = 0;  ///< published
     std::uint64_t commands = 0;
-    std::uint64_t orders_refused = 0;
-    std::uint64_t orders_held = 0;  ///< positions that waited for a confirmation
   };
   struct Moment {
     Counts counts;
     TimeNs newest_nav_state_ns = 0;  ///< monotonic; 0: the engine has had none
     AlignmentPhase phase = AlignmentPhase::none;
-    Name imu_sensor;  ///< the inertial unit in use
-    std::string how;  ///< how the service came to its state, in words
+    Name imu_sensor;             ///< the inertial unit in use
+    std::string how;             ///< how the service came to its state, in words
+    TimeNs begins_ns = 0;        ///< the instant of a given start, UTC; 0: none
+    TimeNs newest_stamp_ns = 0;  ///< of the newest navigation state, UTC
+    OrderAnswers::Figures orders{};
+    std::optional<CheckpointKeeper::Counts> checkpoints{};  ///< none: they are not asked for
   };
 
   /// State, text, rates and counters. Not thread-safe.

@@ -38,7 +38,31 @@ void OrderWatch::add(const NavState& state) {
   states_.push_back(state);
 }
 
-void OrderWatch::apply(const Command& order, AlarmBook& book, const Instant& now) const {
+void OrderWatch::add(const ServiceStatus& status, AlarmBook& book, const Instant& now) {
+  const std::uint64_t orders = status.counter("orders_not_done");
+  const auto known = undone_.find(status.header.sensor);
+  std::uint64_t before = orders;  // what was left undone when nobody listened is no news
+  if (known != undone_.end()) {
+    const bool same = known->second.pid == status.pid && known->second.started_ns == status.started_ns;
+    before = same ? known->second.orders : 0;
+    known->second = {status.pid, status.started_ns, orders};
+  } else if (undone_.size() < kMostServices) {
+    undone_.emplace(status.header.sensor, Undone{status.pid, status.started_ns, orders});
+  }
+  if (orders <= before) return;
+  const std::string last = last_.empty() ? "" : " The last one that was heard is " + last_ + ".";
+  book.event({.key = "order_refused",
+              .severity = Severity::warning,
+              .text = sentence("%s has not done an order; its life sign and its log say why.%s",
+                               status.header.sensor.c_str(), last.c_str()),
+              .value = static_cast<double>(orders)},
+             now);
+}
+
+void OrderWatch::apply(const Command& order, AlarmBook& book, const Instant& now) {
+  if (order.kind == CommandKind::acknowledge_alarm) return;
+  last_ = std::string(to_string(order.kind)) + (order.target.empty() ? "" : " " + order.target.str()) +
+          " of " + order.header.sensor.str();
   const auto before = std::find_if(states_.rbegin(), states_.rend(), [&](const NavState& state) {
     return state.header.stamp_ns <= order.header.stamp_ns;
   });

@@ -122,6 +122,16 @@ TEST_F(FusionRestart, ADiskThatTakesNothingStopsNoNavigation) {
         return false;
       },
       60.0));
+  // A disk that stays so.
+  fs::create_directory(checkpoint() + ".new");
+  EXPECT_TRUE(wait_until(
+      [&] {
+        vehicle->run(10);
+        const auto status = ear->service();
+        return status && status->state == ServiceState::degraded &&
+               status->text.find("a restart would begin anew: checkpoint ") != std::string::npos;
+      },
+      60.0));
 }
 
 }  // namespace

@@ -156,7 +156,8 @@ TEST_F(FusionTest, ObeysCommandsAndPinsItsInertialUnit) {
   vehicle->write(old);
   EXPECT_TRUE(wait_until([&] {
     vehicle->run(20);
-    return counter("orders_refused") == 1;
+    const auto status = ear->service();
+    return counter("orders_refused") == 1 && status && status->text.find(": refused: ") != std::string::npos;
   }));
   EXPECT_TRUE(fusion->says("before the newest inertial sample")) << fusion->err();
 
