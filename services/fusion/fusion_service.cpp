@@ -56,8 +56,7 @@ archive::CheckpointLabel label_of(host::ServiceHost& host) {
 struct Started {
   estimation::FusionEngine engine;
   Resumption resumption;
-  TimeNs begins_ns =
-      0;  ///< the instant of the given state, UTC; 0: there is none, or it is the first sample's
+  TimeNs begins_ns = 0;  ///< UTC, of the given state; 0: none, or the instant of the first sample
 };
 
 Started started(host::ServiceHost& host, const config::FusionConfig& config,
