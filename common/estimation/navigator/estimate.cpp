@@ -45,6 +45,33 @@ Vector3d bias(const Setup& setup, const FilterState& state, Group group) {
   return {state.x[at], state.x[at + 1], state.x[at + 2]};
 }
 
+/// (ALN-19) Nothing is measured for this long: the vehicle keeps roll, pitch and speed and turns on about
+/// down. What swings goes to and fro; a turn lasts.
+void coast(const Setup& setup, double dt_s, Estimate& estimate) {
+  constexpr double kLongest_s = 0.1;
+  const double parts = std::max(1.0, std::ceil(dt_s / kLongest_s));
+  CorrectedIncrements in;
+  in.dt_s = dt_s / parts;
+  NavSolution& nav = estimate.state.nav;
+  Vector3d turn_N = Vector3d::Zero();
+  for (double part = 0.0; part < parts; part += 1.0) {
+    const geo::LocalEarth earth(nav.position);
+    const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
+    const Vector3d v_before = nav.v_N_m_s;
+    const Vector3d rate_in_N = earth.earth_rate_N + earth.transport_rate_N(v_before);
+    if (part == 0.0) turn_N.z() = estimate.turn_rad_s() - rate_in_N.z();
+    estimate.rate_B_rad_s = c.transpose() * (rate_in_N + turn_N);
+    estimate.force_B_m_s2 =
+        c.transpose() * (geo::cross(turn_N + earth.earth_rate_N + rate_in_N, v_before) - earth.gravity_N());
+    in.rotation_rad = in.dt_s * estimate.rate_B_rad_s;
+    in.dv_m_s = in.dt_s * (estimate.force_B_m_s2 + 0.5 * geo::cross(in.rotation_rad, estimate.force_B_m_s2));
+    estimate.stride.add(in.dt_s, c, estimate.rate_B_rad_s, estimate.force_B_m_s2);
+    nav = mechanise(nav, earth, c, in);
+    estimate.travelled_N_m += 0.5 * in.dt_s * (v_before + nav.v_N_m_s);
+    if (estimate.stride.is_due(setup.stride_s)) estimate.follow(setup);
+  }
+}
+
 }  // namespace
 
 void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns) {
@@ -59,6 +86,9 @@ void Estimate::advance(const Setup& setup, const ImuStep& step, TimeNs until_ns)
   rate_B_rad_s = corrected_rate(index, x, per_s * step.increments.dtheta_rad);
   force_B_m_s2 = corrected_force(index, x, per_s * step.increments.dv_m_s);
   if (!navigating) return;
+  // One that falls keeps no speed.
+  if (step.gap_s > 0.0 && setup.config.alignment.mode != StartMode::air_drop)
+    return coast(setup, fraction * whole_s, *this);
 
   Increments in;
   in.dt_s = whole_s;

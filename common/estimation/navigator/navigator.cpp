@@ -1,5 +1,7 @@
 #include "estimation/navigator/navigator.hpp"
 
+#include <algorithm>
+
 namespace fathom::estimation {
 
 using Eigen::Vector3d;
@@ -9,13 +11,27 @@ namespace {
 /// How often the sigmas are held against what counts as aligned.
 constexpr DurationNs kJudged_ns = 50'000'000;
 
+/// (ALN-19) What swung when a gap began may have swung on for a while, and a turn may have ended at any time.
+void widen_by_motion(const ImuStep& step, Estimate& estimate) {
+  constexpr double kSwing_s = 1.0;  // a quarter of a wave
+  constexpr int kAttitude = 6;
+  const Vector3d rate_B_rad_s = step.increments.dtheta_rad / step.increments.dt_s;  // as at both ends
+  const double turn_rad = 0.5 * step.gap_s * geo::to_matrix(estimate.state.nav.q_NB).row(2).dot(rate_B_rad_s);
+  const double swing_rad = std::min(step.gap_s, kSwing_s) * rate_B_rad_s.norm();
+  for (int i = 0; i < 3; ++i) estimate.filter.widen(kAttitude + i, swing_rad * swing_rad);
+  estimate.filter.widen(kAttitude + 2, turn_rad * turn_rad);
+}
+
 }  // namespace
 
 Navigator::Navigator(const Setup& setup) : setup_(&setup), estimate_(setup), instruments_(setup) {}
 
 void Navigator::finish(const ImuStep& step) {
   if (estimate_.navigating && !estimate_.is_sound()) lose_all();
-  if (step.gap_s > 0.0) finish_gap(step.gap_s);
+  if (step.gap_s > 0.0) {
+    finish_gap(step.gap_s);
+    if (estimate_.navigating && step.increments.dt_s > 0.0) widen_by_motion(step, estimate_);
+  }
   plausibility_.add(*setup_, step, estimate_.now_ns);
   if (!estimate_.navigating) {
     align(step);
