@@ -29,6 +29,35 @@ std::size_t steps_between(std::string_view a, std::string_view b) {
   return last[b.size()];
 }
 
+std::vector<std::string_view> parts_of(std::string_view word) {
+  std::vector<std::string_view> out;
+  while (!word.empty()) {
+    const std::size_t end = std::min(word.find_first_of("_-. "), word.size());
+    if (end > 0) out.push_back(word.substr(0, end));
+    word.remove_prefix(std::min(end + 1, word.size()));
+  }
+  return out;
+}
+
+// The only word that has every part of `given` among its own; none where there are several.
+std::optional<std::string> only_fuller(std::string_view given, std::span<const std::string> words) {
+  constexpr std::size_t kFewest = 3;  // letters: "m" alone says nothing
+  const std::vector<std::string_view> asked = parts_of(given);
+  if (given.size() < kFewest || asked.empty()) return std::nullopt;
+  std::optional<std::string> found;
+  for (const std::string& word : words) {
+    if (word.size() > kLongest) continue;
+    const std::vector<std::string_view> own = parts_of(word);
+    const bool all = std::all_of(asked.begin(), asked.end(), [&](std::string_view part) {
+      return std::find(own.begin(), own.end(), part) != own.end();
+    });
+    if (!all) continue;
+    if (found) return std::nullopt;
+    found = word;
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<std::string> nearest(std::string_view given, std::span<const std::string> words) {
@@ -42,6 +71,9 @@ std::optional<std::string> nearest(std::string_view given, std::span<const std::
     if (steps > most || (best && steps >= fewest)) continue;
     best = word;
     fewest = steps;
+  }
+  if (!best || fewest > 1) {
+    if (auto fuller = only_fuller(given, words)) return fuller;
   }
   return best;
 }

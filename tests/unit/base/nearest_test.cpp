@@ -31,5 +31,14 @@ TEST(Nearest, TakesTheFirstOfEquals) {
   EXPECT_EQ(nearest("gate_c", words), "gate_a");
 }
 
+TEST(Nearest, KnowsANameByItsParts) {
+  const std::vector<std::string> models{"ublox_m8", "ublox_zed_f9p", "vectornav_vn100", "vectornav_vn200"};
+  EXPECT_EQ(nearest("ublox_f9p", models), "ublox_zed_f9p");  // nearer by letters is ublox_m8
+  EXPECT_EQ(nearest("vn100", models), "vectornav_vn100");
+  EXPECT_EQ(nearest("vectornav_vn10", models), "vectornav_vn100");
+  EXPECT_EQ(nearest("ublox", models), std::nullopt);  // two have it
+  EXPECT_EQ(nearest("_", models), std::nullopt);
+}
+
 }  // namespace
 }  // namespace fathom
