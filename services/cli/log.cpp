@@ -10,7 +10,6 @@
 #include "bus/cdr.hpp"
 #include "cli/command.hpp"
 #include "cli/recording.hpp"
-#include "config/json/error.hpp"
 #include "config/vehicle/vehicle_config.hpp"
 
 namespace fathom::cli {
@@ -120,15 +119,11 @@ config::LoadedConfig<config::FusionConfig> configuration_for(const std::string& 
     throw Failure(
         ExitCode::bad_configuration,
         "--vehicle or --config is required: a data set has no configuration of its own; see --help");
-  try {
-    config::LoadRequest request{files.own, sets};
-    if (!files.vehicle.empty()) request = config::with_vehicle(std::move(request), files.vehicle, "fusion");
-    if (!files.none()) return config::load_service_config<config::FusionConfig>(request);
-    record::Reader reader = open_recording(log);
-    return recorded_configuration(reader, log, "fusion", sets);
-  } catch (const config::ConfigError& error) {
-    throw Failure(ExitCode::bad_configuration, error.what());
-  }
+  config::LoadRequest request{files.own, sets};
+  if (!files.vehicle.empty()) request = config::with_vehicle(std::move(request), files.vehicle, "fusion");
+  if (!files.none()) return config::load_service_config<config::FusionConfig>(request);
+  record::Reader reader = open_recording(log);
+  return recorded_configuration(reader, log, "fusion", sets);
 }
 
 dataset::Dataset read_dataset(const std::string& directory, Name vehicle) {

@@ -24,7 +24,7 @@ struct ConfigFiles {
 };
 
 /// The configuration that these files give, with overrides; without any file the one of the fusion service in
-/// the recording. Throws Failure.
+/// the recording. Throws Failure and config::ConfigError.
 [[nodiscard]] config::LoadedConfig<config::FusionConfig> configuration_for(
     const std::string& log, const ConfigFiles& files, const std::vector<std::string>& sets);
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,13 @@ int fail(fathom::ExitCode code, std::string message) {
   }
   std::fprintf(stderr, "fathom: %s\n", message.c_str());
   return static_cast<int>(code);
+}
+
+/// A line for each mistake.
+int fail(const fathom::config::ConfigError& error) {
+  std::istringstream mistakes(error.what());
+  for (std::string one; std::getline(mistakes, one);) fail(fathom::ExitCode::bad_configuration, one);
+  return static_cast<int>(fathom::ExitCode::bad_configuration);
 }
 
 /// What to say where the first word is no sub-command; empty otherwise.
@@ -57,7 +65,7 @@ int main(int argc, char** argv) {
   } catch (const fathom::cli::Failure& failure) {
     return fail(failure.code(), failure.what());
   } catch (const fathom::config::ConfigError& error) {
-    return fail(ExitCode::bad_configuration, error.what());
+    return fail(error);
   } catch (const fathom::bus::OptionError& error) {
     return fail(ExitCode::bad_configuration, error.what());
   } catch (const fathom::bus::CredentialsError& error) {

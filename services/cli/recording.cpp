@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "blackbox/enclosures.hpp"
 #include "bus/topics.hpp"
@@ -95,15 +97,25 @@ class Folder {
 
 /// The same of another place.
 config::ConfigError said_anew(const config::ConfigError& error, const std::string& place) {
-  if (error.key().empty()) return {place, std::string(error.what()).substr(error.file().size() + 2)};
-  return {place, error.key(), error.value(), error.expectation()};
+  std::vector<config::ConfigError> out;
+  for (const config::ConfigError& one : error.each()) {
+    if (one.key().empty()) {
+      out.emplace_back(place, std::string(one.what()).substr(one.file().size() + 2));
+    } else {
+      out.emplace_back(place, one.key(), one.value(), one.expectation());
+    }
+  }
+  return config::ConfigError(std::move(out));
 }
 
 /// A file stands in the recording, not where it was put for reading.
 config::ConfigError in_the_recording(const config::ConfigError& error, const std::string& put,
                                      const std::string& place) {
-  if (!error.file().starts_with(put)) return error;
-  return said_anew(error, place + error.file().substr(put.size() + 1));
+  std::vector<config::ConfigError> out;
+  for (const config::ConfigError& one : error.each())
+    out.push_back(one.file().starts_with(put) ? said_anew(one, place + one.file().substr(put.size() + 1))
+                                              : one);
+  return config::ConfigError(std::move(out));
 }
 
 /// What was enclosed of one service at one time, with its command line.

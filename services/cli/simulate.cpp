@@ -34,11 +34,7 @@ struct SimulateOptions {
 };
 
 sim::Scenario load(const SimulateOptions& options) {
-  try {
-    return config::load_scenario({config::scenario_file(options.scenario), options.sets});
-  } catch (const config::ConfigError& error) {
-    throw Failure(ExitCode::bad_configuration, error.what());
-  }
+  return config::load_scenario({config::scenario_file(options.scenario), options.sets});
 }
 
 void keep(dataset::Dataset& data, const sim::Measurement& measurement) {

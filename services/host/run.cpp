@@ -23,11 +23,17 @@ namespace {
 
 /// Standard error may be a pipe that nobody reads, and the log's thread may hang in it: whoever ends does not
 /// wait for either.
-int fail(const std::string& executable, ExitCode code, const std::string& message) {
+int fail(const std::string& executable, ExitCode code, const std::string& message, bool of_lines = false) {
   constexpr int kPatience_ms = 1000;
-  std::string line = executable + ": " + message;
+  const std::string said_by = executable + ": ";
+  std::string line = said_by;
+  for (const char c : message) {
+    if (c != '\n')
+      line += c;
+    else
+      line += of_lines ? c + said_by : " ";
+  }
   line.resize(std::min<std::size_t>(line.size(), PIPE_BUF - 1));  // what a pipe with room takes as a whole
-  std::replace(line.begin(), line.end(), '\n', ' ');
   line += '\n';
   pollfd standard_error{STDERR_FILENO, POLLOUT, 0};
   if (poll(&standard_error, 1, kPatience_ms) == 1) (void)!::write(STDERR_FILENO, line.data(), line.size());
@@ -136,7 +142,7 @@ int serve(int argc, char** argv, const ServiceInfo& info, const std::function<st
     if (request.base) host.log().info("configured by " + config::files_of(request));
     return static_cast<int>(body(host));
   } catch (const config::ConfigError& error) {
-    return fail(executable, ExitCode::bad_configuration, error.what());
+    return fail(executable, ExitCode::bad_configuration, error.what(), true);
   } catch (const bus::CredentialsError& error) {
     return fail(executable, ExitCode::bad_configuration, named + ": bus.security: " + error.what());
   } catch (const std::exception& error) {

@@ -86,9 +86,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     kinds[data[0] % kinds.size()].check({file.path(), {}});
   } catch (const fathom::config::ConfigError& error) {
-    const std::string words = error.what();
-    if (words.empty() || words != fathom::config::one_line(words))
-      fail("a refusal without words of one line");
+    for (const fathom::config::ConfigError& one : error.each()) {
+      const std::string words = one.what();
+      if (words.empty() || words != fathom::config::one_line(words))
+        fail("a refusal without words of one line");
+    }
   }
   return 0;
 }

@@ -190,10 +190,15 @@ Origin Layers::place_of(const std::string& key) const {
 }
 
 void Layers::fail(const ConfigError& error) const {
-  if (error.key().empty() || error.file() != file_) throw ConfigError(error);
-  const Origin origin = place_of(error.key());
-  if (origin.file.empty()) throw ConfigError(error);
-  throw ConfigError(origin.file, origin.key, error.value(), error.expectation());
+  Mistakes mistakes;
+  for (const ConfigError& one : error.each()) {
+    const bool mine = !one.key().empty() && one.file() == file_;
+    const Origin origin = mine ? place_of(one.key()) : Origin{};
+    mistakes.add(origin.file.empty() ? one
+                                     : ConfigError(origin.file, origin.key, one.value(), one.expectation()));
+  }
+  mistakes.raise();
+  throw ConfigError(error);
 }
 
 // Follows `path` ("a.b.0.c") and returns the node there, creating objects on the way. `resolved` becomes the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "base/nearest.hpp"
 
@@ -107,40 +108,64 @@ void SchemaCore::absorb(const SchemaCore& inner, std::size_t offset) {
     entries_.back()->offset += offset;
   }
   for (const auto& rule : inner.checks_) {
-    checks_.push_back([rule, offset](const void* whole) { return rule(at(whole, offset)); });
+    checks_.push_back(
+        {[rule, offset](const void* whole) { return rule.complaints(at(whole, offset)); }, rule.of_parts});
   }
 }
 
 void SchemaCore::load(const nlohmann::json& json, void* whole, const Place& place) const {
   if (!json.is_object()) place.fail(json, "an object");
-  const std::string choice = load_choice(json, whole, place);
-  for (const auto& [key, value] : json.items()) {
-    if (key == "$schema" && place.key.empty()) continue;
-    if (key == "$comment") {
-      if (!value.is_string()) place.child(key).fail(value, "a text");
-      continue;
-    }
-    const Entry* entry = find(key);
-    if (entry == nullptr) {
-      std::vector<std::string> keys;
-      for (const auto& one : entries_) keys.push_back(one->info.key);
-      const auto meant = nearest(key, keys);
-      place.child(key).fail(value, "no such key; " + (meant ? "the nearest is " + *meant + "; " : "") +
-                                       "known keys: " + known_keys());
-    }
-    if (!choice.empty() && !entry->info.known_to(choice)) {
-      const std::string& decider = deciding()->info.key;
-      place.child(key).fail(value, "no such key where " + decider + " is " + choice + "; it is known where " +
-                                       decider + " is one of " + list_words(entry->info.only_for));
-    }
-    entry->ops->load(value, at(whole, entry->offset), entry->rules.get(), place.child(key));
+  Mistakes mistakes;
+  std::string choice;
+  // A decider that was refused is complained of once.
+  const bool chosen = mistakes.in([&] { choice = load_choice(json, whole, place); });
+  const Entry* refused = chosen ? nullptr : deciding();
+  Strangers strangers;
+  for (const auto& item : json.items()) {
+    if (refused != nullptr && refused->info.key == item.key()) continue;
+    mistakes.in([&] { load_field(item.key(), item.value(), whole, choice, place, strangers); });
   }
   for (const auto& entry : entries_) {
-    if (json.contains(entry->info.key)) continue;
+    if (json.contains(entry->info.key) || entry.get() == refused) continue;
+    if (contains(strangers.meant, entry->info.key)) continue;  // it is there, mistyped
     if (entry->info.required || contains(entry->info.required_for, choice))
-      place.child(entry->info.key).fail_missing(entry->info.sentence);
+      mistakes.in([&] { place.child(entry->info.key).fail_missing(entry->info.sentence); });
   }
-  check_rules(json, whole, place);
+  // A rule does not complain of what is mistyped either.
+  Mistakes of_fields = mistakes;
+  for (const std::string& key : strangers.meant)
+    of_fields.in([&] { place.child(key).fail_missing("what was mistyped"); });
+  const Mistakes of_rules = check_rules(json, whole, place, of_fields);
+  mistakes.in([&] { of_rules.raise(); });
+  mistakes.raise();
+}
+
+void SchemaCore::load_field(const std::string& key, const nlohmann::json& value, void* whole,
+                            const std::string& choice, const Place& place, Strangers& strangers) const {
+  if (key == "$schema" && place.key.empty()) return;
+  if (key == "$comment") {
+    if (!value.is_string()) place.child(key).fail(value, "a text");
+    return;
+  }
+  const Entry* entry = find(key);
+  if (entry == nullptr) {
+    std::vector<std::string> keys;
+    for (const auto& one : entries_) keys.push_back(one->info.key);
+    const auto meant = nearest(key, keys);
+    std::string expectation = "no such key";
+    if (meant) {
+      expectation += "; the nearest is " + *meant;
+      strangers.meant.push_back(*meant);
+    }
+    if (!std::exchange(strangers.told_keys, true)) expectation += "; known keys: " + known_keys();
+    place.child(key).fail(value, expectation);
+  }
+  if (!choice.empty() && !entry->info.known_to(choice)) {
+    const std::string& decider = deciding()->info.key;
+    place.child(key).fail(value, "no such key where " + decider + " is " + choice + "; it is known where " +
+                                     decider + " is one of " + list_words(entry->info.only_for));
+  }
+  entry->ops->load(value, at(whole, entry->offset), entry->rules.get(), place.child(key));
 }
 
 std::string SchemaCore::load_choice(const nlohmann::json& json, void* whole, const Place& place) const {
@@ -167,15 +192,22 @@ std::string SchemaCore::choice_of(const void* whole) const {
   return decider->info.choice_of == nullptr ? text : decider->info.choice_of(text);
 }
 
-void SchemaCore::check_rules(const nlohmann::json& json, const void* whole, const Place& place) const {
+Mistakes SchemaCore::check_rules(const nlohmann::json& json, const void* whole, const Place& place,
+                                 const Mistakes& of_fields) const {
+  Mistakes out;
   for (const Rule& rule : checks_) {
-    const auto found = rule(whole);
-    if (!found) continue;
-    const Place where = found->key.empty() ? place : place.child(found->key);
-    const nlohmann::json written = found->key.empty() ? json : below(json, found->key);
-    if (written.is_null() && !found->value.empty()) where.fail_text(found->value, found->expectation);
-    where.fail(written, found->expectation);
+    if (!of_fields.none() && !rule.of_parts) continue;
+    for (const Complaint& found : rule.complaints(whole)) {
+      const Place where = found.key.empty() ? place : place.child(found.key);
+      if (of_fields.about(where.key)) continue;
+      const nlohmann::json written = found.key.empty() ? json : below(json, found.key);
+      out.in([&] {
+        if (written.is_null() && !found.value.empty()) where.fail_text(found.value, found.expectation);
+        where.fail(written, found.expectation);
+      });
+    }
   }
+  return out;
 }
 
 nlohmann::json SchemaCore::dump(const void* whole) const {

@@ -102,7 +102,10 @@ extern template const MemberOps& ops_of<std::vector<std::string>>();
 class SchemaCore {
  public:
   /// A rule across fields. A complaint without a value is about what stands in the file under its key.
-  using Rule = std::function<std::optional<Complaint>(const void* whole)>;
+  struct Rule {
+    std::function<std::vector<Complaint>(const void* whole)> complaints;
+    bool of_parts = false;  ///< it makes sense also where some fields were refused
+  };
   /// Makes of the struct what its fields are where the deciding one says `choice`.
   using Defaults = std::function<void(const std::string& choice, void* whole)>;
 
@@ -139,7 +142,16 @@ class SchemaCore {
   [[nodiscard]] std::vector<std::pair<std::string, nlohmann::json>> defaults_of(const Entry& entry,
                                                                                 const void* defaults,
                                                                                 void* spare) const;
-  void check_rules(const nlohmann::json& json, const void* whole, const Place& place) const;
+  /// The keys of one object that nothing is known of.
+  struct Strangers {
+    std::vector<std::string> meant;  ///< the known ones that they are near to
+    bool told_keys = false;          ///< the list of all known ones is long: it is said once
+  };
+  void load_field(const std::string& key, const nlohmann::json& value, void* whole, const std::string& choice,
+                  const Place& place, Strangers& strangers) const;
+  /// What the rules find, where the fields had these mistakes.
+  [[nodiscard]] Mistakes check_rules(const nlohmann::json& json, const void* whole, const Place& place,
+                                     const Mistakes& of_fields) const;
 
   std::vector<std::unique_ptr<Entry>> entries_;  // FieldRef keeps references to their info
   std::vector<Rule> checks_;
@@ -169,15 +181,32 @@ class Schema {
 
   /// A rule across fields. Returns {key, expectation} of the violated rule, or two empty strings.
   void check(std::function<std::pair<std::string, std::string>(const T&)> rule) {
-    core_.check([rule = std::move(rule)](const void* whole) -> std::optional<Complaint> {
+    const auto complaints = [rule = std::move(rule)](const void* whole) -> std::vector<Complaint> {
       auto [key, expectation] = rule(*static_cast<const T*>(whole));
-      if (expectation.empty()) return std::nullopt;
-      return Complaint{std::move(key), "", std::move(expectation)};
-    });
+      if (expectation.empty()) return {};
+      return {{std::move(key), "", std::move(expectation)}};
+    };
+    core_.check({complaints});
+  }
+  /// A rule that finds several violations at once. It is asked also where some fields were refused, which
+  /// then have their defaults; what it says of those is left out.
+  void check_parts(std::function<std::vector<std::pair<std::string, std::string>>(const T&)> rule) {
+    const auto complaints = [rule = std::move(rule)](const void* whole) {
+      std::vector<Complaint> out;
+      for (auto& [key, expectation] : rule(*static_cast<const T*>(whole)))
+        out.push_back({std::move(key), "", std::move(expectation)});
+      return out;
+    };
+    core_.check({complaints, true});
   }
   /// Likewise where the rule knows the value that is wrong.
   void check_values(std::function<std::optional<Complaint>(const T&)> rule) {
-    core_.check([rule = std::move(rule)](const void* whole) { return rule(*static_cast<const T*>(whole)); });
+    const auto complaints = [rule = std::move(rule)](const void* whole) -> std::vector<Complaint> {
+      auto found = rule(*static_cast<const T*>(whole));
+      if (!found) return {};
+      return {std::move(*found)};
+    };
+    core_.check({complaints});
   }
   /// The defaults where the deciding field says `choice`.
   void defaults_by_choice(std::function<T(const std::string& choice)> defaults) {
@@ -186,8 +215,8 @@ class Schema {
     });
   }
 
-  /// Throws ConfigError on anything that is not exactly as described. Fields that are absent keep their
-  /// value.
+  /// Throws ConfigError of everything that is not exactly as described. Fields that are absent or refused
+  /// keep their value.
   void load(const nlohmann::json& json, T& out, const Place& place) const { core_.load(json, &out, place); }
   [[nodiscard]] nlohmann::json dump(const T& value) const { return core_.dump(&value); }
   [[nodiscard]] nlohmann::json json_schema() const {

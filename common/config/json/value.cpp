@@ -14,17 +14,6 @@ std::string shorten(std::string text) {
   return text;
 }
 
-ConfigError::ConfigError(const std::string& file, const std::string& key, const std::string& value,
-                         const std::string& expectation)
-    : std::runtime_error(one_line(file + ": " + key + ": is " + value + ", expected " + expectation)),
-      file_(file),
-      key_(key),
-      value_(value),
-      expectation_(expectation) {}
-
-ConfigError::ConfigError(const std::string& file, const std::string& problem)
-    : std::runtime_error(one_line(file + ": " + problem)), file_(file) {}
-
 void Place::fail(const nlohmann::json& value, const std::string& expectation) const {
   fail_text(shorten(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)), expectation);
 }

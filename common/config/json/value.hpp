@@ -160,18 +160,23 @@ template <class U, class L>
 void load_value(const nlohmann::json& json, std::vector<U>& out, const Rules<L>& rules, const Place& place) {
   if (!json.is_array()) place.fail(json, "an array");
   out.clear();
+  Mistakes mistakes;
   for (std::size_t i = 0; i < json.size(); ++i) {
     U element{};
-    load_value(json[i], element, rules, place.child(std::to_string(i)));
+    mistakes.in([&] { load_value(json[i], element, rules, place.child(std::to_string(i))); });
     out.push_back(std::move(element));
   }
+  mistakes.raise();
 }
 
 template <class U, std::size_t N, class L>
 void load_value(const nlohmann::json& json, std::array<U, N>& out, const Rules<L>& rules,
                 const Place& place) {
   if (!json.is_array() || json.size() != N) place.fail(json, "an array of " + std::to_string(N));
-  for (std::size_t i = 0; i < N; ++i) load_value(json[i], out[i], rules, place.child(std::to_string(i)));
+  Mistakes mistakes;
+  for (std::size_t i = 0; i < N; ++i)
+    mistakes.in([&] { load_value(json[i], out[i], rules, place.child(std::to_string(i))); });
+  mistakes.raise();
 }
 
 template <class U, class L>
@@ -191,7 +196,10 @@ void load_value(const nlohmann::json& json, std::map<std::string, U>& out, const
                 const Place& place) {
   if (!json.is_object()) place.fail(json, "an object");
   out.clear();
-  for (const auto& [key, value] : json.items()) load_value(value, out[key], rules, place.child(key));
+  Mistakes mistakes;
+  for (const auto& item : json.items())
+    mistakes.in([&] { load_value(item.value(), out[item.key()], rules, place.child(item.key())); });
+  mistakes.raise();
 }
 
 template <class M>

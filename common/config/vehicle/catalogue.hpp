@@ -39,6 +39,10 @@ struct CatalogueEntry {
 /// about `key` of `file`, where the model is named.
 [[nodiscard]] std::string catalogue_file(const std::string& model, const std::string& file,
                                          const std::string& key);
+/// What is wrong with the models that the file of a vehicle names: that they are none of the catalogue, or
+/// measure or speak something else than the file says.
+void check_models(const std::string& vehicle_file, Mistakes& mistakes);
+
 /// A file of the catalogue. Throws ConfigError.
 [[nodiscard]] CatalogueEntry load_catalogue_entry(const std::string& file);
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "codec/registry.hpp"
 #include "config/vehicle/catalogue.hpp"
 #include "config/vehicle/sources.hpp"
 
@@ -11,12 +10,6 @@ namespace fathom::config {
 using nlohmann::json;
 
 namespace {
-
-/// The protocol's own name for any spelling or alias; empty for no protocol.
-std::string_view protocol_name(const std::string& text) {
-  const codec::Protocol* protocol = codec::find_protocol(text);
-  return protocol == nullptr ? std::string_view{} : protocol->name;
-}
 
 Sources read_sources(const std::string& vehicle_file) {
   Sources out{load_vehicle(vehicle_file), read_file(vehicle_file), vehicle_file, {}};
@@ -27,16 +20,6 @@ Sources read_sources(const std::string& vehicle_file) {
     Known known{&one, out.file.at("instruments").at(i), {Layer::vehicle, vehicle_file, key}, nullptr, {}};
     if (!one.model.empty()) {
       const std::string entry_file = catalogue_file(one.model, vehicle_file, key + ".model");
-      const CatalogueEntry entry = load_catalogue_entry(entry_file);
-      if (entry.kind != one.kind)
-        throw ConfigError(vehicle_file, key + ".kind", "\"" + std::string(to_string(one.kind)) + "\"",
-                          "\"" + std::string(to_string(entry.kind)) + "\", which " + one.model + " measures");
-      const std::string_view speaks = protocol_name(entry.protocol);
-      // A receiver may be set to another protocol than it is delivered with. An inertial unit has one.
-      if (one.kind == SourceKind::imu && !one.protocol.empty() && !speaks.empty() &&
-          protocol_name(one.protocol) != speaks)
-        throw ConfigError(vehicle_file, key + ".protocol", "\"" + one.protocol + "\"",
-                          "\"" + std::string(speaks) + "\", which " + one.model + " speaks");
       known.model = read_file(entry_file);
       known.model_at = {Layer::catalogue, entry_file, ""};
     }

@@ -52,31 +52,58 @@ std::string second_mounting(const VehicleInstrument& one) {
   return "";
 }
 
-/// Two enabled instruments whose ports collide. What one device measures for one bridge, by one name, comes
-/// from one port.
-Violation shared_port(const std::vector<VehicleInstrument>& instruments) {
+/// Enabled instruments whose ports collide. What one device measures for one bridge, by one name, comes from
+/// one port.
+void find_shared_ports(const std::vector<VehicleInstrument>& instruments, std::vector<Violation>& out) {
   for (std::size_t i = 0; i < instruments.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const VehicleInstrument& one = instruments[i];
       const VehicleInstrument& other = instruments[k];
       const bool same_device = one.name == other.name && one.role() == other.role();
       if (!one.enabled || !other.enabled || !one.port || !other.port || same_device) continue;
-      if (runtime::collide(*one.port, *other.port))
-        return {"instruments." + std::to_string(i) + ".port", port_of_its_own(other.name.str())};
+      if (!runtime::collide(*one.port, *other.port)) continue;
+      out.emplace_back("instruments." + std::to_string(i) + ".port", port_of_its_own(other.name.str()));
+      break;
     }
   }
-  return {};
 }
 
-/// A name that nothing in this vehicle can have.
-Violation unknown_expected(const VehicleRoles& roles) {
+/// Names that nothing in this vehicle can have.
+void find_unknown_expected(const VehicleRoles& roles, std::vector<Violation>& out) {
   std::vector<std::string> known = all_services();
   for (const FusionRole& role : roles.fusion) known.push_back(role.name.str());
   for (std::size_t i = 0; i < roles.expected.size(); ++i) {
     if (std::find(known.begin(), known.end(), roles.expected[i]) == known.end())
-      return {"roles.expected." + std::to_string(i), one_of(roles.expected[i], known)};
+      out.emplace_back("roles.expected." + std::to_string(i), one_of(roles.expected[i], known));
   }
-  return {};
+}
+
+/// An instrument without a name was refused for that.
+std::vector<Violation> violations(const VehicleConfig& vehicle) {
+  std::vector<Violation> out;
+  std::set<std::pair<SourceKind, std::string>> seen;
+  bool inertial = false;
+  for (std::size_t i = 0; i < vehicle.instruments.size(); ++i) {
+    const VehicleInstrument& one = vehicle.instruments[i];
+    const std::string key = "instruments." + std::to_string(i) + ".";
+    if (!one.name.empty() && !seen.insert({one.kind, one.name.str()}).second)
+      out.emplace_back(key + "name", "a name that no other instrument of this kind has");
+    inertial = inertial || (one.kind == SourceKind::imu && one.enabled);
+    if (one.ros2 && one.port)
+      out.emplace_back(key + "ros2", "no port as well: its samples come from one place");
+    if (const std::string where = second_mounting(one); !where.empty())
+      out.emplace_back(key + "mounting_rpy_deg",
+                       "[0, 0, 0] because " + key + where + " turns the same instrument");
+  }
+  find_shared_ports(vehicle.instruments, out);
+  find_unknown_expected(vehicle.roles, out);
+  if (!inertial) out.emplace_back("instruments", "an enabled one of kind imu among them");
+  const auto known = all_services();
+  for (const auto& [service, keys] : vehicle.services) {
+    if (std::find(known.begin(), known.end(), service) == known.end())
+      out.emplace_back("services." + service, one_of(service, known));
+  }
+  return out;
 }
 
 }  // namespace
@@ -185,33 +212,16 @@ void describe(Schema<VehicleConfig>& s) {
   s.field("log", &C::log, "the log of every service");
   s.field("realtime", &C::realtime, "scheduling of every service");
   s.field("services", &C::services, "further keys of single services, by their names, as in their own files");
-  s.check([](const C& vehicle) -> Violation {
-    std::set<std::pair<SourceKind, std::string>> seen;
-    bool inertial = false;
-    for (std::size_t i = 0; i < vehicle.instruments.size(); ++i) {
-      const VehicleInstrument& one = vehicle.instruments[i];
-      const std::string key = "instruments." + std::to_string(i) + ".";
-      if (!seen.insert({one.kind, one.name.str()}).second)
-        return {key + "name", "a name that no other instrument of this kind has"};
-      inertial = inertial || (one.kind == SourceKind::imu && one.enabled);
-      if (one.ros2 && one.port) return {key + "ros2", "no port as well: its samples come from one place"};
-      if (const std::string where = second_mounting(one); !where.empty())
-        return {key + "mounting_rpy_deg", "[0, 0, 0] because " + key + where + " turns the same instrument"};
-    }
-    if (const Violation port = shared_port(vehicle.instruments); !port.first.empty()) return port;
-    if (const Violation name = unknown_expected(vehicle.roles); !name.first.empty()) return name;
-    if (!inertial) return {"instruments", "an enabled one of kind imu among them"};
-    for (const auto& [service, keys] : vehicle.services) {
-      const auto known = all_services();
-      if (std::find(known.begin(), known.end(), service) == known.end())
-        return {"services." + service, one_of(service, known)};
-    }
-    return {};
-  });
+  s.check_parts(violations);
 }
 
 VehicleConfig load_vehicle(const std::string& file) {
-  return load<VehicleConfig>({file, {}});
+  VehicleConfig out;
+  Mistakes mistakes;
+  mistakes.in([&] { out = load<VehicleConfig>({file, {}}); });
+  check_models(file, mistakes);
+  mistakes.raise();
+  return out;
 }
 
 std::vector<std::string> all_services() {
@@ -235,13 +245,18 @@ std::vector<std::string> services_of(const VehicleConfig& vehicle) {
 ConfigKind vehicle_kind() {
   ConfigKind kind = make_kind<VehicleConfig>("vehicle");
   kind.check = [](const LoadRequest& request) {
-    const auto vehicle = load<VehicleConfig>(request);
-    if (!request.sets.empty()) return;
+    if (!request.sets.empty()) {
+      (void)load<VehicleConfig>(request);
+      return;
+    }
+    const VehicleConfig vehicle = load_vehicle(request.file);
+    Mistakes mistakes;
     for (const std::string& service : services_of(vehicle)) {
       for (const ConfigKind& one : config_kinds()) {
-        if (one.name == service) one.check(with_vehicle({}, request.file, service));
+        if (one.name == service) mistakes.in([&] { one.check(with_vehicle({}, request.file, service)); });
       }
     }
+    mistakes.raise();
   };
   return kind;
 }

@@ -108,6 +108,30 @@ TEST_F(VehicleCommand, WhatIsWrongIsNamedWhereItWasWritten) {
   }
 }
 
+TEST_F(VehicleCommand, AllThatIsWrongIsSaidALineEach) {
+  write("vehicle.json", R"({
+      "name": "auv",
+      "instruments": [
+        {"name": "imu", "kind": "imu", "model": "vectornav_vn10",
+         "port": {"type": "serial", "path": "/dev/ttyUSB0"}, "position_m": [1, 0], "mounting_rpy_deg": [0, 0, 0]},
+        {"name": "gps", "kind": "gps", "lever_m": [1, 0, 0],
+         "port": {"type": "serial", "path": "/dev/ttyUSB0"}}
+      ]
+    })");
+  fs::create_directory(path("data"));
+  const auto lines = [&](const std::string& program) {
+    const std::string begin = program + ": " + path("vehicle.json") + ": instruments.";
+    return "^" + begin + "0\\.position_m: is [^\n]*\n" + begin + "1\\.lever_m: is [^\n]*\n" + begin +
+           "1\\.position_m: is missing[^\n]*\n" + begin + "1\\.port: is [^\n]*\n" + begin +
+           "0\\.model: is [^\n]*\n$";
+  };
+  EXPECT_EQ(
+      run("fathom", {"solve", path("data"), "--vehicle", path("vehicle.json"), "--out", path("nav.csv")}), 2);
+  EXPECT_THAT(err, ::testing::MatchesRegex(lines("fathom")));
+  EXPECT_EQ(run("fathom-fusion", {"--vehicle", path("vehicle.json"), "--check"}), 2);
+  EXPECT_THAT(err, ::testing::MatchesRegex(lines("fathom-fusion")));
+}
+
 // From nothing to a file that services start with: instruments that speak on pseudo-terminals, UDP and TCP.
 TEST_F(VehicleCommand, InitFindsTheInstrumentsAndWritesTheVehicle) {
   const std::string source = FATHOM_SOURCE_DIR;

@@ -203,7 +203,7 @@ TEST_F(SchemaTest, RefusesAKeyThatMeansNothingForTheChoiceMade) {
       "solid.json: radius_m: is 1, expected no such key where shape is box; it is known where shape is one "
       "of ball");
   EXPECT_EQ(
-      solid_error(R"({"shape": "sphere", "edge_m": 1})"),
+      solid_error(R"({"shape": "sphere", "radius_m": 1, "edge_m": 1})"),
       "solid.json: edge_m: is 1, expected no such key where shape is ball; it is known where shape is one "
       "of box");
   EXPECT_EQ(solid_error(R"({"edge_m": 1})"), solid_error(R"({"shape": "ball", "edge_m": 1})"));

@@ -18,6 +18,7 @@
 namespace fathom::cli {
 namespace {
 
+using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 void attach(record::Writer& writer, const std::string& name, const std::string& text) {
@@ -57,6 +58,8 @@ TEST(RecordedConfiguration, AMistakeIsNamedWhereItStands) {
               StartsWith("--set: engine.nope: is 1, expected no such key"));
   EXPECT_THAT(complaint("{\"vehicel\": 1}", {}),
               StartsWith("log.mcap: services/fusion/config.json: vehicel: is 1, expected no such key"));
+  EXPECT_THAT(complaint("{\"vehicel\": 1, \"instanc\": 2}", {}),
+              HasSubstr("\nlog.mcap: services/fusion/config.json: vehicel: is 1, expected no such key"));
   EXPECT_THAT(complaint("{", {}), StartsWith("log.mcap: services/fusion/config.json:1: is not JSON"));
 }
 
