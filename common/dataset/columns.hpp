@@ -100,17 +100,18 @@ class Columns {
     return *this;
   }
 
-  /// The columns as they stand in a file.
+  /// The columns as they stand in a file. Throws where it has no time or lacks a required one.
   class Found {
    public:
     Found(const Columns& columns, const CsvReader& csv) : columns_(columns), csv_(csv) {
       const bool substituted =
           !columns.substitute_.empty() && csv.optional_column(columns.substitute_).has_value();
+      std::vector<std::string> required{"t_s"};
       for (const Cell& cell : columns.cells_) {
-        const bool required = cell.group == 0 && !substituted;
-        places_.push_back(required ? std::optional<Column>(csv.column(cell.name))
-                                   : csv.optional_column(cell.name));
+        if (cell.group == 0 && !substituted) required.push_back(cell.name);
+        places_.push_back(csv.optional_column(cell.name));
       }
+      csv.require(required);
     }
     void read(Row& row) const {
       for (std::size_t i = 0; i < places_.size(); ++i) {

@@ -64,6 +64,42 @@ std::string quoted(std::string_view text) {
   return out + (text.size() > 40 ? "...'" : "'");
 }
 
+constexpr const char* kOldLineEnds = "lines end with a carriage return alone, expected a line feed, or both";
+
+// The names of a header for people, as many as help.
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t kMost = 20;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+    out += (i == 0 ? "" : ", ") + quoted(std::string_view(names[i]));
+  return out + (names.size() > kMost ? ", ..." : "");
+}
+
+bool is_comment(std::string_view line) {
+  return line.starts_with('#') || line.starts_with('%') || line.starts_with("//");
+}
+
+bool is_number(const std::string& field) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  return error == std::errc() && end == field.data() + field.size();
+}
+
+// What stands in place of a header, where that can be seen; empty where names are missing, no more.
+std::string what_the_header_is(const std::vector<std::string>& names) {
+  const std::string& first = names.front();
+  if (first.starts_with("\xFF\xFE") || first.starts_with("\xFE\xFF")) return "the text is UTF-16, not UTF-8";
+  if (is_comment(first)) return "the line is a comment";
+  for (const auto& [separator, word] : {std::pair{';', "semicolons"}, {'\t', "tabs"}, {'|', "bars"}}) {
+    if (names.size() == 1 && first.find(separator) != std::string::npos)
+      return std::string("columns are separated by ") + word +
+             ", not by commas (and numbers need a decimal point)";
+  }
+  if (first.starts_with('"')) return "the names stand in quotation marks";
+  if (std::all_of(names.begin(), names.end(), is_number)) return "the line holds numbers and no names";
+  return "";
+}
+
 }  // namespace
 
 // Bytes of the file, decompressed where needed.
@@ -111,6 +147,8 @@ CsvReader::CsvReader(const std::filesystem::path& path)
   }
   if (!next_line()) throw DatasetError(file_ + ": is empty, expected a header line with column names");
   if (line_.starts_with("\xEF\xBB\xBF")) line_.erase(0, 3);
+  if (trim(line_).find('\r') != std::string_view::npos && line_.find('\0') == std::string::npos)
+    fail(kOldLineEnds);
   split();
   for (const std::string_view name : fields_) {
     if (std::find(names_.begin(), names_.end(), name) != names_.end()) {
@@ -124,6 +162,7 @@ CsvReader::~CsvReader() = default;
 
 bool CsvReader::next_line() {
   line_.clear();
+  line_ended_ = false;
   ++line_number_;
   bool any = false;
   while (true) {
@@ -138,9 +177,13 @@ bool CsvReader::next_line() {
     any = true;
     const auto end = source_->pending.find('\n');
     line_.append(source_->pending.substr(0, end));
-    if (line_.size() > kLongestLine) fail("line is longer than 65536 bytes, expected a row of numbers");
+    if (line_.size() > kLongestLine) {
+      fail(line_.find('\r') < kLongestLine ? kOldLineEnds
+                                           : "line is longer than 65536 bytes, expected a row of numbers");
+    }
     if (end != std::string_view::npos) {
       source_->pending.remove_prefix(end + 1);
+      line_ended_ = true;
       return true;
     }
     source_->pending = {};
@@ -172,16 +215,42 @@ bool CsvReader::next() {
     return false;
   }
   split();
-  if (fields_.size() != names_.size()) {
-    fail("row has " + std::to_string(fields_.size()) + " fields, expected " + std::to_string(names_.size()) +
-         " as in the header");
-  }
+  if (fields_.size() != names_.size()) fail_width();
   return true;
+}
+
+void CsvReader::fail_width() const {
+  const std::string expected = "expected " + std::to_string(names_.size()) + " fields as in the header";
+  if (is_comment(line_)) fail("row is a comment, " + expected);
+  if (line_.find('\0') != std::string::npos)
+    fail("row holds zero bytes, as a file does whose end was lost with the power, " + expected +
+         "; delete it and what follows to use the rows before");
+  const bool cut = !line_ended_ && fields_.size() < names_.size();
+  fail(
+      "row has " + std::to_string(fields_.size()) + (fields_.size() == 1 ? " field, " : " fields, ") +
+      expected +
+      (cut ? "; it ends the file and has no line end, so it was cut: delete it to use the rows before" : ""));
+}
+
+void CsvReader::require(const std::vector<std::string>& names) const {
+  std::string missing;
+  std::size_t count = 0;
+  for (const std::string& name : names) {
+    if (optional_column(name)) continue;
+    missing += (count++ == 0 ? "'" : ", '") + name + "'";
+  }
+  if (count == 0) return;
+  const std::string why = what_the_header_is(names_);
+  throw DatasetError(file_ + ":1: " +
+                     (why.empty() ? "column" + std::string(count == 1 ? " " : "s ") + missing +
+                                        (count == 1 ? " is" : " are") +
+                                        " missing from the header, which has " + listed(names_)
+                                  : why + ", expected a header with " + missing));
 }
 
 CsvReader::Column CsvReader::column(std::string_view name) const {
   const auto found = optional_column(name);
-  if (!found) throw DatasetError(file_ + ":1: column '" + std::string(name) + "' is missing from the header");
+  if (!found) require({std::string(name)});
   return *found;
 }
 

@@ -24,6 +24,8 @@ class CsvReader {
   CsvReader(const CsvReader&) = delete;
   CsvReader& operator=(const CsvReader&) = delete;
 
+  /// Throws when the header does not name all of them: says which, and what the file may be instead.
+  void require(const std::vector<std::string>& names) const;
   /// Throws when the header does not name it.
   [[nodiscard]] Column column(std::string_view name) const;
   [[nodiscard]] std::optional<Column> optional_column(std::string_view name) const;
@@ -46,11 +48,13 @@ class CsvReader {
 
   [[nodiscard]] bool next_line();
   void split();
+  [[noreturn]] void fail_width() const;
 
   std::string file_;
   std::unique_ptr<Source> source_;
   std::size_t line_number_ = 0;
   std::string line_;
+  bool line_ended_ = false;
   std::vector<std::string> names_;
   std::vector<std::string_view> fields_;  // into line_
 };

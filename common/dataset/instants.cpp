@@ -38,6 +38,7 @@ std::vector<Instant> read_instants(const std::filesystem::path& path, TimeNs epo
   std::string line;
   bool first = true;
   for (std::size_t number = 1; std::getline(file, line); ++number) {
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     const std::string_view word = trimmed(line);
     if (word.empty()) continue;
     double t_s = 0.0;

@@ -23,7 +23,7 @@ class SensorFile {
       : csv(path),
         kind_(kind),
         options_(options),
-        t_(csv.column("t_s")),
+        t_(csv.optional_column("t_s").value_or(0)),  // Columns::Found refuses a file without it
         received_(csv.optional_column("t_received_s")) {}
 
   bool next() {
@@ -34,11 +34,12 @@ class SensorFile {
       stamps_sorted_ = stamps_sorted_ && stamp >= header.stamp_ns;
       arrivals_sorted_ = arrivals_sorted_ && received >= header.received_ns;
       if (!stamps_sorted_ && !(received_ && arrivals_sorted_)) {
-        csv.fail("t_s " + std::string(csv.text(t_)) +
-                 " is earlier than in the row before, expected rows sorted by t_s" +
-                 (received_ ? " or by t_received_s" : ""));
+        csv.fail("t_s " + std::string(csv.text(t_)) + " is earlier than " + text_before_ +
+                 " in the row before, expected rows sorted by t_s" +
+                 (received_ ? " or by t_received_s" : "") + began_anew(header.stamp_ns - stamp));
       }
     }
+    text_before_ = csv.text(t_);
     header = SampleHeader{options_.vehicle, kind_, stamp, received, sequence_++};
     return true;
   }
@@ -56,11 +57,24 @@ class SensorFile {
     return options_.epoch_ns + from_seconds(t_s);
   }
 
+  /// What a count of time that began anew says of it; empty where it is none.
+  static std::string began_anew(DurationNs back) {
+    constexpr double kGap_s = 60.0;  // between two rows
+    for (const auto& [period_s, word] : {std::pair{604'800, "a GPS week"}, {86'400, "a day"}}) {
+      const double gap_s = period_s - to_seconds(back);
+      if (gap_s < 0.0 || gap_s > kGap_s) continue;
+      return std::string("; ") + word + " began: add " + std::to_string(period_s) +
+             " s from here on, in every file";
+    }
+    return "";
+  }
+
   Name kind_;
   const ReadOptions& options_;
   Column t_;
   Optional received_;
   std::uint64_t sequence_ = 0;
+  std::string text_before_;  // t_s of the row before, as it stands there
   bool stamps_sorted_ = true;
   bool arrivals_sorted_ = true;
 };

@@ -96,6 +96,11 @@ TEST(ReadInstants, TakesAHeaderAndNamesTheLineThatIsWrong) {
   ASSERT_EQ(read.size(), 2U);
   EXPECT_EQ(read[0].stamp_ns, 7 + 1'500'000'000);
   EXPECT_EQ(read[1].line, 4U);
+  EXPECT_EQ(read_instants(file("\xEF\xBB\xBF"
+                               "1.5\r\n2\r\n"),
+                          0)
+                .size(),
+            2U);  // as spreadsheets write it
   const std::vector<std::pair<std::string, std::string>> bad{
       {"1\nx\n", "at.csv:2: 'x', expected one instant"},
       {"1\n2,3\n", "at.csv:2: '2,3'"},

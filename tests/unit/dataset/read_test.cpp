@@ -125,6 +125,44 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"missing_column", "imu.csv", "t_s,gx_rad_s,gy_rad_s,ax_m_s2,ay_m_s2,az_m_s2\n1,1,1,1,1,1\n",
                 "imu.csv:1: column 'gz_rad_s' is missing"},
         BadFile{"missing_time", "depth.csv", "depth_m\n1\n", "depth.csv:1: column 't_s' is missing"},
+        BadFile{
+            "missing_all", "depth.csv", "time,depth\n1,2\n",
+            "depth.csv:1: columns 't_s', 'depth_m' are missing from the header, which has 'time', 'depth'"},
+        BadFile{"semicolons", "depth.csv", "t_s;depth_m\n1;2\n",
+                "depth.csv:1: columns are separated by semicolons, not by commas (and numbers need a decimal "
+                "point), expected a header with 't_s', 'depth_m'"},
+        BadFile{"tabs", "depth.csv", "t_s\tdepth_m\n1\t2\n", "depth.csv:1: columns are separated by tabs"},
+        BadFile{"quotation_marks", "depth.csv", "\"t_s\",\"depth_m\"\n1,2\n",
+                "depth.csv:1: the names stand in quotation marks, expected a header with 't_s', 'depth_m'"},
+        BadFile{"comment_in_front", "depth.csv", "# of Monday\nt_s,depth_m\n1,2\n",
+                "depth.csv:1: the line is a comment, expected a header with 't_s', 'depth_m'"},
+        BadFile{"comment_between", "depth.csv", "t_s,depth_m\n1,2\n# restart\n2,2\n",
+                "depth.csv:3: row is a comment, expected 2 fields"},
+        BadFile{"no_header", "depth.csv", "1,2\n2,2\n",
+                "depth.csv:1: the line holds numbers and no names, expected a header with 't_s', 'depth_m'"},
+        BadFile{"utf16", "depth.csv", std::string("\xFF\xFEt\0_\0s\0,\0d\0\n\0", 14),
+                "depth.csv:1: the text is UTF-16, not UTF-8"},
+        BadFile{"old_line_ends", "depth.csv", "t_s,depth_m\r1,2\r2,3\r",
+                "depth.csv:1: lines end with a carriage return alone, expected a line feed, or both"},
+        BadFile{"old_line_ends_of_a_long_file", "depth.csv",
+                [] {
+                  std::string text = "t_s,depth_m";
+                  for (int i = 0; i < 10'000; ++i) text += "\r" + std::to_string(i) + ",123";
+                  return text;
+                }(),
+                "depth.csv:1: lines end with a carriage return alone"},
+        BadFile{
+            "cut_row", "depth.csv", "t_s,depth_m\n1,2\n2",
+            "depth.csv:3: row has 1 field, expected 2 fields as in the header; it ends the file and has no "
+            "line end, so it was cut"},
+        BadFile{"lost_end", "depth.csv", std::string("t_s,depth_m\n1,2\n\0\0\0\0", 20),
+                "depth.csv:3: row holds zero bytes, as a file does whose end was lost with the power"},
+        BadFile{
+            "week", "depth.csv", "t_s,depth_m\n604799.5,2\n0.5,2\n",
+            "depth.csv:3: t_s 0.5 is earlier than 604799.5 in the row before, expected rows sorted by t_s; "
+            "a GPS week began: add 604800 s from here on, in every file"},
+        BadFile{"midnight", "depth.csv", "t_s,depth_m\n86399.5,2\n0,2\n",
+                "; a day began: add 86400 s from here on"},
         BadFile{"twice", "depth.csv", "t_s,depth_m,depth_m\n", "depth.csv:1: column 'depth_m' appears twice"},
         BadFile{"text_in_number", "depth.csv", "t_s,depth_m\n1,2\n2,deep\n",
                 "depth.csv:3: column depth_m: 'deep' is not a number, expected a decimal number"},
@@ -133,10 +171,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"binary", "depth.csv", std::string("t_s,depth_m\n1,\x01\xFF\x00z\n", 18),
                 "depth.csv:2: column depth_m: '???z'"},
         BadFile{"unsorted", "depth.csv", "t_s,depth_m\n1,2\n3,2\n2,2\n",
-                "depth.csv:4: t_s 2 is earlier than in the row before, expected rows sorted by t_s"},
+                "depth.csv:4: t_s 2 is earlier than 3 in the row before, expected rows sorted by t_s"},
         BadFile{"unsorted_both", "usbl.csv",
                 "t_s,lat_deg,lon_deg,depth_m,sigma_m,t_received_s\n5,1,1,1,1,6\n4,1,1,1,1,5\n",
-                "usbl.csv:3: t_s 4 is earlier than in the row before, expected rows sorted by t_s or by "
+                "usbl.csv:3: t_s 4 is earlier than 5 in the row before, expected rows sorted by t_s or by "
                 "t_received_s"},
         BadFile{"blank_time", "depth.csv", "t_s,depth_m\n,2\n", "depth.csv:2: column t_s: '' is not a time"},
         BadFile{"nan_time", "depth.csv", "t_s,depth_m\nnan,2\n",
@@ -146,7 +184,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"absurd_time", "depth.csv", "t_s,depth_m\n1e12,2\n",
                 "depth.csv:2: column t_s: '1e12' is not a time"},
         BadFile{"few_fields", "depth.csv", "t_s,depth_m\n1,2\n2\n",
-                "depth.csv:3: row has 1 fields, expected 2"},
+                "depth.csv:3: row has 1 field, expected 2"},
         BadFile{"many_fields", "depth.csv", "t_s,depth_m\n1,2,3\n",
                 "depth.csv:2: row has 3 fields, expected 2"},
         BadFile{"blank_line", "depth.csv", "t_s,depth_m\n1,2\n\n2,3\n", "depth.csv:3: line is blank"},
