@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/recording.hpp"
 #include "config/vehicle/vehicle_config.hpp"
+#include "dataset/remarks.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -128,7 +129,11 @@ config::LoadedConfig<config::FusionConfig> configuration_for(const std::string& 
 
 dataset::Dataset read_dataset(const std::string& directory, Name vehicle) {
   try {
-    return dataset::read(directory, {dataset::kDefaultEpochNs, vehicle});
+    const dataset::ReadOptions options{dataset::kDefaultEpochNs, vehicle};
+    dataset::Dataset data = dataset::read(directory, options);
+    for (const std::string& remark : dataset::remarks(directory, data, options))
+      std::fprintf(stderr, "fathom: %s: %s\n", directory.c_str(), remark.c_str());
+    return data;
   } catch (const dataset::DatasetError& error) {
     throw Failure(ExitCode::bad_input, error.what());
   }

@@ -28,7 +28,7 @@ struct ConfigFiles {
 [[nodiscard]] config::LoadedConfig<config::FusionConfig> configuration_for(
     const std::string& log, const ConfigFiles& files, const std::vector<std::string>& sets);
 
-/// The data set in a folder. Throws Failure.
+/// The data set in a folder. What a person should know of it is said on standard error. Throws Failure.
 [[nodiscard]] dataset::Dataset read_dataset(const std::string& directory, Name vehicle);
 
 /// Throws Failure where a data set has no file of inertial samples.

@@ -152,6 +152,12 @@ std::string is(double value) {
   return std::isfinite(value) ? text.data() : "is not known";
 }
 
+// Whether anything was there that could have said where the vehicle is.
+bool fixes_given(const SolveResult& result) {
+  return result.verdicts.contains(SourceKind::gps) || result.verdicts.contains(SourceKind::usbl) ||
+         result.verdicts.contains(SourceKind::fix);
+}
+
 // One sentence, after `what` came of it.
 std::string why_not_aligned(const std::string& what, const SolveReport& report) {
   const AlignmentStatus& status = report.result.alignment;
@@ -271,7 +277,11 @@ std::string to_text(const SolveReport& report) {
                                       : "it did not align because of that\n";
   else if (report.positions > 0 && !report.smoothed && !report.result.ever_aligned)
     out += why_not_aligned("it never aligned", report) + "\n";
-  if (report.positions == 0) out += why_not_aligned("no position was found", report) + "\n";
+  if (report.positions == 0) {
+    if (!fixes_given(report.result))
+      out += "the data have no position: neither gps nor usbl nor fix has a row\n";
+    out += why_not_aligned("no position was found", report) + "\n";
+  }
   const dataset::Score& score = report.score;
   if (score.count > 0) {
     out += line("horizontal error: rms %.2f m, 95 %% %.2f m, end %.2f m, %.3f %% of %.0f m",

@@ -237,8 +237,29 @@ TEST_F(SolveTest, NoPositionIsTheAnswerNo) {
   dataset::write(path("data"), data);
   EXPECT_EQ(solve({}), 1);
   EXPECT_EQ(err, "");
-  EXPECT_NE(out.find("no position was found: alignment is"), std::string::npos) << out;
+  EXPECT_NE(
+      out.find("\nthe data have no position: neither gps nor usbl nor fix has a row\nno position was found: "
+               "alignment is"),
+      std::string::npos)
+      << out;
   EXPECT_EQ(out.find("nan"), std::string::npos) << out;
+}
+
+TEST_F(SolveTest, FixesOnAnotherClockAndTablesOfOtherNamesAreNamed) {
+  dataset::write(path("data"), StraightCourse(false).data);
+  write("data/gps.csv",
+        kGpsHeader + "1752003261,46,7,100,1,1,2,0,0,0,1\n1752003262,46,7,100,1,1,2,0,0,0,1\n");
+  write("data/gnss.csv", kGpsHeader);
+  EXPECT_EQ(solve({}), 1);
+  EXPECT_EQ(err.find("fathom: " + path("data") +
+                     ": gps: none of its 2 rows lies in the time of imu: t_s is 1752003261 s to 1752003262 s "
+                     "here and 0 s to 60 s there."),
+            0U)
+      << err;
+  EXPECT_NE(err.find("\nfathom: " + path("data") + ": gnss.csv is not read: its name is none of imu, gps, "),
+            std::string::npos)
+      << err;
+  EXPECT_EQ(out.find("the data have no position"), std::string::npos) << out;
 }
 
 TEST_F(SolveTest, AFolderInPlaceOfAFileIsNamed) {
