@@ -81,7 +81,7 @@ class Folder {
   [[nodiscard]] std::string path() const { return path_.string(); }
   /// `name` relative to the folder, and inside of it.
   fs::path put(const fs::path& name, const record::Bytes& bytes) {
-    const fs::path path = path_ / name;
+    fs::path path = path_ / name;
     std::error_code failed;
     fs::create_directories(path.parent_path(), failed);
     std::ofstream file(path, std::ios::binary);

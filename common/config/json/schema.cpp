@@ -178,7 +178,7 @@ std::string SchemaCore::load_choice(const nlohmann::json& json, void* whole, con
   } else if (info.required) {
     place.child(info.key).fail_missing(info.sentence);
   }
-  const std::string choice = choice_of(whole);
+  std::string choice = choice_of(whole);
   if (defaults_ && !choice.empty()) defaults_(choice, whole);
   return choice;
 }

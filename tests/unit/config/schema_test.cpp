@@ -81,8 +81,8 @@ namespace {
 class SchemaTest : public ::testing::Test {
  protected:
   std::string write(const std::string& text) {
-    const std::string path = ::testing::TempDir() + "schema_" +
-                             ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
+    std::string path = ::testing::TempDir() + "schema_" +
+                       ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
     std::ofstream(path) << text;
     return path;
   }
