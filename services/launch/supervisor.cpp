@@ -20,7 +20,8 @@ namespace fathom::launch {
 namespace {
 
 constexpr DurationNs kLongestLook_ns = kNsPerSecond;
-constexpr DurationNs kStart = 9;  // so many silences, as systemd has it (TimeoutStartSec beside WatchdogSec)
+/// So many silences is a start given, as systemd has it (TimeoutStartSec beside WatchdogSec).
+constexpr DurationNs kSilencesAtStart = 9;
 
 std::string how_it_ended(int status) {
   if (WIFSIGNALED(status)) return std::string("was killed by signal ") + strsignal(WTERMSIG(status));
@@ -155,7 +156,7 @@ void Supervisor::kill_what_hangs(TimeNs now_ns, std::vector<std::string>& said) 
       continue;
     }
     child.silent_ns += listened;
-    if (!child.speaks || child.silent_ns <= (child.spoke ? 1 : kStart) * silence_ns_) continue;
+    if (!child.speaks || child.silent_ns <= (child.spoke ? 1 : kSilencesAtStart) * silence_ns_) continue;
     kill(child.pid, SIGKILL);  // the only signal that reaches one that is stopped
     said.push_back(child.program.name + " hangs: it gave no life sign for " +
                    std::to_string(child.silent_ns / kNsPerSecond) + " s and is killed");

@@ -1,3 +1,4 @@
+// Services that are started, watched and started again, with real processes.
 #include "launch/supervisor.hpp"
 
 #include <algorithm>
@@ -53,15 +54,20 @@ Program speaker(const std::string& name, int signs, const std::string& then) {
           false};
 }
 
-/// Polls until `done`, and returns all that was said.
-std::vector<std::string> polled(Supervisor& supervisor, const std::function<bool()>& done) {
+using Said = std::vector<std::string>;
+
+/// Polls until `done`, which sees all that was said, and returns that.
+Said polled_until(Supervisor& supervisor, const std::function<bool(const Said&)>& done) {
   const SystemClock clock;
-  std::vector<std::string> all;
-  while (!done()) {
+  Said all;
+  while (!done(all)) {
     for (std::string& line : supervisor.poll(clock.monotonic_ns())) all.push_back(std::move(line));
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return all;
+}
+Said polled(Supervisor& supervisor, const std::function<bool()>& done) {
+  return polled_until(supervisor, [&](const Said&) { return done(); });
 }
 
 std::size_t lines_of(const fs::path& file) {
@@ -71,20 +77,12 @@ std::size_t lines_of(const fs::path& file) {
   return out;
 }
 
-bool has(const std::vector<std::string>& lines, const std::string& part) {
-  return std::any_of(lines.begin(), lines.end(),
-                     [&](const std::string& line) { return line.find(part) != std::string::npos; });
-}
-
 /// Polls until somebody says it.
-std::vector<std::string> polled_until_said(Supervisor& supervisor, const std::string& part) {
-  const SystemClock clock;
-  std::vector<std::string> all;
-  while (!has(all, part)) {
-    for (std::string& line : supervisor.poll(clock.monotonic_ns())) all.push_back(std::move(line));
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return all;
+Said polled_until_said(Supervisor& supervisor, const std::string& part) {
+  return polled_until(supervisor, [&](const Said& all) {
+    return std::any_of(all.begin(), all.end(),
+                       [&](const std::string& line) { return line.find(part) != std::string::npos; });
+  });
 }
 
 TEST(Supervisor, GivesUpWhereTheFirstStartIsRefused) {
