@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -46,18 +47,26 @@ struct CodecOptions {
   BeaconOptions beacons;
 };
 
+/// What a protocol's frames say of time beside their arrival. It decides how a bridge stamps its samples
+/// where nobody configures it.
+enum class DeviceClock : std::uint8_t {
+  none,     ///< nothing, or a time of day: by the arrival
+  counter,  ///< a clock that nobody sets: its offset to the host is tracked
+  utc,      ///< UTC that the device knows: taken as it is
+};
+
 /// One protocol that this build decodes.
 struct Protocol {
   std::string_view name;                      ///< e.g. "pd0"
   std::span<const std::string_view> aliases;  ///< e.g. "teledyne_pd0"
   std::string_view description;
   std::unique_ptr<Codec> (*make)(const CodecOptions& options);
+  DeviceClock clock;
   /// What a client has to say on connecting by TCP, before anything is told; empty for most.
   std::string_view greeting{};
 };
 
-/// Every protocol, in the order of the documentation. A new protocol is one file and one line in
-/// registry.cpp.
+/// Every protocol, in the order of the documentation. README.md says what a new one takes.
 [[nodiscard]] std::span<const Protocol> protocols();
 
 /// By name or alias; case and '-' versus '_' do not matter. Null when there is none.

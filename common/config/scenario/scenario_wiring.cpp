@@ -26,19 +26,16 @@ json source_of(const sim::LinkConfig& link, const Wiring& wiring) {
   return {{"type", "udp"}, {"address", link.address}, {"port", link.port + wiring.port_offset}};
 }
 
-std::string_view protocol_of(const sim::SensorCommon& sensor) {
-  const codec::Protocol* protocol = codec::find_protocol(sensor.protocol);
-  return protocol == nullptr ? std::string_view{} : protocol->name;
-}
-
 // Devices with UTC are trusted, counters are tracked, the rest is known by its latency.
+codec::DeviceClock clock_of(const sim::SensorCommon& sensor) {
+  const codec::Protocol* protocol = codec::find_protocol(sensor.protocol);
+  return protocol == nullptr ? codec::DeviceClock::none : protocol->clock;
+}
 bool has_counter(const sim::SensorCommon& sensor) {
-  const std::string_view name = protocol_of(sensor);
-  return name == "vectornav" || name == "pd0" || name == "waterlinked";
+  return clock_of(sensor) == codec::DeviceClock::counter;
 }
 bool has_utc(const sim::SensorCommon& sensor) {
-  const std::string_view name = protocol_of(sensor);
-  return name == "ubx" || name == "psimssb";
+  return clock_of(sensor) == codec::DeviceClock::utc;
 }
 
 json time_of(const sim::SensorCommon& sensor) {

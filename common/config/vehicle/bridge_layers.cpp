@@ -16,13 +16,10 @@ double usual_latency_s(SourceKind kind) {
 }
 
 /// Devices with UTC are trusted, counters are tracked, the rest is known by its latency.
-std::string time_mode(SourceKind kind, const std::string& protocol) {
-  const codec::Protocol* found = codec::find_protocol(protocol);
-  const std::string_view name = found == nullptr ? std::string_view{} : found->name;
-  if (name == "vectornav" || name == "pd0" || name == "waterlinked" || name == "mavlink")
-    return "device_clock";
-  if (name == "ubx" || name == "psimssb" || name == "fix_text" || kind == SourceKind::gps)
-    return "device_utc";
+std::string time_mode(SourceKind kind, const codec::Protocol* found) {
+  const codec::DeviceClock clock = found == nullptr ? codec::DeviceClock::none : found->clock;
+  if (clock == codec::DeviceClock::counter) return "device_clock";
+  if (clock == codec::DeviceClock::utc || kind == SourceKind::gps) return "device_utc";
   return "arrival";
 }
 
@@ -59,8 +56,9 @@ void bridge_layers(const Sources& vehicle, std::string_view role, Layers& out) {
     const Found protocol = find(known, "protocol");
     put(out, at + "protocol", protocol);
     put(out, at + "rate_hz", find(known, "rate_hz"));
-    const std::string mode =
-        time_mode(one.kind, protocol.value.is_string() ? protocol.value.get<std::string>() : "");
+    const codec::Protocol* speaks =
+        codec::find_protocol(protocol.value.is_string() ? protocol.value.get<std::string>() : "");
+    const std::string mode = time_mode(one.kind, speaks);
     out.overlay(at + "time.mode", mode, kStandard);
     put(out, at + (mode == "device_clock" ? "time.minimum_latency_s" : "time.latency_s"),
         find(known, "latency_s", usual_latency_s(one.kind)));
