@@ -128,7 +128,8 @@ struct StatedError {
   int component = 0;  ///< of the group
 };
 
-/// Appends the components of a model that are known to an observation. A model offers
+/// Appends the components of a model that are known to an observation, of which all models of one source
+/// together have at most Observation::kMaxRows. A model offers
 ///   int dimension() const
 ///   Vector3 measured() const, predicted() const, noise() const    (noise: sigmas; longer vectors likewise)
 ///   void jacobian(Jacobian&) const                                 d(predicted - measured)/dx
@@ -139,7 +140,9 @@ struct StatedError {
 /// and to the registry
 ///   using Sample
 ///   static Usable append_rows(const AidingInput&, const Sample&, Observation&)
+///   static constexpr const char* kName                            the word in the bench and in tests
 ///   static AidingPolicy policy(const SensorConfig&, const Sample&)
+///   static bool may_aid(const SensorConfig&)          only where a configuration may switch it off for good
 template <class Model>
 void observe(const Model& model, const StateIndex& index, Observation& out) {
   const int first = out.rows;
@@ -176,10 +179,12 @@ void observe(const Model& model, const StateIndex& index, Observation& out) {
   }
 }
 
-/// Appends the model's rows; a sample none of whose components is finite is out of range.
+/// Appends the model's rows; a sample none of whose components is finite is out of range, and so is one for
+/// whose rows the models of its source before have left no room.
 template <class Model>
 [[nodiscard]] Usable append(const Model& model, const AidingInput& in, Observation& out) {
   const int before = out.rows;
+  if (before + model.dimension() > Observation::kMaxRows) return Usable::out_of_range;
   observe(model, in.state.index, out);
   return out.rows > before ? Usable::yes : Usable::out_of_range;
 }

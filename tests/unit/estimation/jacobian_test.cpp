@@ -1,3 +1,5 @@
+#include <map>
+
 #include <gtest/gtest.h>
 
 #include "estimation/aiding/constant_depth.hpp"
@@ -270,6 +272,50 @@ INSTANTIATE_TEST_SUITE_P(Registry, Jacobians, ::testing::Range(0, static_cast<in
                          [](const auto& info) {
                            return std::string(aiding_registry()[static_cast<std::size_t>(info.param)].name);
                          });
+
+TEST(AidingRegistry, ASampleWithoutRoomForItsRowsIsOutOfRange) {
+  const StateIndex index(all_groups(true));
+  Normal normal(300);
+  const FilterState state = random_state(normal, index);
+  const AidingState aiding(index, state, Vector3d::Zero(), kUnknown);
+  for (const AidingEntry& entry : aiding_registry()) {
+    if (entry.source != SourceKind::gps) continue;
+    const SensorConfig sensor = default_sensor(entry.source, "sensor");
+    Observation full;
+    full.rows = Observation::kMaxRows - 1;
+    EXPECT_EQ(entry.observe({aiding, sensor, 18.0}, sample_of(entry, state, normal), full),
+              Usable::out_of_range)
+        << entry.name;
+    EXPECT_EQ(full.rows, Observation::kMaxRows - 1) << entry.name;
+  }
+}
+
+/// The models of one source share its rows, and each component that a verdict names is of one of them.
+TEST(AidingRegistry, TheModelsOfASourceDoNotShareComponents) {
+  const StateIndex index(all_groups(true));
+  Normal normal(301);
+  const FilterState state = random_state(normal, index);
+  const AidingState aiding(index, state, Vector3d::Zero(), kUnknown, Vector3d(0.0, 0.0, -9.8));
+  std::map<SourceKind, EventSample> samples;
+  std::map<SourceKind, Observation> observations;
+  for (const AidingEntry& entry : aiding_registry()) {
+    SensorConfig sensor = default_sensor(entry.source, "sensor");
+    sensor.scale_m_s_per_rpm = 0.002;
+    sensor.sideslip_sigma_rad = sensor.attack_sigma_rad = 0.05;
+    sensor.baro_sigma_m = 1.0;
+    const EventSample& sample =
+        samples.try_emplace(entry.source, sample_of(entry, state, normal)).first->second;
+    Observation& all = observations[entry.source];
+    const auto before = static_cast<std::size_t>(all.rows);
+    (void)entry.observe({aiding, sensor, 18.0}, sample, all);
+    for (std::size_t i = before; i < static_cast<std::size_t>(all.rows); ++i) {
+      for (std::size_t j = 0; j < before; ++j)
+        EXPECT_NE(all.component[i], all.component[j]) << entry.name << " needs kFirstComponent";
+    }
+  }
+  EXPECT_GE(observations.at(SourceKind::gps).rows, 6);
+  EXPECT_GE(observations.at(SourceKind::airspeed).rows, 3);
+}
 
 TEST(ErrorDynamics, PredictsHowAnErrorGrows) {
   // Two mechanisations a small error apart, fed with the same instrument: F and the columns of the inertial
