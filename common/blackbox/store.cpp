@@ -228,6 +228,7 @@ void Store::settle(TimeNs now_ns) {
     if (why.empty()) dropped_.clear();
   }
   if (why.empty()) why = writer_->sync();
+  if (writer_->is_removed()) return begin_in_place_of_removed(now_ns);
   if (why.empty()) well();
   if (!why.empty()) fail(why);
   counts_.bytes = bytes_before_ + writer_->size();
@@ -241,6 +242,14 @@ void Store::settle(TimeNs now_ns) {
     end_file();
     begin(now_ns);
   }
+}
+
+void Store::begin_in_place_of_removed(TimeNs now_ns) {
+  const std::uint64_t gone = writer_->messages();
+  note_lost("every topic", {gone, began_ns_, now_ns});
+  fail("the file was removed while it was written, and " + std::to_string(gone) + " samples with it");
+  writer_.reset();
+  begin(now_ns);
 }
 
 void Store::end_file() {

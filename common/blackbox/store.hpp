@@ -69,6 +69,7 @@ class Store {
   /// Those that change, when it is time.
   void enclose_again(TimeNs now_ns);
   void end_file();
+  void begin_in_place_of_removed(TimeNs now_ns);
   void note_lost(const std::string& topic, const Dropped& one);
   void fail(const std::string& why);
   void well();

@@ -71,8 +71,14 @@ std::string FileSink::sync() {
   return ::fdatasync(descriptor_) == 0 ? std::string() : reason();
 }
 
+bool FileSink::is_removed() const {
+  struct stat status {};
+  return ::fstat(descriptor_, &status) == 0 && status.st_nlink == 0;
+}
+
 Result<std::unique_ptr<FileSource>> FileSource::open(const std::filesystem::path& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  // A pipe is not waited for.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) return because(path, "cannot be opened");
   std::unique_ptr<FileSource> source(new FileSource(descriptor, 0));
   struct stat status {};

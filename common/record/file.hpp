@@ -20,6 +20,8 @@ class Sink {
   /// What was appended survives a loss of power when this returns nothing. Else why not.
   [[nodiscard]] virtual std::string sync() = 0;
   [[nodiscard]] virtual std::uint64_t size() const = 0;
+  /// Somebody has removed it: what is appended goes on working, and nobody will find it.
+  [[nodiscard]] virtual bool is_removed() const { return false; }
 };
 
 /// What a file is read from.
@@ -45,6 +47,7 @@ class FileSink final : public Sink {
   [[nodiscard]] std::string append(View bytes) override;
   [[nodiscard]] std::string sync() override;
   [[nodiscard]] std::uint64_t size() const override { return size_; }
+  [[nodiscard]] bool is_removed() const override;
 
  private:
   FileSink(int descriptor, std::uint64_t size) : descriptor_(descriptor), size_(size) {}

@@ -54,6 +54,7 @@ class Writer {
   [[nodiscard]] std::string flush();
   /// See Sink::sync().
   [[nodiscard]] std::string sync() { return sink_->sync(); }
+  [[nodiscard]] bool is_removed() const { return sink_->is_removed(); }
 
   /// Its CRC is computed. Closes the open chunks before.
   [[nodiscard]] std::string attach(Attachment attachment);

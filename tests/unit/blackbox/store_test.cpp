@@ -207,6 +207,36 @@ TEST(Store, BeginsWhenTheDiskIsThereAgain) {
   EXPECT_GE(read(disk.files.begin()->second).messages.size(), 25U);
 }
 
+TEST(Store, BeginsAnewWhereSomebodyRemovesTheFile) {
+  const test::TemporaryFolder folder;
+  std::vector<std::string> said;
+  Store store(in(folder / "records"), blackbox::create_file, [&](bool is_trouble, const std::string& line) {
+    if (is_trouble) said.push_back(line);
+  });
+  add_origins(store);
+  for (int i = 0; i < 10; ++i) store.add(sample(0, 0.1 * i, 1));
+  store.settle(kBegin + kNsPerSecond);
+  std::filesystem::remove_all(folder / "records");
+  for (int i = 10; i < 20; ++i) store.add(sample(0, 0.1 * i, 2));
+  store.settle(kBegin + 2 * kNsPerSecond);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_NE(said[0].find("the file was removed while it was written, and 20 samples with it"),
+            std::string::npos)
+      << said[0];
+  EXPECT_EQ(store.counts().lost, 20U);
+  for (int i = 20; i < 30; ++i) store.add(sample(0, 0.1 * i, 3));
+  store.settle(kBegin + 3 * kNsPerSecond);
+  EXPECT_EQ(store.counts().trouble, "");
+  store.finish();
+  const auto files = blackbox::recordings_in(folder / "records");
+  ASSERT_EQ(files.size(), 1U);
+  auto reader = record::Reader::open(files.front());
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_EQ(reader.value().contents().statistics.message_count, 10U);
+  ASSERT_EQ(reader.value().contents().metadata.size(), 1U);
+  EXPECT_EQ(reader.value().contents().metadata[0].name, "dropped");
+}
+
 TEST(Store, TellsInTheFileWhatTheQueueDropped) {
   Disk disk;
   Store store(in("/nowhere"), disk.create(), disk.say());

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "made_file.hpp"
 #include "record/file.hpp"
@@ -152,6 +153,14 @@ TEST(BitFlip, InOneChunkLeavesTheOthersReadable) {
   EXPECT_TRUE(outcome.problems[0].starts_with("offset " + std::to_string(chunks[2].chunk_start_offset)));
   EXPECT_LT(said.size(), made.said.size());
   EXPECT_EQ(said.back(), made.said.back());
+}
+
+TEST(FileSource, DoesNotWaitForAPipe) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe.mcap").c_str(), 0600), 0);
+  const auto source = record::FileSource::open(folder / "pipe.mcap");
+  ASSERT_FALSE(source);
+  EXPECT_NE(source.error().message.find("pipe.mcap: is no file, expected a recording"), std::string::npos);
 }
 
 TEST(Garbage, NeverCrashes) {
