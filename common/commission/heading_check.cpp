@@ -130,7 +130,10 @@ VectorSeries down_of(const Series& series, const ImuReading& reading, double hal
       out.t_s.push_back(t);
       out.v.push_back(-(strapdown.at(t).C_WB.transpose() * felt).normalized());
     }
-    if (t == begun) t += 1.0;  // a gap
+    if (t > begun) continue;
+    // A gap, or the end of one: on in whole seconds, but not through all of a long one.
+    const auto next = std::lower_bound(imu.t_s.begin(), imu.t_s.end(), t);
+    t += std::max(1.0, std::floor(*next - t));
   }
   return out;
 }

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
@@ -12,10 +14,31 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Rows that go back in time are left out: where a clock is wrong, the order is the better half.
-template <class Times>
-bool behind(const Times& t_s, double next_s) {
-  return t_s.empty() || next_s > t_s.back();
+// Of the usable rows as many as are in the order of time. Where a clock leaps and comes back, those rows are
+// left out that leapt, and not all that follow them.
+template <class Sample, class Usable>
+std::vector<const Sample*> in_order(const std::vector<Sample>& rows, Usable usable) {
+  constexpr std::size_t kNone = SIZE_MAX;
+  std::vector<std::size_t> last;                        // of the best order of each length: its last row
+  std::vector<std::size_t> before(rows.size(), kNone);  // in the best order that ends with a row
+  const auto earlier = [&rows](std::size_t i, TimeNs t) { return rows[i].header.stamp_ns < t; };
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!usable(rows[i])) continue;
+    const TimeNs t = rows[i].header.stamp_ns;
+    const auto place = last.empty() || earlier(last.back(), t)
+                           ? last.end()
+                           : std::lower_bound(last.begin(), last.end(), t, earlier);
+    if (place != last.begin()) before[i] = *(place - 1);
+    if (place == last.end()) {
+      last.push_back(i);
+    } else if (t < rows[*place].header.stamp_ns) {
+      *place = i;
+    }
+  }
+  std::vector<const Sample*> out(last.size());
+  std::size_t row = last.empty() ? kNone : last.back();
+  for (auto kept = out.rbegin(); kept != out.rend(); ++kept, row = before[row]) *kept = &rows[row];
+  return out;
 }
 
 template <class Row, class S>
@@ -50,10 +73,12 @@ void settle_down(GpsVelocity& velocity) {
 void take_gps(const dataset::Dataset& data, const Assumed& assumed, Series& out) {
   std::optional<geo::Geodetic> origin;
   std::size_t fixed = 0;
-  for (const GpsSample& fix : data.of<GpsSample>()) {
-    if (fix.fix < GpsFix::fix_2d || !known(fix.latitude_rad) || !known(fix.longitude_rad)) continue;
+  const auto usable = [](const GpsSample& fix) {
+    return fix.fix >= GpsFix::fix_2d && known(fix.latitude_rad) && known(fix.longitude_rad);
+  };
+  for (const GpsSample* row : in_order(data.of<GpsSample>(), usable)) {
+    const GpsSample& fix = *row;
     const double t = to_seconds(fix.header.stamp_ns - out.epoch_ns) - assumed.gps.latency_s;
-    if (!behind(out.gps_position.t_s, t)) continue;
     const geo::Geodetic here{fix.latitude_rad, fix.longitude_rad,
                              known(fix.altitude_m) ? fix.altitude_m : 0.0};
     if (!origin) {
@@ -79,39 +104,36 @@ void take_gps(const dataset::Dataset& data, const Assumed& assumed, Series& out)
 Series series_of(const dataset::Dataset& data, const Assumed& assumed) {
   Series out;
   const auto& imu = data.of<ImuSample>();
-  out.epoch_ns = imu.front().header.stamp_ns;
-  const auto seconds = [&](const auto& sample) { return to_seconds(sample.header.stamp_ns - out.epoch_ns); };
-  for (const ImuSample& sample : imu) {
-    const Vector3d rate = geo::vec(sample.angular_rate_B_rad_s);
-    const Vector3d force = geo::vec(sample.specific_force_B_m_s2);
-    const double t = seconds(sample);
-    if (!rate.allFinite() || !force.allFinite() || !behind(out.imu.t_s, t)) continue;
-    out.imu.t_s.push_back(t);
-    out.imu.rate.push_back(assumed.C_BI * rate);
-    out.imu.force.push_back(assumed.C_BI * force);
+  const auto kept = in_order(imu, [](const ImuSample& sample) {
+    return geo::vec(sample.angular_rate_B_rad_s).allFinite() &&
+           geo::vec(sample.specific_force_B_m_s2).allFinite();
+  });
+  out.epoch_ns = (kept.empty() ? &imu.front() : kept.front())->header.stamp_ns;
+  const auto seconds = [&](const auto* sample) { return to_seconds(sample->header.stamp_ns - out.epoch_ns); };
+  for (const ImuSample* sample : kept) {
+    out.imu.t_s.push_back(seconds(sample));
+    out.imu.rate.push_back(assumed.C_BI * geo::vec(sample->angular_rate_B_rad_s));
+    out.imu.force.push_back(assumed.C_BI * geo::vec(sample->specific_force_B_m_s2));
   }
   take_gps(data, assumed, out);
-  for (const DvlSample& sample : data.of<DvlSample>()) {
-    const Vector3d velocity = geo::vec(sample.velocity_D_m_s);
-    const double t = seconds(sample) - assumed.dvl.latency_s;
-    if (sample.mode != DvlMode::bottom || !velocity.allFinite() || !behind(out.dvl.t_s, t)) continue;
-    out.dvl.t_s.push_back(t);
-    out.dvl.v.push_back(velocity);
+  for (const DvlSample* sample : in_order(data.of<DvlSample>(), [](const DvlSample& one) {
+         return one.mode == DvlMode::bottom && geo::vec(one.velocity_D_m_s).allFinite();
+       })) {
+    out.dvl.t_s.push_back(seconds(sample) - assumed.dvl.latency_s);
+    out.dvl.v.push_back(geo::vec(sample->velocity_D_m_s));
   }
-  for (const DepthSample& sample : data.of<DepthSample>()) {
-    const double t = seconds(sample) - assumed.depth.latency_s;
-    if (!known(sample.depth_m) || !behind(out.depth.t_s, t)) continue;
-    out.depth.t_s.push_back(t);
-    out.depth.v.push_back(sample.depth_m);
+  for (const DepthSample* sample :
+       in_order(data.of<DepthSample>(), [](const DepthSample& one) { return known(one.depth_m); })) {
+    out.depth.t_s.push_back(seconds(sample) - assumed.depth.latency_s);
+    out.depth.v.push_back(sample->depth_m);
   }
-  for (const HeadingSample& sample : data.of<HeadingSample>()) {
-    const double t = seconds(sample) - assumed.heading.latency_s;
-    if (!known(sample.heading_rad) || !behind(out.heading.t_s, t)) continue;
-    const double last = out.heading.v.empty() ? sample.heading_rad : out.heading.v.back();
-    out.heading.t_s.push_back(t);
-    out.heading.v.push_back(last + geo::wrap_pi(sample.heading_rad - last));
-    out.heading_magnetic = sample.north == North::magnetic;
-    if (known(sample.variation_rad)) out.heading_variation_rad = sample.variation_rad;
+  for (const HeadingSample* sample :
+       in_order(data.of<HeadingSample>(), [](const HeadingSample& one) { return known(one.heading_rad); })) {
+    const double last = out.heading.v.empty() ? sample->heading_rad : out.heading.v.back();
+    out.heading.t_s.push_back(seconds(sample) - assumed.heading.latency_s);
+    out.heading.v.push_back(last + geo::wrap_pi(sample->heading_rad - last));
+    out.heading_magnetic = sample->north == North::magnetic;
+    if (known(sample->variation_rad)) out.heading_variation_rad = sample->variation_rad;
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "commission/fit/gps_fit.hpp"
+#include "commission/fit/series.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "unit/commission/sabotage.hpp"
 
@@ -204,6 +205,39 @@ TEST(CommissionLevelBoat, ServesWithoutAVerticalVelocityForAVehicleThatDives) {
           << sabotage.name << ": " << finding->text;
     }
   }
+}
+
+constexpr DurationNs kCentury_ns = 3'000'000'000 * kNsPerSecond;
+
+TEST(CommissionClock, RowsWhoseClockLeapsAreLeftOutAndNotThoseThatFollow) {
+  dataset::Dataset data = sail(LevelBoat{}, 1);
+  const auto whole = commission::series_of(data, {});
+  const TimeNs epoch_ns = whole.epoch_ns;
+  for (const std::size_t i : {500U, 501U, 900U}) {
+    data.of<ImuSample>()[i].header.stamp_ns += kCentury_ns;
+    data.of<DvlSample>()[i].header.stamp_ns += kCentury_ns;
+  }
+  data.of<GpsSample>()[100].header.stamp_ns += kCentury_ns;
+  const auto series = commission::series_of(data, {});
+  EXPECT_EQ(series.epoch_ns, epoch_ns);
+  EXPECT_EQ(series.imu.size(), whole.imu.size() - 3);
+  EXPECT_EQ(series.dvl.size(), whole.dvl.size() - 3);
+  EXPECT_EQ(series.gps_position.size(), whole.gps_position.size() - 1);
+  data.of<ImuSample>().front().header.stamp_ns += kCentury_ns;
+  EXPECT_EQ(commission::series_of(data, {}).imu.size(), whole.imu.size() - 4);
+}
+
+TEST(CommissionClock, AGapOfACenturyIsNotWalkedThrough) {
+  dataset::Dataset data = sail(LevelBoat{}, 1);
+  HeadingSample heading;
+  for (const ImuSample& sample : data.of<ImuSample>()) {
+    heading.header = sample.header;
+    heading.heading_rad = 1.0;
+    data.of<HeadingSample>().push_back(heading);
+  }
+  data.of<ImuSample>().back().header.stamp_ns += kCentury_ns;
+  const auto found = commission::commission(data, {});
+  EXPECT_FALSE(found.findings.empty());
 }
 
 }  // namespace
