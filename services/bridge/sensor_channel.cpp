@@ -7,6 +7,7 @@
 
 #include "bridge/babble.hpp"
 #include "bridge/backlog.hpp"
+#include "bridge/change_log.hpp"
 #include "runtime/device_time.hpp"
 
 namespace fathom::bridge {
@@ -95,6 +96,8 @@ struct SensorChannel::Impl : codec::Sink {
   void new_codec() { codec = codec::find_protocol(plan.sensor.protocol)->make(plan.options); }
   void on_bytes(std::span<const std::uint8_t> bytes, const Arrival& at);
   void on_event(const SourceEvent& event);
+  /// True when there was one.
+  bool write(const std::optional<ChangeLog::Line>& line);
   void on_sample(const codec::Decoded& decoded) override;
   void on_rejected(const codec::Rejected& rejected) override;
 
@@ -126,6 +129,7 @@ struct SensorChannel::Impl : codec::Sink {
   std::array<std::uint64_t, kSampleKinds> sequence{};
   std::array<Burst, kRejectReasons> said_rejected;
   std::array<Burst, kRefusals> said_refused;
+  ChangeLog changes;
   Burst said_implausible;
   Burst said_step;
   Babble babble;
@@ -201,11 +205,16 @@ void SensorChannel::Impl::add_totals() {
   before = now;
 }
 
+bool SensorChannel::Impl::write(const std::optional<ChangeLog::Line>& line) {
+  if (line) log.write(line->level, line->text);
+  return line.has_value();
+}
+
 void SensorChannel::Impl::on_event(const SourceEvent& event) {
   const std::string text = plan.sensor.name.str() + ": " + event.detail;
-  log.write(event.state == SourceState::connected || event.state == SourceState::finished ? LogLevel::info
-                                                                                          : LogLevel::warning,
-            text);
+  const bool well = event.state == SourceState::connected || event.state == SourceState::finished;
+  const bool said =
+      write(changes.add({well ? LogLevel::info : LogLevel::warning, text}, clock.monotonic_ns()));
   if (event.state == SourceState::lost || event.state == SourceState::finished) {
     // Half a frame of the old connection must not meet half a frame of the new one.
     codec->finish(*this);
@@ -214,8 +223,10 @@ void SensorChannel::Impl::on_event(const SourceEvent& event) {
     new_codec();
     before = {};
     tracker.reset();
-    for (auto& burst : said_rejected) burst.forget();
-    for (auto& burst : said_refused) burst.forget();
+    if (said) {
+      for (auto& burst : said_rejected) burst.forget();
+      for (auto& burst : said_refused) burst.forget();
+    }
     babble.forget();
     rejected_bytes = 0;
     is_new = true;
@@ -335,6 +346,7 @@ ChannelCounters SensorChannel::counters() const {
 }
 
 std::optional<std::string> SensorChannel::judge() {
+  impl_->write(impl_->changes.due(impl_->clock.monotonic_ns()));
   const runtime::SourceStatus source = impl_->source.status();
   ChannelTotals totals;
   totals.state = source.state;

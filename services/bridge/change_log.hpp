@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/time.hpp"
+#include "runtime/log.hpp"
+
+namespace fathom::bridge {
+
+/// Which changes of a port's state are written. A few are written at once, each. Where there are many, as of
+/// a plug with a loose contact, the newest one is written once a period, with how many there were: they fill
+/// no disk. Thread-safe; the time is an argument.
+class ChangeLog {
+ public:
+  struct Line {
+    runtime::LogLevel level = runtime::LogLevel::info;
+    std::string text;
+  };
+
+  /// The line to be written now, if any.
+  [[nodiscard]] std::optional<Line> add(Line line, TimeNs monotonic_ns) {
+    const std::lock_guard lock(mutex_);
+    if (!begin_ns_ || monotonic_ns - *begin_ns_ >= kPeriod_ns) begin(monotonic_ns);
+    newest_ = std::move(line);
+    ++unsaid_;
+    if (said_ >= kFew) return std::nullopt;
+    return say();
+  }
+  /// What was held back and is to be written now. To be asked about once a second.
+  [[nodiscard]] std::optional<Line> due(TimeNs monotonic_ns) {
+    const std::lock_guard lock(mutex_);
+    if (unsaid_ == 0 || monotonic_ns - *begin_ns_ < kPeriod_ns) return std::nullopt;
+    begin(monotonic_ns);
+    return say();
+  }
+
+ private:
+  static constexpr DurationNs kPeriod_ns = 10 * kNsPerSecond;
+  static constexpr int kFew = 8;
+
+  void begin(TimeNs monotonic_ns) {
+    begin_ns_ = monotonic_ns;
+    said_ = unsaid_ > 0 ? kFew - 1 : 0;
+  }
+  Line say() {
+    Line out = newest_;
+    if (unsaid_ > 1) out.text += ", the last of " + std::to_string(unsaid_) + " changes";
+    unsaid_ = 0;
+    ++said_;
+    return out;
+  }
+
+  std::mutex mutex_;
+  std::optional<TimeNs> begin_ns_;
+  int said_ = 0;
+  std::uint64_t unsaid_ = 0;
+  Line newest_;
+};
+
+}  // namespace fathom::bridge
