@@ -68,11 +68,13 @@ struct NmeaOutService::Impl {
     std::uint64_t bytes = 0;
     std::uint64_t dropped = 0;
     std::uint64_t clients = 0;
+    std::uint64_t clients_refused = 0;
     std::string trouble;
     for (const OutletStatus& outlet : outlets.status()) {
       bytes += outlet.bytes;
       dropped += outlet.dropped;
       clients += static_cast<std::uint64_t>(outlet.clients);
+      clients_refused += outlet.clients_refused;
       if (!outlet.trouble.empty() && trouble.empty()) trouble = outlet.name + ": " + outlet.trouble;
     }
     const std::lock_guard lock(mutex);
@@ -80,6 +82,7 @@ struct NmeaOutService::Impl {
     status.counters.push_back({"bytes", bytes});
     status.counters.push_back({"bytes_dropped", dropped});
     status.counters.push_back({"clients", clients});
+    status.counters.push_back({"clients_refused", clients_refused});
     if (!trouble.empty()) {
       status.state = ServiceState::degraded;
       status.text = trouble;

@@ -15,7 +15,9 @@
 #include <asio/post.hpp>
 #include <asio/serial_port.hpp>
 
+#include "base/clock.hpp"
 #include "runtime/lane.hpp"
+#include "runtime/refusal_log.hpp"
 #include "runtime/reopening.hpp"
 #include "runtime/serial_line.hpp"
 
@@ -47,7 +49,7 @@ std::string describe(const NmeaOutputConfig& config) {
 class Outlet {
  public:
   Outlet(asio::io_context& io_in, NmeaOutputConfig config_in, const Outlets::Say& say)
-      : io(io_in), config(std::move(config_in)), port(io, describe(config), say) {}
+      : io(io_in), config(std::move(config_in)), port(io, describe(config), say), say_(say) {}
   virtual ~Outlet() = default;
   Outlet(const Outlet&) = delete;
   Outlet& operator=(const Outlet&) = delete;
@@ -91,12 +93,19 @@ class Outlet {
     shown.dropped = flow.dropped;
     shown.clients = clients;
   }
+  void note_refused(const std::string& line) {
+    if (const auto now = refusals_.add("full", line, SystemClock().monotonic_ns())) say_(true, *now);
+    const std::lock_guard lock(mutex);
+    ++shown.clients_refused;
+  }
 
   asio::io_context& io;
   const NmeaOutputConfig config;
   runtime::Reopening port;
 
  private:
+  const Outlets::Say say_;
+  runtime::RefusalLog refusals_;
   mutable std::mutex mutex;
   OutletStatus shown;
 };
@@ -199,9 +208,19 @@ class TcpOutlet final : public Outlet {
     acceptor.async_accept([this](const asio::error_code& error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (error) return fail(error.message());
-      if (clients.size() < static_cast<std::size_t>(config.most_clients)) add(std::move(socket));
+      if (clients.size() < static_cast<std::size_t>(config.most_clients)) {
+        add(std::move(socket));
+      } else {
+        refuse(socket);
+      }
       accept();
     });
+  }
+  void refuse(const tcp::socket& socket) {
+    asio::error_code gone;
+    const std::string peer = socket.remote_endpoint(gone).address().to_string();
+    note_refused(port.name() + ": a client from " + peer + " was refused: " + std::to_string(clients.size()) +
+                 " are connected, expected at most that many (most_clients)");
   }
   void add(tcp::socket socket) {
     asio::error_code ignored;

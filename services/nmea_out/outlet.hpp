@@ -10,11 +10,12 @@
 namespace fathom::nmea_out {
 
 struct OutletStatus {
-  std::string name;           ///< "tcp server 127.0.0.1:10110"
-  std::string trouble;        ///< why nothing leaves; empty when all is well
-  std::uint64_t bytes = 0;    ///< that left
-  std::uint64_t dropped = 0;  ///< bytes that a slow receiver did not take
-  int clients = 0;            ///< of a TCP server
+  std::string name;                   ///< "tcp server 127.0.0.1:10110"
+  std::string trouble;                ///< why nothing leaves; empty when all is well
+  std::uint64_t bytes = 0;            ///< that left
+  std::uint64_t dropped = 0;          ///< bytes that a slow receiver did not take
+  int clients = 0;                    ///< of a TCP server
+  std::uint64_t clients_refused = 0;  ///< because there were as many as there may be
 };
 
 /// The way out of sentences, on one thread for all of them. A receiver that is slow, dead or not there loses

@@ -122,6 +122,20 @@ TEST(NmeaOut, AStuckClientHarmsNobody) {
   EXPECT_TRUE(wait_until([&] { return clients.load() == 0; })) << "both have gone";
 }
 
+TEST(NmeaOut, AClientTooManyIsToldOf) {
+  const int tcp = free_port(SOCK_STREAM);
+  Vehicle vehicle;
+  Process service("fathom-nmea-out",
+                  arguments(R"([{"type":"tcp_server","address":"127.0.0.1","most_clients":1,"port":)" +
+                            std::to_string(tcp) + R"(,"sentences":[{"sentence":"GGA","rate_hz":10}]}])"));
+  Lines first(Lines::connected(tcp));
+  ASSERT_FALSE(first.next_with("$INGGA,").empty()) << service.err();
+  Lines second(Lines::connected(tcp));
+  EXPECT_TRUE(wait_until([&] {
+    return service.err().find("a client from 127.0.0.1 was refused: 1 are connected") != std::string::npos;
+  })) << service.err();
+}
+
 TEST(NmeaOut, APortThatCannotBeOpenedIsSaidAndTriedAgain) {
   TemporaryFolder folder;
   const std::string path = (folder.path() / "tty").string();
