@@ -133,7 +133,11 @@ Result<Order> order_of(std::string_view text) {
   }
   for (const auto& [key, value] : order.items()) {
     if (key == "kind" || std::find(form->keys.begin(), form->keys.end(), key) != form->keys.end()) continue;
-    return Error{"The order " + word_of(*form) + " has a key that it does not know."};
+    std::string keys;
+    for (const auto& one : form->keys) keys += ", " + std::string(one);
+    return Error{"The order " + word_of(*form) + " does not know the key " +
+                 json(key.substr(0, 31)).dump(-1, ' ', true, json::error_handler_t::replace) +
+                 ", expected kind" + keys + "."};
   }
   std::string fault;
   if (!form->kind) {

@@ -101,6 +101,13 @@ TEST(Order, ThatIsNotExactlyOneIsRefused) {
   }
 }
 
+TEST(Order, WithAKeyThatItDoesNotKnowIsRefusedByName) {
+  const auto order = order_of(R"({"kind": "enable_source", "source": "gps"})");
+  ASSERT_FALSE(order);
+  EXPECT_EQ(order.error().message,
+            "The order enable_source does not know the key \"source\", expected kind, target.");
+}
+
 TEST(Order, WithAKeyThatStandsTwiceIsRefusedByName) {
   EXPECT_EQ(
       fault_of(
