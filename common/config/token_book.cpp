@@ -1,18 +1,18 @@
 #include "config/token_book.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "base/disk/regular_file.hpp"
 #include "config/json/strict_json.hpp"
 
 namespace fathom::config {
 namespace {
 
 using nlohmann::json;
+constexpr std::size_t kMostBytes = 1UL << 20U;
 constexpr std::size_t kShortestToken = 16;
 constexpr std::size_t kLongestToken = 256;
 constexpr std::size_t kLongestName = 20;  // "console:" and the name fit the name of a command's writer
@@ -100,10 +100,10 @@ TokenBook TokenBook::load(const std::string& path) {
   if ((status.st_mode & (S_IRWXG | S_IRWXO)) != 0) {
     throw TokenError(path + ": others may read or write it, expected mode 0600");
   }
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
+  const auto text = read_regular_file(path, kMostBytes);
+  if (!text) throw TokenError(path + ": " + text.error().message);
   try {
-    return parse(text.str());
+    return parse(text.value());
   } catch (const TokenError& error) {
     throw TokenError(path + ": " + error.what());
   }

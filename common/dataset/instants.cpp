@@ -1,5 +1,6 @@
 #include "dataset/instants.hpp"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "base/disk/regular_file.hpp"
 #include "dataset/dataset.hpp"
 #include "geo/so3.hpp"
 
@@ -31,14 +33,20 @@ geo::Quaternion quaternion(const std::array<double, 4>& q) {
 }  // namespace
 
 std::vector<Instant> read_instants(const std::filesystem::path& path, TimeNs epoch_ns) {
+  const auto fail = [&path](const std::string& wrong) {
+    throw DatasetError(path.string() + ": " + wrong + ", expected a file with one instant a line");
+  };
+  if (!no_regular_file(path).empty()) fail("is not there or no file");
   std::ifstream file(path, std::ios::binary);
-  if (!std::filesystem::is_regular_file(path) || !file)
-    throw DatasetError(path.string() + ": cannot be read, expected a file with one instant a line");
+  if (!file) fail("cannot be read");
   std::vector<Instant> out;
-  std::string line;
+  std::array<char, 4096> buffer{};
   bool first = true;
-  for (std::size_t number = 1; std::getline(file, line); ++number) {
-    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+  for (std::size_t number = 1; file.getline(buffer.data(), buffer.size()) || file.gcount() > 0; ++number) {
+    if (file.fail() && !file.eof()) fail("line " + std::to_string(number) + " is longer than 4094 bytes");
+    const auto taken = static_cast<std::size_t>(file.gcount());
+    std::string_view line(buffer.data(), file.eof() ? taken : taken - 1);  // without its end
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
     const std::string_view word = trimmed(line);
     if (word.empty()) continue;
     double t_s = 0.0;

@@ -4,6 +4,7 @@
 #include <string>
 #include <system_error>
 
+#include "base/disk/regular_file.hpp"
 #include "dataset/columns.hpp"
 #include "dataset/csv_reader.hpp"
 #include "dataset/dataset.hpp"
@@ -85,14 +86,21 @@ void read_stream(const std::filesystem::path& directory, std::string_view kind, 
   const std::filesystem::path plain = directory / (std::string(kind) + ".csv");
   std::filesystem::path zipped = plain;
   zipped += ".gz";
-  const bool has_plain = std::filesystem::exists(plain);
-  const bool has_zipped = std::filesystem::exists(zipped);
+  const auto lies_there = [](const std::filesystem::path& path) {
+    std::error_code unknown;
+    return std::filesystem::symlink_status(path, unknown).type() != std::filesystem::file_type::not_found;
+  };
+  const bool has_plain = lies_there(plain);
+  const bool has_zipped = lies_there(zipped);
   if (has_plain && has_zipped) {
     throw DatasetError(plain.string() + ": exists beside " + zipped.filename().string() +
                        ", expected one of the two");
   }
   if (!has_plain && !has_zipped) return;
-  SensorFile file(has_plain ? plain : zipped, kind, options);
+  const std::filesystem::path& there = has_plain ? plain : zipped;
+  if (const std::string wrong = no_regular_file(there); !wrong.empty())
+    throw DatasetError(there.string() + ": " + wrong);
+  SensorFile file(there, kind, options);
   const typename Columns<T>::Found found(columns<T>(), file.csv);
   while (file.next()) {
     T& row = out.emplace_back();

@@ -3,17 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "base/disk/regular_file.hpp"
 #include "console/assets.hpp"
 
 namespace fathom::console {
 namespace {
+
+constexpr std::size_t kMostTile = 16UL << 20U;  // far more than a picture of 512 x 512 pixels has
 
 Answer json_answer(int status, const nlohmann::json& json) {
   Answer out;
@@ -134,12 +135,12 @@ Answer Site::order(const Asked& asked) const {
 Answer Site::tile(const Asked& asked) const {
   const auto file = tile_file(asked.request.path);
   if (!file || options_.tiles_dir.empty()) return nothing_here();
-  std::ostringstream bytes;
-  bytes << std::ifstream(options_.tiles_dir + *file, std::ios::binary).rdbuf();
+  auto bytes = read_regular_file(options_.tiles_dir + *file, kMostTile);
+  if (!bytes) return nothing_here();
   Answer out;
   out.type = "image/png";
   out.cache = options_.view_needs_token ? "private, max-age=3600" : "max-age=3600";
-  out.body = std::move(bytes).str();
+  out.body = std::move(bytes.value());
   return out.body.empty() ? nothing_here() : out;
 }
 

@@ -2,12 +2,11 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <mutex>
-#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "base/disk/regular_file.hpp"
 #include "base/forward_only.hpp"
 #include "bus/reader.hpp"
 #include "config/json/error.hpp"
@@ -22,6 +21,7 @@ namespace {
 
 constexpr DurationNs kFresh_ns = kNsPerSecond;
 constexpr std::size_t kMostUnread = 4 * mavlink::kMostFrame;
+constexpr std::size_t kMostKeyFile = 64 * 1024;
 constexpr std::uint8_t kTypeGcs = 6;
 
 std::optional<geo::Geodetic> origin_in(const config::MavlinkGatewayConfig& config) {
@@ -48,12 +48,12 @@ class Pace {
 
 std::optional<mavlink::Key> key_in(const config::MavlinkSigning& signing, const std::string& file) {
   if (signing.key_file.empty()) return std::nullopt;
-  std::ifstream in(signing.key_file);
-  std::stringstream text;
-  text << in.rdbuf();
+  const auto text = read_regular_file(signing.key_file, kMostKeyFile);
   const std::string value = "\"" + signing.key_file + "\"";
-  if (!in) throw config::ConfigError(file, "signing.key_file", value, "a file that can be read");
-  const auto key = mavlink::key_of(text.str());
+  if (!text)
+    throw config::ConfigError(file, "signing.key_file", value,
+                              "a file that can be read; it " + text.error().message);
+  const auto key = mavlink::key_of(text.value());
   if (!key)
     throw config::ConfigError(file, "signing.key_file", value,
                               "64 hexadecimal digits; it " + key.error().message);

@@ -4,11 +4,14 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <system_error>
 
 #include <nlohmann/json.hpp>
+
+#include "base/disk/regular_file.hpp"
 
 namespace fathom::monitor {
 namespace {
@@ -51,16 +54,16 @@ std::vector<health::GpsOutageBook> OutageFile::read(const Name& vehicle) {
   error_.clear();
   std::vector<health::GpsOutageBook> books;
   if (path_.empty()) return books;
-  std::ifstream file(path_, std::ios::binary);
-  if (!file) return books;
-  std::string text(kMostBytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  const json all = text.size() > kMostBytes ? json() : json::parse(text, nullptr, false);
-  const auto fail = [&](const char* what) {
+  std::error_code absent;
+  if (std::filesystem::symlink_status(path_, absent).type() == std::filesystem::file_type::not_found)
+    return books;
+  const auto fail = [&](const std::string& what) {
     error_ = "GPS outages of before, " + path_ + ": " + what + "; outages are counted anew";
     return std::vector<health::GpsOutageBook>();
   };
+  const auto text = read_regular_file(path_, kMostBytes);
+  if (!text) return fail(text.error().message);
+  const json all = json::parse(text.value(), nullptr, false);
   if (!all.is_object() || !all.contains("vehicle") || !all["vehicle"].is_string() ||
       !all.contains("outages") || !all["outages"].is_array() || all["outages"].size() > kMostBooks)
     return fail("not what the monitor writes there");

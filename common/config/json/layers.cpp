@@ -1,15 +1,10 @@
 #include "config/json/layers.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
-#include <memory>
 #include <sstream>
 
-#include <sys/stat.h>
-
+#include "base/disk/regular_file.hpp"
 #include "config/json/strict_json.hpp"
 #include "config/json/value.hpp"
 
@@ -18,30 +13,11 @@ namespace {
 
 constexpr std::size_t kMostBytes = 4UL << 20;
 
-/// The whole of a configuration file. A device would be read without end and a pipe waits for a writer, so
-/// that only a regular file is opened.
+/// The whole of a configuration file.
 std::string read_text(const std::string& file) {
-  const auto unreadable = [&file] {
-    return ConfigError(file, std::string("cannot be read: ") + std::strerror(errno) +
-                                 ", expected a JSON configuration file");
-  };
-  struct stat status {};
-  if (stat(file.c_str(), &status) != 0) throw unreadable();
-  if (!S_ISREG(status.st_mode)) {
-    const char* kind = S_ISDIR(status.st_mode)                              ? "a folder"
-                       : S_ISFIFO(status.st_mode)                           ? "a pipe"
-                       : S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode) ? "a device"
-                                                                            : "a socket";
-    throw ConfigError(file, std::string("is ") + kind + ", expected a regular file");
-  }
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw unreadable();
-  const auto text = std::make_unique_for_overwrite<char[]>(kMostBytes + 1);
-  in.read(text.get(), kMostBytes + 1);
-  if (in.bad()) throw unreadable();
-  const auto size = static_cast<std::size_t>(in.gcount());
-  if (size > kMostBytes) throw ConfigError(file, "is larger, expected at most 4 MiB");
-  return {text.get(), size};
+  auto text = read_regular_file(file, kMostBytes);
+  if (!text) throw ConfigError(file, text.error().message);
+  return std::move(text.value());
 }
 
 // Text in an override needs no quotes: what is not JSON is text, and so is a number that no double holds.

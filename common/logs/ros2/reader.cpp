@@ -284,6 +284,7 @@ bool is_wanted(const Schema& schema) {
 bool looks_like(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return !files_of(path).empty();
+  if (!std::filesystem::is_regular_file(path, error)) return false;
   std::ifstream file(path, std::ios::binary);
   std::array<char, record::kMagic.size()> begin{};
   file.read(begin.data(), begin.size());

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 
 #include <nlohmann/json.hpp>
 
+#include "base/disk/regular_file.hpp"
 #include "base/iso8601.hpp"
 #include "base/units.hpp"
 #include "cli/command.hpp"
@@ -141,13 +141,21 @@ std::optional<TimeNs> epoch_of(const std::string& source, const std::string& ask
     throw Failure(ExitCode::bad_configuration,
                   "--epoch " + asked + ": is no instant, expected one like 2026-01-31T12:00:00Z");
   }
-  std::ifstream file(std::filesystem::path(source) / "import.json");
-  if (file) {
-    const auto json = nlohmann::json::parse(file, nullptr, false);
-    if (json.is_object() && json.contains("utc_of_start") && json["utc_of_start"].is_string())
-      return from_iso8601(json["utc_of_start"].get<std::string>());
-  }
-  return std::nullopt;
+  const std::filesystem::path file = std::filesystem::path(source) / "import.json";
+  std::error_code absent;
+  if (!std::filesystem::exists(file, absent)) return std::nullopt;
+  constexpr std::size_t kMostBytes = 4UL << 20U;
+  const auto text = read_regular_file(file, kMostBytes);
+  if (!text) throw Failure(ExitCode::bad_input, file.string() + ": " + text.error().message);
+  const auto json = nlohmann::json::parse(text.value(), nullptr, false);
+  if (!json.is_object() || !json.contains("utc_of_start") || json["utc_of_start"].is_null())
+    return std::nullopt;
+  const nlohmann::json& said = json["utc_of_start"];
+  const auto epoch_ns = said.is_string() ? from_iso8601(said.get<std::string>()) : std::nullopt;
+  if (!epoch_ns)
+    throw Failure(ExitCode::bad_input, file.string() + ": utc_of_start: is " + said.dump() +
+                                           ", expected one like \"2026-01-31T12:00:00Z\", or --epoch");
+  return epoch_ns;
 }
 
 std::vector<Track> read_tracks(const std::string& source, TimeNs epoch_ns, double rate_hz) {

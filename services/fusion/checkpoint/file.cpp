@@ -47,7 +47,8 @@ std::string replace_file(const std::filesystem::path& path, std::span<const std:
   std::filesystem::create_directories(folder, error);
   std::filesystem::path beside = path;
   beside += ".new";
-  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  // A pipe that lies there is not waited for.
+  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NONBLOCK, 0600);
   if (file < 0) return failure("cannot be written", beside);
   const bool written = write_all(file, bytes) && (!sync || ::fsync(file) == 0);
   std::string why = written ? std::string() : failure("cannot be written", beside);

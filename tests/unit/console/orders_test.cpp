@@ -52,6 +52,9 @@ TEST(Tokens, AFileThatOthersMayReadIsRefused) {
   EXPECT_EQ(TokenBook::load(path).whois("0123456789abcdef").name, "bridge");
   std::filesystem::remove(path);
   EXPECT_THROW((void)TokenBook::load(path), TokenError);
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  EXPECT_THROW((void)TokenBook::load(path), TokenError) << "and a pipe is not waited for";
+  std::filesystem::remove(path);
 }
 
 TEST(Orders, OnlyOperatorsAndOnlyWhereOrdersAreOn) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "console/assets.hpp"
@@ -101,6 +102,11 @@ TEST_F(SiteTest, WithoutATokenNothingIsReachedButTheFilesCompiledIn) {
     EXPECT_EQ(ask("GET", path).status, 404) << path;
   for (const char* path : {"/", "/api/live", "/api/session", "/tiles/12/3456/789.png"})
     EXPECT_EQ(ask("POST", path, kOperator).status, 404) << path;
+}
+
+TEST_F(SiteTest, ATileThatIsAPipeIsNotWaitedFor) {
+  ASSERT_EQ(mkfifo((tiles / "12/3456/790.png").c_str(), 0600), 0);
+  EXPECT_EQ(ask("GET", "/tiles/12/3456/790.png", kViewer).status, 404);
 }
 
 TEST_F(SiteTest, TilesComeFromTheirFolderOnly) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "dataset/dataset.hpp"
 #include "geo/so3.hpp"
@@ -110,7 +111,9 @@ TEST(ReadInstants, TakesAHeaderAndNamesTheLineThatIsWrong) {
       {"1\nnan\n", "at.csv:2: 'nan'"},
       {"nan\n1\n", "at.csv:1: 'nan'"},
       {"1e300\n", "at.csv:1: '1e300'"},
-      {"t_s\nt_s\n1\n", "at.csv:2: 't_s'"}};
+      {"t_s\nt_s\n1\n", "at.csv:2: 't_s'"},
+      {"1\n2" + std::string(1, '\0') + "\n", "at.csv:2: '2"},
+      {"1\n" + std::string(5000, '0'), "at.csv: line 2 is longer than 4094 bytes"}};
   for (const auto& [text, message] : bad) {
     try {
       (void)read_instants(file(text), 0);
@@ -120,6 +123,8 @@ TEST(ReadInstants, TakesAHeaderAndNamesTheLineThatIsWrong) {
     }
   }
   EXPECT_THROW((void)read_instants(folder.path() / "nothing", 0), DatasetError);
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_THROW((void)read_instants(folder / "pipe", 0), DatasetError);
 }
 
 }  // namespace

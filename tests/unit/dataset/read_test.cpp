@@ -1,8 +1,10 @@
 #include <cmath>
+#include <filesystem>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "base/units.hpp"
 #include "base/unknown.hpp"
@@ -238,6 +240,16 @@ TEST(ReadDataset, RefusesTwoVersionsOfOneFileAndAMissingFolder) {
   folder.zipped("depth.csv.gz", "t_s,depth_m\n1,2\n");
   EXPECT_THAT(error_of_reading(folder), testing::HasSubstr("depth.csv: exists beside depth.csv.gz"));
   EXPECT_THROW(static_cast<void>(read(folder.path() / "nowhere")), DatasetError);
+}
+
+TEST(ReadDataset, NamesWhatIsNoFileAndDoesNotWaitForAPipe) {
+  const DatasetFolder folder;
+  std::filesystem::create_symlink("depth.csv", folder.path() / "depth.csv");
+  EXPECT_THAT(error_of_reading(folder),
+              testing::HasSubstr("depth.csv: cannot be read: Too many levels of symbolic links"));
+  std::filesystem::remove(folder.path() / "depth.csv");
+  ASSERT_EQ(::mkfifo((folder.path() / "depth.csv").c_str(), 0600), 0);
+  EXPECT_THAT(error_of_reading(folder), testing::HasSubstr("depth.csv: is a pipe, expected a regular file"));
 }
 
 TEST(Arrivals, AreInOrderOfReceptionWithTheInertialSampleFirst) {

@@ -52,6 +52,13 @@ TEST_F(CheckpointFile, AFullDiskLeavesTheOldOne) {
   EXPECT_EQ(read_file(path).value(), image(100));
 }
 
+TEST_F(CheckpointFile, APipeInItsPlaceIsNotWaitedFor) {
+  const fs::path path = folder / "fusion.checkpoint";
+  ASSERT_EQ(::mkfifo((folder / "fusion.checkpoint.new").c_str(), 0600), 0);
+  const std::string why = replace_file(path, image(10), false);
+  EXPECT_NE(why.find("cannot be written"), std::string::npos) << why;
+}
+
 TEST_F(CheckpointFile, WhereNoFileCanBeItIsSaid) {
   std::ofstream(folder / "file") << "x";
   const std::string why = replace_file(folder / "file" / "fusion.checkpoint", image(10), false);

@@ -4,11 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "base/units.hpp"
+#include "config/json/error.hpp"
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "mavlink_gateway/mavlink_gateway_service.hpp"
 #include "mavlink_gateway/messages.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fathom::mavlink_gateway {
 namespace {
@@ -147,6 +151,16 @@ TEST(MavlinkMessages, TheHeartbeatSaysHowItIs) {
   EXPECT_EQ(heartbeat_of(state_at(0.0), true).system_status, 4);
   EXPECT_EQ(heartbeat_of(state_at(0.0), false).system_status, 5);
   EXPECT_EQ(heartbeat_of(state_at(0.0), true).mavlink_version, 3);
+}
+
+TEST(MavlinkKey, AFileThatIsNoneIsNamedAndNotWaitedFor) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "key").c_str(), 0600), 0);
+  config::MavlinkSigning signing;
+  for (const std::string& path : {folder / "key", folder / "none", std::string("/dev/zero")}) {
+    signing.key_file = path;
+    EXPECT_THROW((void)key_in(signing, "gateway.json"), config::ConfigError) << path;
+  }
 }
 
 }  // namespace

@@ -13,7 +13,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "monitor/outage_file.hpp"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace fathom::monitor {
 namespace {
@@ -139,6 +141,14 @@ TEST_F(RecordKeeperTest, AJournalThatCannotBeIsATroubleAndStopsNobody) {
   keeper.append(raised(1), kNow);
   ASSERT_TRUE(test::wait_until([&] { return keeper.state().journal.failures > 0; }, kPatience_s));
   EXPECT_NE(keeper.state().trouble.find("regular file"), std::string::npos);
+}
+
+TEST(OutageFile, DoesNotWaitForAPipe) {
+  const test::TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "journal.outages").c_str(), 0600), 0);
+  OutageFile file(folder / "journal");
+  EXPECT_TRUE(file.read("auv").empty());
+  EXPECT_NE(file.error().find("is a pipe, expected a regular file"), std::string::npos) << file.error();
 }
 
 }  // namespace
