@@ -11,6 +11,7 @@
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/waterlinked.hpp"
 #include "codec/imu/vectornav.hpp"
+#include "codec/imu/xsens.hpp"
 #include "codec/range/micromodem.hpp"
 #include "codec/satellite/gpsd.hpp"
 #include "codec/satellite/ubx.hpp"
@@ -43,6 +44,7 @@ constexpr std::array<std::string_view, 5> kWaterlinkedAliases{"waterlinked_json"
                                                               "a125", "water_linked_json"};
 constexpr std::array<std::string_view, 4> kVectornavAliases{"vn", "vnbin", "vectornav_binary",
                                                             "imu_vectornav"};
+constexpr std::array<std::string_view, 4> kXsensAliases{"xsens_mti", "mti", "mtdata2", "xbus"};
 constexpr std::array<std::string_view, 4> kParoscientificAliases{"pressure", "digiquartz", "paros",
                                                                  "pressure_paroscientific"};
 constexpr std::array<std::string_view, 3> kAsciiDepthAliases{"ascii", "depth_line", "ascii_line"};
@@ -56,7 +58,12 @@ constexpr std::array<std::string_view, 2> kMavlinkAliases{"ardusub", "mavlink2"}
 constexpr std::array<std::string_view, 1> kGpsdAliases{"gpsd_json"};
 constexpr std::array<std::string_view, 3> kMicromodemAliases{"whoi", "whoi_micromodem", "micro_modem"};
 
-const std::array<Protocol, 14> kProtocols{{
+constexpr std::string_view kXsensDescription =
+    "Xsens MTi, MTData2 with rate of turn and acceleration or increments";
+constexpr std::string_view kNoGreeting;
+constexpr bool kTurnsAxes = true;
+
+const std::array<Protocol, 15> kProtocols{{
     {"nmea0183", kNmeaAliases, kNmeaDescription, make_nmea0183, DeviceClock::none},
     {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx, DeviceClock::utc},
     {"pd0", kPd0Aliases, "Teledyne RDI PD0 ensembles with bottom track", make_pd0, DeviceClock::counter},
@@ -64,6 +71,7 @@ const std::array<Protocol, 14> kProtocols{{
      DeviceClock::counter},
     {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data", make_vectornav,
      DeviceClock::counter},
+    {"xsens", kXsensAliases, kXsensDescription, make_xsens, DeviceClock::counter, kNoGreeting, kTurnsAxes},
     {"paroscientific", kParoscientificAliases, "Paroscientific Digiquartz pressure", make_paroscientific,
      DeviceClock::none},
     {"ascii_depth", kAsciiDepthAliases, "one depth or pressure a line, prefix, scale and offset configurable",

@@ -64,6 +64,8 @@ struct Protocol {
   DeviceClock clock;
   /// What a client has to say on connecting by TCP, before anything is told; empty for most.
   std::string_view greeting{};
+  /// An inertial unit whose own axes are not forward, right, down: the codec has turned them already.
+  bool turns_axes = false;
 };
 
 /// Every protocol, in the order of the documentation. README.md says what a new one takes.

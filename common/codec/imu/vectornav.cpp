@@ -9,6 +9,7 @@
 #include "base/little_endian.hpp"
 #include "base/units.hpp"
 #include "codec/framer.hpp"
+#include "codec/imu/known3.hpp"
 #include "codec/imu/vectornav_layout.hpp"
 #include "codec/text/numbers.hpp"
 
@@ -49,10 +50,6 @@ std::array<double, 3> vector3(Bytes frame, std::size_t at, double factor = 1.0) 
   std::array<double, 3> v{};
   for (std::size_t i = 0; i < 3; ++i) v[i] = factor * load_le<float>(frame, at + 4 * i);
   return v;
-}
-
-bool known3(const std::array<double, 3>& v) {
-  return known(v[0]) && known(v[1]) && known(v[2]);
 }
 
 void set_from_increments(ImuSample& s) {

@@ -115,6 +115,12 @@ void describe(Schema<ImuSensorConfig>& s) {
   s.field("max_specific_force_m_s2", &ImuSensorConfig::max_specific_force_m_s2, "samples beyond are refused")
       .unit("m/s^2")
       .range(10, 1e6);
+  s.check([](const ImuSensorConfig& c) -> Violation {
+    const codec::Protocol* protocol = codec::find_protocol(c.sensor.protocol);
+    if (protocol == nullptr || !protocol->turns_axes || c.mounting.frame != MountingFrame::flu) return {};
+    return {"mounting.frame", "frd or matrix, because the codec of " + std::string(protocol->name) +
+                                  " has turned the unit's own axes to forward-right-down already"};
+  });
 }
 
 void describe(Schema<DvlSensorConfig>& s) {

@@ -62,7 +62,13 @@ void bridge_layers(const Sources& vehicle, std::string_view role, Layers& out) {
     out.overlay(at + "time.mode", mode, kStandard);
     put(out, at + (mode == "device_clock" ? "time.minimum_latency_s" : "time.latency_s"),
         find(known, "latency_s", usual_latency_s(one.kind)));
-    if (one.kind == SourceKind::imu) put(out, at + "mounting.frame", find(known, "axes", "frd"));
+    if (one.kind == SourceKind::imu) {
+      if (speaks != nullptr && speaks->turns_axes) {
+        out.overlay(at + "mounting.frame", "frd", kStandard);
+      } else {
+        put(out, at + "mounting.frame", find(known, "axes", "frd"));
+      }
+    }
     if (one.kind == SourceKind::depth) {
       out.mark(at + "latitude_deg", {Layer::vehicle, vehicle.name, "latitude_deg"});
       if (vehicle.file.contains("latitude_deg") && !vehicle.file.at("latitude_deg").is_null())

@@ -5,20 +5,19 @@
 
 #include "base/little_endian.hpp"
 #include "base/units.hpp"
+#include "codec/imu/known3.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/vectornav_layout.hpp"
 
 namespace fathom::sim::encode {
 namespace {
 
+using codec::known3;
+
 namespace vn = codec::vectornav;
 
 constexpr TimeNs kGpsEpoch_ns = 315'964'800 * kNsPerSecond;
 constexpr DurationNs kGpsAheadOfUtc_ns = 18 * kNsPerSecond;
-
-bool known3(const std::array<double, 3>& v) {
-  return known(v[0]) && known(v[1]) && known(v[2]);
-}
 
 void append3(std::vector<std::uint8_t>& bytes, const std::array<double, 3>& v, double factor = 1.0) {
   for (const double x : v) append_le<float>(bytes, static_cast<float>(factor * x));

@@ -5,6 +5,7 @@
 
 #include "geo/so3.hpp"
 #include "sim/encode/vectornav.hpp"
+#include "sim/encode/xsens.hpp"
 #include "sim/truth_generator.hpp"
 
 namespace fathom::sim {
@@ -85,7 +86,9 @@ ImuSample ImuModel::sample(const ImuTruth& interval, const TruthPoint& end) {
 }
 
 Bytes SimulatedDevice<ImuSample>::encode(const ImuSample& imu, const DeviceCall& device) {
-  return encode::vectornav(imu, imu.header.stamp_ns - device.power_on_ns);
+  const DurationNs since_power_on_ns = imu.header.stamp_ns - device.power_on_ns;
+  if (device.protocol == "xsens") return encode::xsens(imu, counter_++, since_power_on_ns);
+  return encode::vectornav(imu, since_power_on_ns);
 }
 
 }  // namespace fathom::sim

@@ -87,8 +87,11 @@ struct ModelOf<ImuSample> {
 template <>
 class SimulatedDevice<ImuSample> {
  public:
-  static constexpr std::array<std::string_view, 1> kProtocols{"vectornav"};
+  static constexpr std::array<std::string_view, 2> kProtocols{"vectornav", "xsens"};
   [[nodiscard]] Bytes encode(const ImuSample& imu, const DeviceCall& device);
+
+ private:
+  std::uint16_t counter_ = 0;  ///< of messages, where the protocol counts them
 };
 
 }  // namespace fathom::sim

@@ -9,9 +9,11 @@
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/waterlinked.hpp"
 #include "codec/imu/vectornav.hpp"
+#include "codec/imu/xsens.hpp"
 #include "sim/encode/pd0.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/waterlinked.hpp"
+#include "sim/encode/xsens.hpp"
 
 namespace fathom {
 namespace {
@@ -102,6 +104,45 @@ TEST_F(RoundTrip, VectorNavKeepsNanosecondsAndSinglePrecision) {
       expect_same3(s.delta_velocity_B_m_s, r.delta_velocity_B_m_s, 6e-8, 0.0);
     }
     EXPECT_EQ(known(r.temperature_degC), known(s.temperature_degC));
+  }
+}
+
+TEST_F(RoundTrip, XsensKeepsTicksAndSinglePrecision) {
+  for (int run = 0; run < kRuns; ++run) {
+    const std::int64_t ticks = static_cast<std::int64_t>(draw(0.0, 4e9));
+    std::vector<std::uint8_t> stream;
+    std::array<ImuSample, 2> sent;
+    const bool utc = chance(0.5);
+    const TimeNs utc_ns = kSomeTime_ns + run * 10'000'001LL;
+    for (std::size_t i = 0; i < 2; ++i) {
+      ImuSample& s = sent[i];
+      s.angular_rate_B_rad_s = draw3(3.0);
+      s.specific_force_B_m_s2 = draw3(30.0);
+      s.delta_time_s = 0.01;
+      s.delta_angle_B_rad = draw3(0.03);
+      s.delta_velocity_B_m_s = draw3(0.3);
+      if (chance(0.5)) s.temperature_degC = draw(-10.0, 60.0);
+      const auto message = sim::encode::xsens(
+          s, static_cast<std::uint16_t>(65'000 + 2 * run + static_cast<int>(i)),
+          (ticks + 100 * static_cast<std::int64_t>(i)) * 100'000, utc ? std::optional(utc_ns) : std::nullopt);
+      stream.insert(stream.end(), message.begin(), message.end());
+    }
+    const auto got = read(codec::make_xsens({}), stream);
+    ASSERT_EQ(got.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const ImuSample& s = sent[i];
+      const auto& r = std::get<ImuSample>(got[i].sample);
+      EXPECT_EQ(got[i].time.clock_ns, (ticks + 100 * static_cast<std::int64_t>(i)) * 100'000);
+      EXPECT_EQ(got[i].time.utc_ns, utc ? std::optional(utc_ns) : std::nullopt);
+      expect_same3(s.angular_rate_B_rad_s, r.angular_rate_B_rad_s, 6e-8, 0.0);
+      expect_same3(s.specific_force_B_m_s2, r.specific_force_B_m_s2, 6e-8, 0.0);
+      EXPECT_EQ(known(r.temperature_degC), known(s.temperature_degC));
+      EXPECT_EQ(known(r.delta_time_s), i == 1);  // the first one has no message before it
+      if (i == 0) continue;
+      EXPECT_NEAR(r.delta_time_s, 0.01, 1e-12);
+      expect_same3(s.delta_angle_B_rad, r.delta_angle_B_rad, 2e-7, 0.0);
+      expect_same3(s.delta_velocity_B_m_s, r.delta_velocity_B_m_s, 6e-8, 0.0);
+    }
   }
 }
 

@@ -14,6 +14,7 @@
 #include "sim/encode/ubx.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/waterlinked.hpp"
+#include "sim/encode/xsens.hpp"
 
 namespace fathom::test {
 namespace {
@@ -91,7 +92,7 @@ void nmea_frames(ByteVector& stream, int frame) {
   append(stream, sim::encode::nmea_sentence("SDDPT,2.4,0.5"));
 }
 
-ByteVector imu(int frame) {
+ImuSample imu(int frame) {
   ImuSample sample;
   sample.angular_rate_B_rad_s = {0.001 * frame, -0.002, 0.01};
   sample.specific_force_B_m_s2 = {0.1, -0.05, -9.81};
@@ -101,8 +102,15 @@ ByteVector imu(int frame) {
     sample.delta_time_s = 0.01;
     sample.temperature_degC = 21.5;
   }
-  const auto utc = frame % 4 == 3 ? std::optional<TimeNs>(instant(frame)) : std::nullopt;
-  return sim::encode::vectornav(sample, (frame + 1) * kNsPerSecond / 100, utc);
+  return sample;
+}
+
+/// What an inertial unit says of time: its own clock, now and then UTC besides.
+DurationNs since_power_on(int frame) {
+  return (frame + 1) * kNsPerSecond / 100;
+}
+std::optional<TimeNs> some_utc(int frame) {
+  return frame % 4 == 3 ? std::optional<TimeNs>(instant(frame)) : std::nullopt;
 }
 
 AirspeedSample air(int frame) {
@@ -184,7 +192,12 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::waterlinked(
                        dvl(frame), {instant(frame), instant(frame) + 190 * kNsPerMillisecond, 250.0}));
   } else if (protocol == "vectornav") {
-    append(stream, imu(frame));
+    append(stream, sim::encode::vectornav(imu(frame), since_power_on(frame), some_utc(frame)));
+  } else if (protocol == "xsens") {
+    append(stream, sim::encode::xsens(imu(frame), static_cast<std::uint16_t>(65'533 + frame),
+                                      since_power_on(frame), some_utc(frame)));
+    append(stream, sim::encode::xsens_message(0x42, {0x28}));                 // an error code
+    append(stream, sim::encode::xsens_message(0x0D, ByteVector(300, 0x03)));  // of extended length
   } else if (protocol == "ascii_air_data") {
     append(stream, sim::encode::ascii_air_data(air(frame), seed_options(protocol)));
   } else if (protocol == "nmea_air_data") {
@@ -203,7 +216,9 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream,
            sim::encode::nmea_sentence("PFTHX,,-36.4,-127.25,3.5,12." + std::to_string(frame % 10) + ",1"));
   } else {
-    throw std::invalid_argument("no seed stream for protocol " + std::string(protocol));
+    throw std::invalid_argument(
+        "tests/support/codec/seed_streams.cpp: append_frame: no seed stream for protocol " +
+        std::string(protocol));
   }
 }
 

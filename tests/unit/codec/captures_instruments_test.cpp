@@ -1,6 +1,8 @@
-// Water Linked, VectorNav, Paroscientific and Kongsberg recordings against what others read from them.
+// Water Linked, VectorNav, Xsens, Paroscientific and Kongsberg recordings against what others read from them.
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -132,6 +134,63 @@ TEST(VectorNavCaptures, AgreeWithTheLoggersOwnParser) {
   }
   EXPECT_EQ(compared, 98U);
   report(file, run, compared, mismatches);
+}
+
+/// What somebody else's program printed of each message: names, and below them the values, "X:1.5" each.
+std::vector<std::map<std::string, std::vector<double>>> golden_messages(const std::filesystem::path& file) {
+  std::vector<std::map<std::string, std::vector<double>>> messages(1);
+  std::string name;
+  for (const std::string& line : lines(file)) {
+    if (line.empty()) {
+      messages.emplace_back();
+    } else if (line.front() != ' ') {
+      name = line.substr(0, line.find_first_of("(:"));
+    } else if (name != "UTCTime" && name != "StatusWord") {
+      const auto colon = line.find(':');
+      messages.back()[name].push_back(
+          std::strtod(line.c_str() + (colon == std::string::npos ? 0 : colon + 1), nullptr));
+    }
+  }
+  return messages;
+}
+
+TEST(XsensCaptures, AgreeWithAnotherDriversDecoding) {
+  for (const char* name : {"einride_1", "einride_2"}) {
+    const auto file = root() / "xsens" / name / "output.bin";
+    if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
+    const Harvest run = decode("xsens", load(file));
+    EXPECT_EQ(run.totals.rejected, 0U);
+    EXPECT_EQ(run.totals.skipped_bytes, 0U);
+    const auto imu = of_kind<ImuSample>(run);
+    std::size_t compared = 0;
+    std::size_t mismatches = 0;
+    for (auto& message : golden_messages(file.parent_path() / "output.golden")) {
+      const auto& force = message["Acceleration"];
+      const auto& rate = message["RateOfTurn"];
+      if (force.size() != 3 || rate.size() != 3) continue;
+      ASSERT_LT(compared, imu.size());
+      const auto& [decoded, s] = imu[compared++];
+      bool agrees = decoded->time.clock_ns == static_cast<TimeNs>(message["SampleTimeFine"].at(0)) * 100'000;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double sign = i == 0 ? 1.0 : -1.0;
+        agrees = agrees && near_float(sign * force[i], s.specific_force_B_m_s2[i]);
+        agrees = agrees && near_float(sign * rate[i], s.angular_rate_B_rad_s[i]);
+        // All but the first one know their interval, and increments over it are what the rates say. The
+        // second recording has them in fp12.20, which is too coarse for them.
+        agrees = agrees && known(s.delta_time_s) == (compared > 1 && name == std::string("einride_1"));
+        if (!known(s.delta_time_s)) continue;
+        agrees = agrees && near_float(sign * message["DeltaV"].at(i), s.delta_velocity_B_m_s[i]);
+        agrees = agrees && std::abs(s.delta_time_s - 0.01) < 1e-12;
+        agrees =
+            agrees && std::abs(s.delta_angle_B_rad[i] / s.delta_time_s - s.angular_rate_B_rad_s[i]) < 1e-4;
+      }
+      EXPECT_TRUE(agrees) << name << ", inertial message " << compared;
+      mismatches += !agrees;
+    }
+    EXPECT_EQ(compared, imu.size());
+    EXPECT_GT(compared, 90U);
+    report(file, run, compared, mismatches);
+  }
 }
 
 TEST(VectorNavCaptures, AsciiLines) {

@@ -16,14 +16,12 @@ struct Folder {
 };
 
 const std::vector<Folder>& folders() {
-  static const std::vector<Folder> all{{"nmea0183", {"nmea0183", "ubx"}},
-                                       {"nmea0183_depth_heading", {"nmea0183"}},
-                                       {"ubx", {"ubx", "nmea0183"}},
-                                       {"pd0", {"pd0"}},
-                                       {"waterlinked_json", {"waterlinked"}},
-                                       {"vectornav", {"vectornav", "nmea0183"}},
-                                       {"pressure", {"paroscientific", "nmea0183"}},
-                                       {"usbl", {"psimssb", "nmea0183"}}};
+  static const std::vector<Folder> all{
+      {"nmea0183", {"nmea0183", "ubx"}},     {"nmea0183_depth_heading", {"nmea0183"}},
+      {"ubx", {"ubx", "nmea0183"}},          {"pd0", {"pd0"}},
+      {"waterlinked_json", {"waterlinked"}}, {"vectornav", {"vectornav", "nmea0183"}},
+      {"xsens", {"xsens", "vectornav"}},     {"pressure", {"paroscientific", "nmea0183"}},
+      {"usbl", {"psimssb", "nmea0183"}}};
   return all;
 }
 
@@ -33,7 +31,8 @@ bool is_recording(const std::filesystem::path& file) {
   const auto ends = [&](std::string_view end) { return name.ends_with(end); };
   return name != "SOURCE.txt" && !ends(".expected.json") && !ends("expected.json") && !ends(".csv") &&
          !ends(".chk") && !ends(".nc") && !ends(".yml") && !ends(".dolfyn.log") &&
-         !ends(".receive_times.txt") && !ends("_B") && !ends("_Bt") && !ends("_Gt") && !ends("_P");
+         !ends(".receive_times.txt") && !ends("_B") && !ends("_Bt") && !ends("_Gt") && !ends("_P") &&
+         !ends(".golden") && !ends(".md");
 }
 
 class Captures : public ::testing::TestWithParam<Folder> {};

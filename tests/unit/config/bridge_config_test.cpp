@@ -65,6 +65,11 @@ TEST(BridgeConfig, ErrorsNameFileKeyValueAndExpectation) {
   EXPECT_EQ(imu({R"(sensors.0.source={"type":"udp","port":9,"address":"imu.local"})"}),
             file + "sensors.0.source.address: is \"imu.local\", expected a numeric IPv4 or IPv6 address");
   EXPECT_EQ(imu({R"(sensors.0.mounting={})"}).find(file + "sensors.0.mounting.frame: is missing"), 0U);
+  EXPECT_EQ(
+      imu({"sensors.0.protocol=xsens", R"(sensors.0.mounting={"frame":"flu"})"}),
+      file +
+          "sensors.0.mounting.frame: is \"flu\", expected frd or matrix, because the codec of xsens has "
+          "turned the unit's own axes to forward-right-down already");
   EXPECT_EQ(imu({R"(sensors.0.mounting={"frame":"matrix"})"}),
             file + "sensors.0.mounting.R_BS: is null, expected 9 numbers of a right-handed rotation matrix");
   EXPECT_EQ(imu({R"(sensors.0.mounting={"frame":"matrix","R_BS":[1,0,0,0,1,0,0,0,-1]})"})

@@ -1,4 +1,4 @@
-// What the registry says of a protocol decides how a vehicle's bridge stamps its samples.
+// What the registry says of a protocol decides how a vehicle's bridge stamps and turns its samples.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -42,6 +42,16 @@ TEST_F(ProtocolOfAVehicle, ItsClockIsTheTimeOfTheBridge) {
                                                                   : runtime::TimeMode::arrival)
         << protocol.name;
   }
+}
+
+TEST_F(ProtocolOfAVehicle, AxesThatItsCodecTurnsAreNotTurnedAgain) {
+  EXPECT_DOUBLE_EQ(bridge_of({{"protocol", "vectornav"}, {"axes", "flu"}}).mounting.rotation()[4], -1.0);
+  EXPECT_DOUBLE_EQ(bridge_of({{"protocol", "xsens"}, {"axes", "flu"}}).mounting.rotation()[4], 1.0);
+  EXPECT_DOUBLE_EQ(bridge_of({{"protocol", "xsens"}}).mounting.rotation()[4], 1.0);
+  const auto of_a_model = bridge_of({{"model", "xsens_mti630"}});  // the catalogue knows protocol and axes
+  EXPECT_EQ(of_a_model.sensor.protocol, "xsens");
+  EXPECT_EQ(of_a_model.sensor.time.mode, runtime::TimeMode::device_clock);
+  EXPECT_DOUBLE_EQ(of_a_model.mounting.rotation()[4], 1.0);
 }
 
 }  // namespace
