@@ -148,8 +148,10 @@ std::optional<TimeNs> epoch_of(const std::string& source, const std::string& ask
   const auto text = read_regular_file(file, kMostBytes);
   if (!text) throw Failure(ExitCode::bad_input, file.string() + ": " + text.error().message);
   const auto json = nlohmann::json::parse(text.value(), nullptr, false);
-  if (!json.is_object() || !json.contains("utc_of_start") || json["utc_of_start"].is_null())
-    return std::nullopt;
+  if (!json.is_object())
+    throw Failure(ExitCode::bad_input,
+                  file.string() + ": is no JSON object, expected what fathom import writes");
+  if (!json.contains("utc_of_start") || json["utc_of_start"].is_null()) return std::nullopt;
   const nlohmann::json& said = json["utc_of_start"];
   const auto epoch_ns = said.is_string() ? from_iso8601(said.get<std::string>()) : std::nullopt;
   if (!epoch_ns)
