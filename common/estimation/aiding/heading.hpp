@@ -106,8 +106,7 @@ class Heading {
   }
   [[nodiscard]] StatedError stated(int /*axis*/) const {
     if (!sensor_.two_antenna) return {};
-    const bool told = sensor_.use_sample_sigma && known(sample_.sigma_rad);
-    const double sigma = told ? sample_.sigma_rad : sensor_.sigma[0];
+    const double sigma = stated_sigma(sensor_.sigma[0], sample_.sigma_rad, sensor_.use_sample_sigma);
     return {sigma * sigma, Group::antenna_bias, 0};
   }
   [[nodiscard]] static double wrapped(double difference_rad) { return geo::wrap_pi(difference_rad); }

@@ -195,6 +195,11 @@ template <class Model>
 }
 
 /// The larger of the configured sigma and the one the sample carries.
+/// The sigma that the sample carries, else the configured one.
+[[nodiscard]] inline double stated_sigma(double configured, double reported, bool use_reported) {
+  return use_reported && known(reported) ? reported : configured;
+}
+
 [[nodiscard]] inline double sigma_of(double configured, double reported, bool use_reported) {
   return use_reported && std::isfinite(reported) && reported > configured ? reported : configured;
 }

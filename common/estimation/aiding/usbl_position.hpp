@@ -84,8 +84,8 @@ class UsblPosition {
 
   [[nodiscard]] StatedError stated(int axis) const {
     if (axis > 1) return {};
-    const bool told = sensor_.use_sample_sigma && known(sample_.sigma_m);
-    const double sigma = told ? sample_.sigma_m : sensor_.sigma[static_cast<std::size_t>(axis)];
+    const double sigma = stated_sigma(sensor_.sigma[static_cast<std::size_t>(axis)], sample_.sigma_m,
+                                      sensor_.use_sample_sigma);
     return {sigma * sigma, Group::usbl_bias, axis};
   }
 
