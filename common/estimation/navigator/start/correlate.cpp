@@ -63,4 +63,11 @@ void correlate_usbl(const Setup& setup, const Matrix3d& turned_N_m, ErrorFilter&
   for (int i = 0; misalignment >= 0 && i < 3; ++i) carries(misalignment + i, turned_N_m.col(i));
 }
 
+void correlate_antennas(const Setup& setup, const Vector3d& by_heading, ErrorFilter& filter) {
+  // (ALN-23)
+  const int bias = setup.index.of(Group::antenna_bias);
+  if (bias < 0) return;
+  for (int i = 0; i < 3; ++i) filter.set(6 + i, bias, filter(bias, bias) * by_heading(i));
+}
+
 }  // namespace fathom::estimation

@@ -130,8 +130,7 @@ class Starter {
   struct Heading {
     double heading_rad = 0.0;
     double sigma_rad = 0.0;
-    bool from_gyro = false;
-    bool from_compass = false;
+    HeadingSource from = HeadingSource::given;
   };
   [[nodiscard]] std::optional<Heading> heading_at_rest(const Setup& setup, const RestResult& rest,
                                                        const Eigen::Vector2d& tilt, double gyro_sigma) const;

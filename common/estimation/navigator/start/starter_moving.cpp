@@ -194,6 +194,7 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   begin(in, at, start, setup.initial_sigma, estimate);
   if (heading_rad) estimate.start_heading.begin(start_error(setup.index, !under_way_.two_antenna));
   correlate_moving(setup, *found, estimate.filter);
+  if (heading_rad && under_way_.two_antenna) correlate_antennas(setup, found->by_heading, estimate.filter);
   if (by_dvl) correlate_dvl(setup, *found, estimate.filter);
   return true;
 }
@@ -229,6 +230,7 @@ bool Starter::start_under_way(const StartInputs& in, Estimate& estimate) const {
   sigma[6] = sigma[7] = config.in_motion_tilt_sigma_rad;
   sigma[8] = std::hypot(under_way_.heading_sigma_rad, 0.5 * config.in_motion_tilt_sigma_rad);
   begin(in, at, start, sigma, estimate);
+  if (under_way_.two_antenna) correlate_antennas(in.setup, kByHeading, estimate.filter);
   StartHeading::Column column = start_error(in.setup.index, !under_way_.two_antenna);
   column[3] = start.nav.v_N_m_s.y();
   column[4] = -start.nav.v_N_m_s.x();

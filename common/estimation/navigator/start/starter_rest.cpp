@@ -43,7 +43,8 @@ std::optional<Starter::Heading> Starter::heading_at_rest(const Setup& setup, con
   const bool gyro_good = gyro_sigma <= config.gyrocompass_limit_rad;
   const auto from_gyro = [&]() -> std::optional<Heading> {
     if (!gyro_good) return std::nullopt;
-    return Heading{gyrocompass(tilt, rest.mean_rate_B_rad_s), gyro_sigma, true};  // (ALN-3)
+    return Heading{gyrocompass(tilt, rest.mean_rate_B_rad_s), gyro_sigma,
+                   HeadingSource::gyrocompass};  // (ALN-3)
   };
   const HeadingSource source = heading_source(setup);
   switch (source) {
@@ -57,7 +58,8 @@ std::optional<Starter::Heading> Starter::heading_at_rest(const Setup& setup, con
       break;
   }
   if (window_.headings() > 0)
-    return Heading{window_.heading_start_rad(), window_.heading_sigma_rad(), false, !window_.two_antenna()};
+    return Heading{window_.heading_start_rad(), window_.heading_sigma_rad(),
+                   window_.two_antenna() ? HeadingSource::two_antenna : HeadingSource::compass};
   return source == HeadingSource::automatic ? from_gyro() : std::nullopt;
 }
 
@@ -75,6 +77,7 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
   const double gyro_sigma = std::hypot(imu.gyro_bias_sigma_rad_s, rate_noise) / earth_rate;
   const std::optional<Heading> heading = heading_at_rest(setup, rest, tilt, gyro_sigma);
   if (!heading) return false;
+  const bool from_gyro = heading->from == HeadingSource::gyrocompass;
 
   FilterState start;
   const geo::Quaternion q_start = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), heading->heading_rad));
@@ -92,7 +95,7 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
 
   const Matrix3d c = geo::to_matrix(start.nav.q_NB);
   double bias_gain = 0.0;
-  if (!heading->from_gyro) {
+  if (!from_gyro) {
     // (ALN-4): the mean rate less the Earth's is the bias, as far as the vehicle was quiet.
     const Vector3d measured =
         rest.mean_rate_B_rad_s - c.transpose() * geo::earth_rate_N(at.position.latitude_rad);
@@ -107,8 +110,8 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
     }
   }
   begin(in, at, start, sigma, estimate);
-  if (!heading->from_gyro) {
-    StartHeading::Column column = start_error(index, heading->from_compass);
+  if (!from_gyro) {
+    StartHeading::Column column = start_error(index, heading->from == HeadingSource::compass);
     const Vector3d turned_B =
         c.transpose() * geo::cross(Vector3d::UnitZ(), geo::earth_rate_N(at.position.latitude_rad));
     for (int i = 0; i < 3; ++i)
@@ -116,7 +119,8 @@ bool Starter::start_at_rest(const StartInputs& in, Estimate& estimate) const {
     estimate.start_heading.begin(column);
   }
   correlate_level(setup, at.position, c, estimate.filter);
-  if (heading->from_gyro) correlate_gyrocompass(setup, at.position.latitude_rad, c, estimate.filter);
+  if (from_gyro) correlate_gyrocompass(setup, at.position.latitude_rad, c, estimate.filter);
+  if (heading->from == HeadingSource::two_antenna) correlate_antennas(setup, kByHeading, estimate.filter);
   return true;
 }
 
