@@ -26,6 +26,7 @@ struct SimulatedSensor<RangeSample> : SensorCommon {
   static constexpr const char* kDescription = "acoustic modem that measures its distance to beacons";
   static constexpr bool kTalksOn = true;                    ///< without an answer
   std::vector<SimulatedBeacon> beacons{SimulatedBeacon{}};  ///< asked in turn
+  double place_sigma_m = 0.0;                               ///< how far each lies from there, north and east
   double sigma_m = 0.3;                                     ///< white, of the range
   double sound_speed_m_s = 1500.0;                          ///< what turns the range into a travel time
   double outlier_m = 30.0;                                  ///< by which an echo is longer
@@ -46,7 +47,8 @@ class RangeModel {
  private:
   RangeConfig config_;
   Random random_;
-  geo::Geodetic start_;  ///< on the surface
+  std::vector<geo::Geodetic> lie_at_;  ///< the beacons
+  geo::Geodetic start_;                ///< on the surface
   std::size_t next_ = 0;
   double travel_time_s_ = 0.0;
 };

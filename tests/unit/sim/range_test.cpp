@@ -50,6 +50,31 @@ TEST(RangeModel, DeviceBytesAreTheRangesOfTheBeaconsInTurn) {
   EXPECT_GE(count, 19);
 }
 
+TEST(RangeModel, BeaconsLieWhereTheSeedHasThemAndAreSaidToLieWhereTheScenarioHasThem) {
+  const Scenario scenario = test::auv_scenario();
+  RangeConfig config;
+  config.sigma_m = 0.0;
+  config.place_sigma_m = 2.0;
+  config.beacons = {{"12", {300.0, 0.0, 20.0}}};
+  TruthPoint point;
+  point.latitude_rad = scenario.start.latitude_rad;
+  point.longitude_rad = scenario.start.longitude_rad;
+  point.altitude_m = scenario.environment.surface_altitude_m - 20.0;
+  point.depth_m = 20.0;
+  double squares_m2 = 0.0;
+  constexpr int kSeeds = 200;
+  for (int seed = 0; seed < kSeeds; ++seed) {
+    RangeModel model(config, scenario, static_cast<std::uint64_t>(seed));
+    const RangeSample first = model.sample(point);
+    EXPECT_EQ(first.range_m, model.sample(point).range_m);
+    const geo::Geodetic said{first.beacon_latitude_rad, first.beacon_longitude_rad, point.altitude_m};
+    const geo::Geodetic start{point.latitude_rad, point.longitude_rad, point.altitude_m};
+    EXPECT_NEAR(geo::difference_N(said, start).norm(), 300.0, 1e-3);
+    squares_m2 += (first.range_m - 300.0) * (first.range_m - 300.0) / kSeeds;
+  }
+  EXPECT_NEAR(std::sqrt(squares_m2), 2.0, 0.4);
+}
+
 TEST(RangeModel, HasNoAnswerOutOfTheWaterAndOutOfEarshot) {
   const Scenario scenario = test::auv_scenario();
   RangeConfig config;

@@ -15,6 +15,9 @@ void describe(Schema<sim::SimulatedSensor<RangeSample>>& s) {
   using C = sim::RangeConfig;
   common_fields(s);
   s.field("beacons", &C::beacons, "they answer one after the other");
+  s.field("place_sigma_m", &C::place_sigma_m, "how far each lies from its place, north and east, drawn")
+      .unit("m")
+      .range(0, 100);
   s.field("sigma_m", &C::sigma_m, "white error").unit("m").range(0, 100);
   s.field("sound_speed_m_s", &C::sound_speed_m_s, "of the water").unit("m/s").range(1350, 1650);
   s.field("outlier_m", &C::outlier_m, "by which an echo is longer").unit("m").range(0, 1e4);
