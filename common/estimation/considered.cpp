@@ -26,6 +26,8 @@ StateGroups EngineConfig::considered() const {
   out.antenna_bias = !groups.antenna_bias && std::any_of(sensors.begin(), sensors.end(), [](const auto& one) {
     return one.kind == SourceKind::heading && one.two_antenna;
   });
+  out.dvl_bias = carries(SourceKind::dvl) && !groups.dvl_bias && states.dvl_bias_sigma_m_s > 0.0;
+  out.beacon_place = carries(SourceKind::range) && !groups.beacon_place;
   return out;
 }
 

@@ -85,11 +85,12 @@ struct StateGroups {
   bool model_scale = false;
   bool model_bias = false;
   bool antenna_bias = false;
+  bool beacon_place = false;
 };
 
 /// What becomes of the errors of the instruments that no state is estimated for: scale and misalignment of
-/// the inertial unit and of the DVL, the bias of a compass and the slow error of GPS, of USBL and of a
-/// heading by two antennas.
+/// the inertial unit and of the DVL, the bias of DVL and compass, the slow error of GPS, of USBL and of a
+/// heading by two antennas, and where beacons lie.
 enum class LeftOut : std::uint8_t {
   considered = 0,  ///< their covariance with the states is kept, their values are not found (KF-6)
   noise = 1,       ///< those of the inertial unit enter as noise (NOISE-1), the others are taken for none
@@ -111,7 +112,7 @@ struct StateConfiguration {
 struct StateModelConfig {
   double dvl_scale_sigma = 0.004;
   double dvl_misalignment_sigma_rad = 0.0087;
-  double dvl_bias_sigma_m_s = 0.004;
+  double dvl_bias_sigma_m_s = 0.001;  ///< what most data sheets give beside the scale
   double current_sigma_m_s = 0.5;
   double current_time_constant_s = 1800.0;
   double depth_bias_sigma_m = 0.1;
@@ -123,6 +124,7 @@ struct StateModelConfig {
   double heading_deviation_sigma_rad = 0.035;
   double usbl_bias_sigma_m = 2.0;
   double usbl_misalignment_sigma_rad = 0.0087;
+  double beacon_place_sigma_m = 1.0;  ///< surveyed from a boat with GPS
   double gps_bias_sigma_m = 1.5;
   double gps_bias_time_constant_s = 300.0;
   double gps_latency_sigma_s = 0.05;

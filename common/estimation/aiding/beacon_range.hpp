@@ -32,7 +32,10 @@ class BeaconRange {
   }
 
   BeaconRange(const AidingInput& in, const Sample& sample)
-      : sensor_(in.sensor), sample_(sample), lever_N_(in.state.C_NB * geo::vec(in.sensor.lever_B_m)) {
+      : sensor_(in.sensor),
+        sample_(sample),
+        place_(2 * (in.beacon % kPlacedBeacons)),
+        lever_N_(in.state.C_NB * geo::vec(in.sensor.lever_B_m)) {
     const SensorConfig& sensor = in.sensor;
     const bool placed = is_placed(sample);
     const geo::Geodetic& here = in.state.state.nav.position;
@@ -42,7 +45,8 @@ class BeaconRange {
     Vector3 path_N = -geo::difference_N(here, {latitude_rad, longitude_rad, here.altitude_m});
     path_N.z() =
         in.state.value(Group::surface_altitude, 0, in.surface_altitude_m) - depth_m - here.altitude_m;
-    path_N += lever_N_;
+    path_N += lever_N_ - Vector3(in.state.value(Group::beacon_place, place_),
+                                 in.state.value(Group::beacon_place, place_ + 1), 0.0);
     range_m_ = std::max(path_N.norm(), kLeastRange_m);
     along_N_ = path_N / range_m_;
     // (AID-RNG-3): of the second order in the error of the position.
@@ -68,6 +72,8 @@ class BeaconRange {
     h.block(Group::position, along);
     h.block(Group::attitude, Eigen::RowVector3d(along * geo::skew(lever_N_)));
     h.set(0, Group::surface_altitude, 0, -along_N_.z());
+    h.set(0, Group::beacon_place, place_, along_N_.x());
+    h.set(0, Group::beacon_place, place_ + 1, along_N_.y());
   }
   [[nodiscard]] Vector3 noise() const {
     const double own_m = std::hypot(sensor_.sigma[0], sensor_.proportional_sigma * sample_.range_m);
@@ -86,6 +92,7 @@ class BeaconRange {
 
   const SensorConfig& sensor_;
   const Sample& sample_;
+  int place_;  ///< of the group, the first of its states
   Vector3 lever_N_;
   Vector3 along_N_;  ///< from the beacon to the modem
   double range_m_ = 0.0;

@@ -116,6 +116,7 @@ struct AidingInput {
   const VehicleModelConfig* vehicle_model = nullptr;
   const hydro::WaterVelocity* water = nullptr;  ///< what the vehicle model predicts, where it is switched on
   double unused_s = kUnknown;                   ///< since the last measurement of this sensor that was used
+  int beacon = 0;                               ///< which of those heard so far, where it is one
   /// Of the position of the IMU, for rows that are not straight within it.
   Matrix3 position_covariance_N_m2 = Matrix3::Zero();
   std::array<double, 3> gps_bias_sigma_N_m{};  ///< of the slow error of GPS; 0 where there is no state of it
@@ -194,12 +195,12 @@ template <class Model>
   return std::abs(latitude_rad) <= 1.5707963267948966 && std::abs(longitude_rad) <= 6.2831853071795865;
 }
 
-/// The larger of the configured sigma and the one the sample carries.
 /// The sigma that the sample carries, else the configured one.
 [[nodiscard]] inline double stated_sigma(double configured, double reported, bool use_reported) {
   return use_reported && known(reported) ? reported : configured;
 }
 
+/// The larger of the configured sigma and the one the sample carries.
 [[nodiscard]] inline double sigma_of(double configured, double reported, bool use_reported) {
   return use_reported && std::isfinite(reported) && reported > configured ? reported : configured;
 }

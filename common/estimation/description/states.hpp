@@ -41,6 +41,8 @@ void describe(Walk<StateGroups>& s) {
   s.field("model_bias", &C::model_bias,
           "slow error of the vehicle model's velocity, ahead and across, 2 states");
   s.field("antenna_bias", &C::antenna_bias, "slow error of a heading by two antennas");
+  s.field("beacon_place", &C::beacon_place,
+          "by what each of the first three beacons lies elsewhere than it is said to, 6 states");
   s.field("mount_lever", &C::mount_lever,
           "place of the non-holonomic constraint beyond the configured one, 3 states");
 }
@@ -69,9 +71,12 @@ void describe(Walk<StateModelConfig>& s) {
       .unit("deg")
       .range(1e-4, 57)
       .scaled(kRadPerDeg);
-  s.field("dvl_bias_sigma_m_s", &C::dvl_bias_sigma_m_s, "DVL bias along each axis")
+  s.field("dvl_bias_sigma_m_s", &C::dvl_bias_sigma_m_s,
+          "DVL bias along each axis, the part of the data sheet's long-term accuracy that does not grow with "
+          "the "
+          "speed; 0: none")
       .unit("m/s")
-      .range(1e-6, 10);
+      .range(0, 10);
   s.field("current_sigma_m_s", &C::current_sigma_m_s, "each component of the velocity of the medium")
       .unit("m/s")
       .range(1e-6, 100);
@@ -104,6 +109,11 @@ void describe(Walk<StateModelConfig>& s) {
       .range(1e-4, 170)
       .scaled(kRadPerDeg);
   s.field("usbl_bias_sigma_m", &C::usbl_bias_sigma_m, "each component of the USBL bias")
+      .unit("m")
+      .range(1e-6, 1e4);
+  s.field("beacon_place_sigma_m", &C::beacon_place_sigma_m,
+          "how far beacons lie from where they are said to, north and east; found by ranges from a boat with "
+          "GPS it is a metre or two, by a ship's calibrated USBL and RTK a few decimetres")
       .unit("m")
       .range(1e-6, 1e4);
   s.field("gps_bias_sigma_m", &C::gps_bias_sigma_m,

@@ -23,19 +23,16 @@ void fields(Archive& archive, Self& self) {
 }
 
 /// One triangle: both halves are equal to the bit. How many states there are is the configuration's to say.
-/// Until version 3 none were considered, until version 18 the last ones were not: what is read then shares
-/// nothing with them.
+/// What an older state does not hold shares nothing with the rest (HeldStates).
 template <class Archive, class Self>
 void ErrorFilter::fields(Archive& archive, Self& self) {
   archive.left_out(self.tape_);
-  const int held = archive.since(19)  ? self.n_
-                   : archive.since(4) ? self.n_ - self.since_19_
-                                      : self.estimated_;
+  const int held = self.held_.of(archive);
   int states = held;
   archive("states", states, fathom::archive::Whole{held, held});
   archive.left_out(self.n_);
   archive.left_out(self.estimated_);
-  archive.left_out(self.since_19_);
+  archive.left_out(self.held_);
   if constexpr (Archive::kReads) self.p_.fill(0.0);
   for (int i = 0; i < held; ++i)
     for (int j = 0; j <= i; ++j) {

@@ -248,12 +248,7 @@ void Navigator::fields(Archive& archive, Self& self) {
   archive.left_out(self.setup_);
   Estimate::fields(archive, self.estimate_);
   if constexpr (Archive::kReads) {
-    const StateIndex& index = self.setup_->index;
-    if (!archive.since(4)) {
-      self.estimate_.consider_anew(*self.setup_, index.estimated());
-    } else if (!archive.since(19)) {
-      self.estimate_.consider_anew(*self.setup_, index.size() - index.considered_since_19());
-    }
+    self.estimate_.consider_anew(*self.setup_, self.setup_->index.held().of(archive));
   }
   archive("sensors", self.instruments_.sensors);
   archive.left_out(self.instruments_.count);

@@ -41,17 +41,18 @@ class FilterTape;
 /// in use. The matrix is exactly symmetric at all times.
 class ErrorFilter {
  public:
-  explicit ErrorFilter(int states = 0) : n_(states), estimated_(states) {}
+  explicit ErrorFilter(int states = 0)
+      : n_(states), estimated_(states), held_{states, states, states, states} {}
   explicit ErrorFilter(const StateIndex& index)
-      : n_(index.size()), estimated_(index.estimated()), since_19_(index.considered_since_19()) {}
+      : n_(index.size()), estimated_(index.estimated()), held_(index.held()) {}
   ErrorFilter(const ErrorFilter& other)
-      : n_(other.n_), estimated_(other.estimated_), since_19_(other.since_19_), tape_(other.tape_) {
+      : n_(other.n_), estimated_(other.estimated_), held_(other.held_), tape_(other.tape_) {
     copy(other);
   }
   ErrorFilter& operator=(const ErrorFilter& other) {
     n_ = other.n_;
     estimated_ = other.estimated_;
-    since_19_ = other.since_19_;
+    held_ = other.held_;
     tape_ = other.tape_;
     if (this != &other) copy(other);
     return *this;
@@ -124,7 +125,7 @@ class ErrorFilter {
 
   int n_;
   int estimated_;
-  int since_19_ = 0;  ///< the last ones, which older archives do not hold
+  HeldStates held_;
   FilterTape* tape_ = nullptr;
   alignas(64) std::array<double, static_cast<std::size_t>(kMaxStates) * kRowStride> p_{};
 };

@@ -1,6 +1,5 @@
 #include "estimation/filter/state_index.hpp"
 
-#include <algorithm>
 #include <cassert>
 
 namespace fathom::estimation {
@@ -53,6 +52,9 @@ constexpr std::array<GroupRow, kGroups> kGroupRows{{
     {2, {"model_scale_x", "model_scale_y"}},
     {2, {"model_bias_x_m_s", "model_bias_y_m_s"}},
     {1, {"antenna_bias_rad"}},
+    {2 * kPlacedBeacons,
+     {"beacon_1_north_m", "beacon_1_east_m", "beacon_2_north_m", "beacon_2_east_m", "beacon_3_north_m",
+      "beacon_3_east_m"}},
 }};
 
 std::array<bool, kGroups> active(const StateGroups& g) {
@@ -88,7 +90,8 @@ std::array<bool, kGroups> active(const StateGroups& g) {
           g.mount_lever,
           g.model_scale,
           g.model_bias,
-          g.antenna_bias};
+          g.antenna_bias,
+          g.beacon_place};
 }
 
 }  // namespace
@@ -114,19 +117,21 @@ StateIndex::StateIndex(const StateGroups& groups, const StateGroups& considered,
     if (i == static_cast<std::size_t>(Group::gyro_misalignment)) imu_end_ = size_;
   }
   estimated_ = size_;
-  const auto consider = [&](std::size_t i) {
-    if (on[i] || !also[i]) return;
-    start_[i] = size_;
-    size_ += kGroupRows[i].size;
-  };
   // What came later stands behind what an older archive holds.
-  constexpr std::array kSince19{static_cast<std::size_t>(Group::usbl_bias),
-                                static_cast<std::size_t>(Group::antenna_bias)};
-  for (std::size_t i = 0; i < also.size(); ++i)
-    if (std::find(kSince19.begin(), kSince19.end(), i) == kSince19.end()) consider(i);
-  const int before_19 = size_;
-  for (const std::size_t one : kSince19) consider(one);
-  since_19_ = size_ - before_19;
+  const auto consider = [&](auto&& comes_now) {
+    for (std::size_t i = 0; i < also.size(); ++i) {
+      if (on[i] || !also[i] || !comes_now(static_cast<Group>(i))) continue;
+      start_[i] = size_;
+      size_ += kGroupRows[i].size;
+    }
+    return size_;
+  };
+  const auto since_19 = [](Group one) { return one == Group::usbl_bias || one == Group::antenna_bias; };
+  const auto since_20 = [](Group one) { return one == Group::dvl_bias || one == Group::beacon_place; };
+  held_.until_3 = estimated_;
+  held_.until_18 = consider([&](Group one) { return !since_19(one) && !since_20(one); });
+  held_.until_19 = consider(since_19);
+  held_.now = consider(since_20);
   assert(size_ <= kMaxStates);
 }
 

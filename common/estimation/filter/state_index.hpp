@@ -49,13 +49,30 @@ enum class Group : std::uint8_t {
   model_scale,
   model_bias,
   antenna_bias,
+  beacon_place,
 };
-inline constexpr int kGroups = 33;
-inline constexpr int kNavStates = 9;  ///< position, velocity, attitude
+inline constexpr int kGroups = 34;
+inline constexpr int kPlacedBeacons = 3;  ///< that may each lie elsewhere than they are said to
+inline constexpr int kNavStates = 9;      ///< position, velocity, attitude
 
 [[nodiscard]] int group_size(Group group);
 /// How many states these groups make; a configuration with more than kMaxStates is refused.
 [[nodiscard]] int state_count(const StateGroups& groups);
+
+/// How many states are held by archives of older versions, and by those of today: what is considered came
+/// later, and stands behind.
+struct HeldStates {
+  int until_3 = 0;
+  int until_18 = 0;
+  int until_19 = 0;
+  int now = 0;
+
+  /// By `archive`, which says since which version it is.
+  template <class Archive>
+  [[nodiscard]] int of(const Archive& archive) const {
+    return archive.since(20) ? now : archive.since(19) ? until_19 : archive.since(4) ? until_18 : until_3;
+  }
+};
 
 /// Where each active group begins.
 class StateIndex {
@@ -69,8 +86,7 @@ class StateIndex {
   [[nodiscard]] int size() const { return size_; }
   /// The first ones, which are estimated.
   [[nodiscard]] int estimated() const { return estimated_; }
-  /// The last ones, which are considered since version 19 of the state archive.
-  [[nodiscard]] int considered_since_19() const { return since_19_; }
+  [[nodiscard]] const HeldStates& held() const { return held_; }
   /// One past the last estimated state that drives the navigation error.
   [[nodiscard]] int imu_end() const { return imu_end_; }
   /// Index of the group's first state, -1 when it is neither estimated nor considered.
@@ -83,7 +99,7 @@ class StateIndex {
   std::array<int, kGroups> start_{};
   int size_ = 0;
   int estimated_ = 0;
-  int since_19_ = 0;
+  HeldStates held_;
   int imu_end_ = 0;
 };
 

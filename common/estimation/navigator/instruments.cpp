@@ -85,6 +85,12 @@ Instrument& Instruments::behind(int sensor, const BeaconId& beacon) {
   return found->instrument;
 }
 
+int Instruments::beacon(const Instrument& one) const {
+  for (std::size_t i = 0; i < beacon_count; ++i)
+    if (&beacons[i].instrument == &one) return static_cast<int>(i);
+  return 0;
+}
+
 double Instruments::noise_factor(const Setup& setup, int sensor) const {
   const auto slot = static_cast<std::size_t>(sensor);
   double out = sensors[slot].noise.largest_factor();

@@ -113,6 +113,8 @@ struct Instruments {
   /// A beacon that has not been heard yet gets a place; where there is none left, that of the one that was
   /// not heard for longest.
   [[nodiscard]] Instrument& behind(const Setup& setup, const Measurement& measurement);
+  /// Which of the beacons this one measures to, by when they were first heard; 0 where it is none.
+  [[nodiscard]] int beacon(const Instrument& one) const;
   /// The largest factor of the noise of all that is one sensor.
   [[nodiscard]] double noise_factor(const Setup& setup, int sensor) const;
   template <class Self, class Visit>

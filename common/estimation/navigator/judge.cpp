@@ -123,6 +123,7 @@ bool Navigator::observe(Trial& trial) {
                           .vehicle_model = &config.vehicle_model,
                           .water = trial.modelled ? &model_.water_velocity() : nullptr,
                           .unused_s = estimate_.since(trial.instrument.used_ns),
+                          .beacon = instruments_.beacon(trial.instrument),
                           .position_covariance_N_m2 = estimate_.filter.block3(0, 0),
                           .gps_bias_sigma_N_m = estimate_.slow_gps.sigma()};
   Usable first_refusal = Usable::yes;

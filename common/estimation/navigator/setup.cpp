@@ -99,6 +99,7 @@ Setup::Setup(const EngineConfig& engine_config, StateIndex::Considered considere
   sigma(Group::antenna_bias, least_slow_error(config, [](const SensorConfig& one) {
           return one.kind == SourceKind::heading && one.two_antenna;
         }));
+  sigma(Group::beacon_place, model.beacon_place_sigma_m);
   sigma(Group::gps_position_bias, model.gps_bias_sigma_m);
   markov(*this, Group::gps_position_bias, model.gps_bias_sigma_m, model.gps_bias_time_constant_s);
   if (const int bias = index.of(Group::gps_position_bias); bias >= 0) {

@@ -166,6 +166,7 @@ EngineConfig consistency_config(const Cell& cell, std::string_view configuration
   states.gps_bias_sigma_m = cell.gps.drift_m;
   states.gps_bias_time_constant_s = cell.gps.drift_s;
   states.dvl_scale_sigma = cell.dvl.scale;
+  states.dvl_bias_sigma_m_s = cell.dvl.bias_m_s;
   states.dvl_misalignment_sigma_rad = cell.dvl.misalignment_rad;
   states.heading_bias_sigma_rad = kCompass.bias_rad;
   states.heading_bias_time_constant_s = 0.0;

@@ -70,6 +70,7 @@ struct DvlFigures {
   double noise_m_s = 0.006;
   double per_speed = 0.002;  ///< white noise that grows with the speed
   double scale = 0.01;
+  double bias_m_s = 0.002;
   double misalignment_rad = 0.0175;
   std::array<double, 3> lever_B_m{0.5, 0.0, 0.2};
 };

@@ -105,6 +105,7 @@ DopplerLog::DopplerLog(const DvlFigures& figures, std::uint64_t seed)
     : figures_(figures), random_(seed, "Doppler log"), scale_(random_.normal(figures.scale)) {
   const Vector3d turn = draw3(random_, figures.misalignment_rad);
   axes_DB_ = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix().transpose();
+  bias_D_m_s_ = draw3(random_, figures.bias_m_s);
 }
 
 DvlSample DopplerLog::read(const Pose& pose) {
@@ -112,7 +113,7 @@ DvlSample DopplerLog::read(const Pose& pose) {
       pose.axes_NB.transpose() * pose.velocity_N_m_s + pose.rate_EB_B_rad_s.cross(vector(figures_.lever_B_m));
   const double sigma = std::hypot(figures_.noise_m_s, figures_.per_speed * v_B.norm());
   DvlSample out;
-  out.velocity_D_m_s = array((1.0 + scale_) * (axes_DB_ * v_B) + draw3(random_, sigma));
+  out.velocity_D_m_s = array((1.0 + scale_) * (axes_DB_ * v_B) + bias_D_m_s_ + draw3(random_, sigma));
   return out;
 }
 

@@ -55,6 +55,7 @@ class DopplerLog {
   sim::Random random_;
   double scale_;
   Eigen::Matrix3d axes_DB_;
+  Eigen::Vector3d bias_D_m_s_;
 };
 
 class DepthGauge {

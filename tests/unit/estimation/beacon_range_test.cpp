@@ -24,24 +24,30 @@ using test::SurveyRun;
 constexpr double kDive_s = 50.0;
 constexpr double kDvlEnds_s = 90.0;
 constexpr double kRangeSigma_m = 0.5;
+constexpr double kPlaceSigma_m = 1.0;  ///< as the default of states.beacon_place_sigma_m
 const Vector3d kModem_B(0.3, -0.1, -0.2);
 
-/// Of one beacon after the other, once the vehicle is under water, two seconds late.
+/// Of one beacon after the other, once the vehicle is under water, two seconds late. Each lies a metre or so
+/// from where it is said to.
 std::vector<RangeSample> ranges(const SurveyRun& survey, const std::vector<Vector3d>& beacons_N_m,
                                 std::uint64_t seed) {
   std::vector<RangeSample> out;
   Normal normal(seed);
   const Truth& first = survey.truth.front();
   const geo::Geodetic start{first.latitude_rad, first.longitude_rad, SurveyRun::kSurfaceAltitude_m};
+  std::vector<Vector3d> lie_at_N_m = beacons_N_m;
+  for (Vector3d& one : lie_at_N_m) one.head<2>() += normal.vector(kPlaceSigma_m).head<2>();
   std::uint64_t sequence = 0;
   for (std::size_t k = 250; !beacons_N_m.empty() && k < survey.truth.size(); k += 300) {
     const Truth& truth = survey.truth[k];
     if (0.01 * static_cast<double>(k) < kDive_s) continue;
-    const Vector3d& place = beacons_N_m[sequence % beacons_N_m.size()];
+    const std::size_t asked = sequence % beacons_N_m.size();
+    const Vector3d& place = beacons_N_m[asked];
     const geo::Geodetic beacon = geo::moved_by(start, place);
+    const geo::Geodetic lies_at = geo::moved_by(start, lie_at_N_m[asked]);
     const Matrix3d C_NB = geo::to_matrix(geo::from_rpy(geo::vec(truth.rpy_rad)));
     const Vector3d path_N =
-        geo::difference_N(beacon, {truth.latitude_rad, truth.longitude_rad, truth.altitude_m}) +
+        geo::difference_N(lies_at, {truth.latitude_rad, truth.longitude_rad, truth.altitude_m}) +
         C_NB * kModem_B;
     RangeSample s;
     s.header = {"auv", "modem", truth.header.stamp_ns, truth.header.stamp_ns + 2 * kNsPerSecond, ++sequence};

@@ -4,6 +4,7 @@
 
 #include "estimation/engine/fusion_engine.hpp"
 #include "estimation/filter/error_filter.hpp"
+#include "geo/wgs84.hpp"
 #include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::estimation {
@@ -75,6 +76,68 @@ TEST(Considered, IsThatOfTheJosephFormWithoutTheirGain) {
       EXPECT_NEAR(filter(i, j), expected(i, j), 1e-10 * p.norm()) << i << ' ' << j;
     }
   }
+}
+
+/// Horizontal error over its sigma, squared, a dimension: of a vehicle that hovers for half an hour by a DVL
+/// that is off by a constant of `off_m_s` along each axis.
+double hover(std::uint64_t seed, double off_m_s, double told_m_s) {
+  constexpr double kRate_hz = 20.0;
+  constexpr double kFor_s = 1800.0;
+  const geo::Geodetic place{0.9, 0.1, -20.0};
+  EngineConfig config;
+  EXPECT_TRUE(named_state_groups("standard", config.groups));
+  config.imu.nominal_rate_hz = kRate_hz;
+  config.alignment.mode = StartMode::given;
+  config.states.dvl_bias_sigma_m_s = told_m_s;
+  SensorConfig dvl = default_sensor(SourceKind::dvl, "dvl");
+  dvl.sigma.fill(0.005);
+  config.sensors = {dvl};
+  FusionEngine engine(config);
+  InitialState start;
+  start.latitude_rad = place.latitude_rad;
+  start.longitude_rad = place.longitude_rad;
+  start.altitude_m = place.altitude_m;
+  start.position_sigma_N_m.fill(0.1);
+  start.velocity_sigma_N_m_s.fill(0.01);
+  start.attitude_sigma_rad.fill(1e-3);
+  engine.start_from(start);
+  test::Normal normal(seed);
+  const Eigen::Vector3d off = normal.vector(off_m_s);
+  ImuSample imu;
+  imu.specific_force_B_m_s2 = {0.0, 0.0, -geo::gravity(place.latitude_rad, place.altitude_m)};
+  imu.angular_rate_B_rad_s = geo::arr(geo::earth_rate_N(place.latitude_rad));
+  DvlSample seen;
+  constexpr int kSteps = static_cast<int>(kFor_s * kRate_hz);
+  for (int k = 1; k <= kSteps; ++k) {
+    const TimeNs now_ns = kNsPerSecond + from_seconds(k / kRate_hz);
+    const auto count = static_cast<std::uint64_t>(k);
+    imu.header = {"auv", "imu", now_ns, now_ns, count};
+    engine.add(imu);
+    if (k % 4 != 0) continue;
+    seen.header = {"auv", "dvl", now_ns, now_ns, count};
+    seen.velocity_D_m_s = geo::arr(off + normal.vector(0.005));
+    engine.add(seen);
+  }
+  const NavState& nav = engine.nav_state();
+  const Eigen::Vector3d error_N_m =
+      geo::difference_N({nav.latitude_rad, nav.longitude_rad, nav.altitude_m}, place);
+  return 0.5 * (error_N_m.x() * error_N_m.x() / nav.position_covariance_N_m2[0] +
+                error_N_m.y() * error_N_m.y() / nav.position_covariance_N_m2[4]);
+}
+
+TEST(Considered, ABiasOfTheDvlCarriesAVehicleThatHoversAway) {
+  constexpr double kOff_m_s = 0.002;
+  constexpr int kRuns = 12;
+  double known = 0.0;
+  double unknown = 0.0;
+  for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+    known += hover(seed, kOff_m_s, kOff_m_s) / kRuns;
+    unknown += hover(seed, kOff_m_s, 0.0) / kRuns;
+  }
+  // Twenty-four draws: 99.9 % of such means lie between.
+  EXPECT_GT(known, 0.3);
+  EXPECT_LT(known, 2.2);
+  EXPECT_GT(unknown, 10.0);
 }
 
 TEST(Considered, TooManyAreRefusedWithWhatHelps) {

@@ -28,7 +28,7 @@ StateGroups all_groups(bool under_water) {
     g.heading_bias = g.heading_deviation = g.usbl_bias = g.usbl_misalignment = g.log_scale = true;
   } else {
     g.airspeed_bias = g.airspeed_scale = g.flow_angles = g.baro_bias = true;
-    g.mount_angles = g.mount_lever = g.antenna_bias = true;
+    g.mount_angles = g.mount_lever = g.antenna_bias = g.beacon_place = true;
     g.model_scale = g.model_bias = true;  // no room in the other half
   }
   return g;

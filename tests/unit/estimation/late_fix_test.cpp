@@ -126,7 +126,8 @@ TEST(LateFix, ActsAsOneThatCameInTime) {
     EXPECT_EQ(late.verdicts[0].kind, VerdictKind::used);
     const double moved_m = between(none, punctual).head<2>().norm();
     EXPECT_GT(moved_m, 0.5) << "the fix says nothing new";
-    EXPECT_LT(between(punctual, late).norm(), 0.01 * moved_m) << seed;
+    // What is considered gets no gain (KF-6), so that the order counts a little.
+    EXPECT_LT(between(punctual, late).norm(), 0.02 * moved_m) << seed;
     EXPECT_NEAR(late.sigma_m(), punctual.sigma_m(), 0.002 * punctual.sigma_m()) << seed;
     EXPECT_LT(late.sigma_m(), 0.9 * none.sigma_m()) << seed;
   }

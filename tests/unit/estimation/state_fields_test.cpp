@@ -119,26 +119,32 @@ TEST(StateFields, NoneOfASampleIsForgotten) {
 
 TEST(StateFields, OfAnOlderStateConsiderAnewWhatThatDidNotHold) {
   EngineConfig config;
-  config.sensors = {default_sensor(SourceKind::gps, "gps"), default_sensor(SourceKind::usbl, "usbl")};
+  config.sensors = {default_sensor(SourceKind::gps, "gps"), default_sensor(SourceKind::usbl, "usbl"),
+                    default_sensor(SourceKind::range, "modem")};
   const estimation::Setup setup(config);
-  const int later = setup.index.of(Group::usbl_bias);
-  ASSERT_GE(later, setup.index.estimated());
   Navigator navigator(setup);
   navigator.start(InitialState{}, kNsPerSecond);
-  std::vector<std::byte> image;
-  constexpr std::uint32_t kWithout = 18;
-  archive::Writer writer(image, kWithout);
-  writer("navigator", navigator);
-  archive::Reader reader(image);
-  reader.set_version(kWithout);
-  Navigator read(setup);
-  reader("navigator", read);
-  ASSERT_TRUE(reader.good()) << reader.complaint();
-  for (int i = 0; i < setup.index.size(); ++i) {
-    for (int j = 0; j < i; ++j)
-      EXPECT_EQ(read.filter()(i, j), i < later ? navigator.filter()(i, j) : 0.0) << i << " " << j;
-    const double begins = setup.initial_sigma[static_cast<std::size_t>(i)];
-    EXPECT_EQ(read.filter()(i, i), i < later ? navigator.filter()(i, i) : begins * begins) << i;
+  const std::array<std::pair<std::uint32_t, int>, 3> ends{{{3, setup.index.estimated()},
+                                                           {18, setup.index.of(Group::usbl_bias)},
+                                                           {19, setup.index.of(Group::beacon_place)}}};
+  int held = 0;
+  for (const auto& [version, later] : ends) {
+    ASSERT_GT(later, held);
+    held = later;
+    std::vector<std::byte> image;
+    archive::Writer writer(image, version);
+    writer("navigator", navigator);
+    archive::Reader reader(image);
+    reader.set_version(version);
+    Navigator read(setup);
+    reader("navigator", read);
+    ASSERT_TRUE(reader.good()) << reader.complaint();
+    for (int i = 0; i < setup.index.size(); ++i) {
+      for (int j = 0; j < i; ++j)
+        EXPECT_EQ(read.filter()(i, j), i < later ? navigator.filter()(i, j) : 0.0) << i << " " << j;
+      const double begins = setup.initial_sigma[static_cast<std::size_t>(i)];
+      EXPECT_EQ(read.filter()(i, i), i < later ? navigator.filter()(i, i) : begins * begins) << i;
+    }
   }
 }
 
