@@ -92,7 +92,7 @@ TEST(ForgedState, OfAnotherConfigurationIsRefused) {
   EngineConfig config = SurveyRun::config();
   ASSERT_TRUE(named_state_groups("gps_ins15", config.groups));
   FusionEngine fewer(config);
-  EXPECT_EQ(fewer.restore(good), "core.filter.states is 46, 43 to 43 was expected");
+  EXPECT_EQ(fewer.restore(good), "core.filter.states is 49, 46 to 46 was expected");
 }
 
 }  // namespace
