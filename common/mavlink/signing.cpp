@@ -65,7 +65,7 @@ std::string_view to_string(Trust trust) {
     case Trust::not_signed:
       return "not signed";
     case Trust::wrong_signature:
-      return "a wrong signature";
+      return "signed with another key";
     case Trust::said_before:
       return "said before";
     case Trust::too_old:

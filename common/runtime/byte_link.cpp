@@ -14,9 +14,11 @@
 #include <asio/serial_port.hpp>
 #include <asio/steady_timer.hpp>
 
+#include "base/clock.hpp"
 #include "runtime/lane.hpp"
+#include "runtime/refusal_log.hpp"
 #include "runtime/reopening.hpp"
-#include "runtime/serial_line.hpp"
+#include "runtime/serial/serial_line.hpp"
 
 namespace fathom::runtime {
 namespace {
@@ -94,9 +96,19 @@ struct ByteLink::Impl {
                                  [this](const asio::error_code& error, std::size_t size) {
                                    if (error == asio::error::operation_aborted) return;
                                    if (error) return fail(error.message());
-                                   if (from.address() == target.address()) take(size);
+                                   if (from.address() == target.address()) {
+                                     take(size);
+                                   } else {
+                                     refuse_stranger();
+                                   }
                                    receive();
                                  });
+  }
+
+  void refuse_stranger() {
+    const std::string line = port.name() + ": a datagram from " + from.address().to_string() +
+                             " is not heard, expected from " + config.address + " alone";
+    if (const auto now = refusals.add("stranger", line, SystemClock().monotonic_ns())) say(true, *now);
   }
 
   void connect() {
@@ -199,6 +211,7 @@ struct ByteLink::Impl {
   std::shared_ptr<Lane<asio::serial_port>> line;
   std::array<std::uint8_t, kPiece> piece{};
   Flow flow;
+  RefusalLog refusals;
   bool stopping = false;
   mutable std::mutex mutex;
   LinkStatus shown;

@@ -21,8 +21,8 @@
 #include <termios.h>
 
 #include "runtime/byte_source_impl.hpp"
-#include "runtime/serial_holders.hpp"
-#include "runtime/serial_line.hpp"
+#include "runtime/serial/serial_holders.hpp"
+#include "runtime/serial/serial_line.hpp"
 
 namespace fathom::runtime {
 namespace {

@@ -7,13 +7,14 @@
 
 #include "bridge/babble.hpp"
 #include "bridge/backlog.hpp"
-#include "bridge/change_log.hpp"
+#include "runtime/change_log.hpp"
 #include "runtime/device_time.hpp"
 
 namespace fathom::bridge {
 namespace {
 
 using runtime::Arrival;
+using runtime::ChangeLog;
 using runtime::LogLevel;
 using runtime::SourceEvent;
 using runtime::SourceState;

@@ -14,13 +14,14 @@
 #include "mavlink/messages.hpp"
 #include "mavlink_gateway/messages.hpp"
 #include "runtime/byte_link.hpp"
+#include "runtime/refusal_log.hpp"
 #include "samples/nav_state.hpp"
 
 namespace fathom::mavlink_gateway {
 namespace {
 
 constexpr DurationNs kFresh_ns = kNsPerSecond;
-constexpr std::size_t kMostUnread = 4 * mavlink::kMostFrame;
+constexpr DurationNs kThere_ns = 5 * kNsPerSecond;
 constexpr std::size_t kMostKeyFile = 64 * 1024;
 constexpr std::uint8_t kTypeGcs = 6;
 
@@ -125,7 +126,6 @@ struct MavlinkGatewayService::Impl {
 
   /// On the link's thread.
   void hear(std::span<const std::uint8_t> bytes) {
-    if (unread.size() + bytes.size() > kMostUnread) unread.clear();
     unread.insert(unread.end(), bytes.begin(), bytes.end());
     std::size_t at = 0;
     while (at < unread.size()) {
@@ -148,8 +148,8 @@ struct MavlinkGatewayService::Impl {
       const mavlink::Trust trust = verifier->judge(frame, now_ns);
       if (trust != mavlink::Trust::trusted) return count_refused("is " + std::string(to_string(trust)));
     }
-    if (frame.system != sender.system) return;
     const std::lock_guard lock(mutex);
+    if (frame.system != sender.system) return note_other(frame);
     ++heard_frames;
     if (frame.id == mavlink::Heartbeat::kId) {
       const auto message = mavlink::message_of<mavlink::Heartbeat>(frame.payload);
@@ -165,9 +165,28 @@ struct MavlinkGatewayService::Impl {
       say(answer);
     }
   }
+  /// Under the lock. Neighbours may share the link; who looks for the missing autopilot wants to know them.
+  void note_other(const mavlink::Frame& frame) {
+    if (frame.id != mavlink::Heartbeat::kId) return;
+    if (mavlink::message_of<mavlink::Heartbeat>(frame.payload).type == kTypeGcs) return;
+    other_system = frame.system;
+    other_ns = host.clock().monotonic_ns();
+  }
   void count_refused(const std::string& why) {
+    const std::string line = "a frame of the other side " + why + ": it is not heard";
+    if (const auto now = refusals.add(why, line, host.clock().monotonic_ns())) host.log().warning(*now);
     const std::lock_guard lock(mutex);
-    if (refused++ == 0) host.log().warning("a frame of the other side " + why + ": it is not heard");
+    ++refused;
+  }
+  /// Under the lock.
+  [[nodiscard]] std::string autopilot_text() const {
+    const TimeNs now_ns = host.clock().monotonic_ns();
+    if (autopilot_ns && now_ns - *autopilot_ns < kThere_ns) return "the autopilot is there";
+    std::string out = "no heartbeat of the autopilot is heard";
+    if (other_system && now_ns - other_ns < kThere_ns)
+      out += ", but one of system " + std::to_string(*other_system) + "; expected of system " +
+             std::to_string(sender.system) + " (system_id)";
+    return out;
   }
 
   void fill(ServiceStatus& status) {
@@ -177,7 +196,6 @@ struct MavlinkGatewayService::Impl {
     status.counters.push_back({"bytes_dropped", shown.bytes_dropped});
     status.counters.push_back({"frames_heard", heard_frames});
     if (refused > 0) status.counters.push_back({"frames_refused", refused});
-    const bool autopilot = autopilot_ns && host.clock().monotonic_ns() - *autopilot_ns < 5 * kNsPerSecond;
     if (!shown.trouble.empty()) {
       status.state = ServiceState::degraded;
       status.text = shown.name + ": " + shown.trouble;
@@ -187,7 +205,7 @@ struct MavlinkGatewayService::Impl {
     } else if (!is_useful) {
       status.text = "navigation gives no position and heading yet: the autopilot is told nothing";
     } else {
-      status.text = autopilot ? "the autopilot is there" : "no heartbeat of the autopilot is heard";
+      status.text = autopilot_text();
     }
   }
 
@@ -211,10 +229,13 @@ struct MavlinkGatewayService::Impl {
   TimeNs heard_ns = 0;
   bool is_useful = false;
   std::optional<TimeNs> autopilot_ns;
+  std::optional<std::uint8_t> other_system;
+  TimeNs other_ns = 0;
   std::uint8_t sequence = 0;
   std::uint64_t said = 0;
   std::uint64_t heard_frames = 0;
   std::uint64_t refused = 0;
+  runtime::RefusalLog refusals;
   runtime::ByteLink link;
   bus::Reader<NavState> reader;  // ends first: it uses everything above
 };

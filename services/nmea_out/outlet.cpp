@@ -19,7 +19,7 @@
 #include "runtime/lane.hpp"
 #include "runtime/refusal_log.hpp"
 #include "runtime/reopening.hpp"
-#include "runtime/serial_line.hpp"
+#include "runtime/serial/serial_line.hpp"
 
 namespace fathom::nmea_out {
 namespace {

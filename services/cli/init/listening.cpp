@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "cli/command.hpp"
-#include "runtime/serial_holders.hpp"
+#include "runtime/serial/serial_holders.hpp"
 
 namespace fathom::cli {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "cli/command.hpp"
 #include "cli/init/listening.hpp"
-#include "runtime/serial_holders.hpp"
+#include "runtime/serial/serial_holders.hpp"
 #include "support/process.hpp"
 
 namespace fathom::cli {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <mutex>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -108,6 +109,35 @@ class Autopilot {
   int socket_;
   sockaddr_in from_{};
   std::vector<std::uint8_t> heard_;
+};
+
+/// What the gateway last said of itself.
+class Said {
+ public:
+  [[nodiscard]] std::string text() const {
+    const std::lock_guard lock(mutex_);
+    return text_;
+  }
+  [[nodiscard]] std::uint64_t counter(const std::string& name) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = counters_.find(name);
+    return found == counters_.end() ? 0 : found->second;
+  }
+
+ private:
+  void take(const ServiceStatus& status) {
+    if (status.header.sensor.view() != "mavlink_gateway") return;
+    const std::lock_guard lock(mutex_);
+    text_ = std::string(status.text);
+    for (const auto& counter : status.counters) counters_[counter.name.str()] = counter.value;
+  }
+
+  mutable std::mutex mutex_;
+  std::string text_;
+  std::map<std::string, std::uint64_t> counters_;
+  bus::Participant participant_{presence(kDomain, "cli")};
+  bus::Reader<ServiceStatus> reader_{
+      participant_, [this](const ServiceStatus& status, const bus::SampleInfo&) { take(status); }};
 };
 
 std::vector<std::string> arguments(int port, const std::vector<std::string>& sets = {}) {
@@ -224,6 +254,50 @@ TEST(MavlinkGateway, AnswersAboutTimeAndSeesTheAutopilot) {
   EXPECT_TRUE(wait_until([&] { return seen.load(); })) << gateway.err();
 }
 
+TEST(MavlinkGateway, WhoIsOfAnotherSystemIsNamed) {
+  const int port = free_port(SOCK_DGRAM);
+  Autopilot autopilot(port);
+  const Vehicle vehicle;
+  const Said said;
+  Process gateway("fathom-mavlink-gateway", arguments(port));
+  ASSERT_TRUE(autopilot.listen([](const mavlink::Frame&) { return true; })) << gateway.err();
+  mavlink::Heartbeat heartbeat;
+  heartbeat.type = 12;
+  EXPECT_TRUE(wait_until([&] {
+    autopilot.say(mavlink::frame_of(heartbeat, {7, 1}, 0));
+    return said.text() ==
+           "no heartbeat of the autopilot is heard, but one of system 7; expected of system 1 (system_id)";
+  })) << said.text();
+}
+
+TEST(MavlinkGateway, HearsEachFrameOfAFlood) {
+  const int port = free_port(SOCK_STREAM);
+  const int listener = ::socket(AF_INET, SOCK_STREAM, 0);
+  const sockaddr_in address = loopback(port);
+  ASSERT_EQ(::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  ASSERT_EQ(::listen(listener, 1), 0);
+  const Said said;
+  Process gateway("fathom-mavlink-gateway", arguments(port, {"link.type=tcp_client"}));
+  const int there = ::accept(listener, nullptr, nullptr);
+  ASSERT_GE(there, 0) << gateway.err();
+  constexpr std::size_t kFrames = 20'000;
+  std::vector<std::uint8_t> flood;
+  for (std::size_t i = 0; i < kFrames; ++i) {
+    const auto frame = mavlink::frame_of(mavlink::Heartbeat{}, {1, 1}, static_cast<std::uint8_t>(i));
+    flood.insert(flood.end(), frame.begin(), frame.end());
+  }
+  for (std::size_t at = 0; at < flood.size();) {
+    const ssize_t sent = ::send(there, flood.data() + at, flood.size() - at, MSG_NOSIGNAL);
+    ASSERT_GT(sent, 0) << gateway.err();
+    at += static_cast<std::size_t>(sent);
+  }
+  EXPECT_TRUE(wait_until([&] { return said.counter("frames_heard") == kFrames; }))
+      << said.counter("frames_heard");
+  EXPECT_EQ(said.counter("frames_refused"), 0U);
+  ::close(there);
+  ::close(listener);
+}
+
 TEST(MavlinkGateway, SignsAndHearsOnlyWhatIsSigned) {
   const int port = free_port(SOCK_DGRAM);
   TemporaryFolder folder;
@@ -258,6 +332,12 @@ TEST(MavlinkGateway, SignsAndHearsOnlyWhatIsSigned) {
   }));
   EXPECT_EQ(first, 43) << "the one without a signature is not answered";
   EXPECT_TRUE(gateway.says("is not signed")) << gateway.err();
+  auto forged = mavlink::frame_of(question, {1, 1}, 2, mavlink::kFlagSigned);
+  mavlink::Signer stranger(mavlink::key_of(std::string(64, '8')).value(), 1);
+  stranger.sign(forged, SystemClock().utc_ns());
+  autopilot.say(forged);
+  EXPECT_TRUE(gateway.says("is signed with another key"))
+      << "another reason is said as well: " << gateway.err();
 
   std::ofstream(file) << "short";
   Process refused("fathom-mavlink-gateway", arguments(port, {"signing.key_file=" + file}));

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <mutex>
 #include <sstream>
 #include <string>
 #include <thread>
 
+#include <asio/io_context.hpp>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include "runtime/backoff.hpp"
@@ -13,6 +16,8 @@
 #include "runtime/byte_source.hpp"
 #include "runtime/log.hpp"
 #include "runtime/refusal_log.hpp"
+#include "runtime/reopening.hpp"
+#include "support/free_port.hpp"
 #include "support/process.hpp"
 
 namespace fathom::runtime {
@@ -110,6 +115,50 @@ TEST(BuildInfo, HashTellsTextsApart) {
   EXPECT_NE(hex_hash("{\"a\":1}"), hex_hash("{\"a\":2}"));
   EXPECT_FALSE(version().empty());
   EXPECT_FALSE(host_name().empty());
+}
+
+TEST(Reopening, OfAPortThatFlapsTheNewestStateIsSaid) {
+  asio::io_context io;
+  std::vector<std::string> said;
+  Reopening port(io, "tcp 10.0.0.7:5760", [&](bool is_trouble, const std::string& text) {
+    said.push_back((is_trouble ? "! " : "") + text);
+  });
+  for (int i = 0; i < 50; ++i) {
+    port.fail("End of file", [] {});
+    port.well();
+  }
+  EXPECT_EQ(said.size(), 8U) << "a few are said each";
+  EXPECT_EQ(said.front(), "! tcp 10.0.0.7:5760: End of file; it is tried again and again");
+  port.fail("Connection refused", [] {});
+  while (said.size() == 8U && io.run_one() > 0) continue;
+  ASSERT_EQ(said.size(), 9U);
+  EXPECT_EQ(said.back(),
+            "! tcp 10.0.0.7:5760: Connection refused; it is tried again and again, the last of 93 changes");
+  port.stop();
+}
+
+TEST(ByteLink, ADatagramOfAStrangerIsNamed) {
+  const int stranger = ::socket(AF_INET, SOCK_DGRAM, 0);
+  ByteLinkConfig config;
+  config.address = "127.0.0.2";
+  config.bind_port = test::free_port(SOCK_DGRAM);
+  std::mutex mutex;
+  std::string said;
+  ByteLink link(
+      config, [](std::span<const std::uint8_t>) {},
+      [&](bool is_trouble, const std::string& text) {
+        const std::lock_guard lock(mutex);
+        if (is_trouble) said = text;
+      });
+  link.start();
+  const sockaddr_in address = test::loopback(config.bind_port);
+  EXPECT_TRUE(test::wait_until([&] {
+    ::sendto(stranger, "x", 1, 0, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    const std::lock_guard lock(mutex);
+    return said ==
+           "udp 127.0.0.2:14550: a datagram from 127.0.0.1 is not heard, expected from 127.0.0.2 alone";
+  })) << said;
+  ::close(stranger);
 }
 
 TEST(ByteLink, NothingLeavesBeforeItIsStarted) {

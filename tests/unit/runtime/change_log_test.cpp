@@ -1,17 +1,17 @@
-#include "bridge/change_log.hpp"
+#include "runtime/change_log.hpp"
 
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
-namespace fathom::bridge {
+namespace fathom::runtime {
 namespace {
 
 TEST(ChangeLog, SaysAFewChangesAtOnceAndOfManyTheNewestOnceAPeriod) {
   ChangeLog log;
   const auto add = [&](double t_s) {
-    return log.add({runtime::LogLevel::info, "at " + std::to_string(std::lround(t_s))}, from_seconds(t_s));
+    return log.add({LogLevel::info, "at " + std::to_string(std::lround(t_s))}, from_seconds(t_s));
   };
   int said = 0;
   for (int i = 0; i < 8; ++i) said += add(100.0 + 0.05 * i) ? 1 : 0;
@@ -28,4 +28,4 @@ TEST(ChangeLog, SaysAFewChangesAtOnceAndOfManyTheNewestOnceAPeriod) {
 }
 
 }  // namespace
-}  // namespace fathom::bridge
+}  // namespace fathom::runtime

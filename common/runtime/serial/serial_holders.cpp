@@ -1,4 +1,4 @@
-#include "runtime/serial_holders.hpp"
+#include "runtime/serial/serial_holders.hpp"
 
 #include <algorithm>
 #include <array>

@@ -9,7 +9,7 @@
 #include "base/time.hpp"
 #include "runtime/log.hpp"
 
-namespace fathom::bridge {
+namespace fathom::runtime {
 
 /// Which changes of a port's state are written. A few are written at once, each. Where there are many, as of
 /// a plug with a loose contact, the newest one is written once a period, with how many there were: they fill
@@ -17,7 +17,7 @@ namespace fathom::bridge {
 class ChangeLog {
  public:
   struct Line {
-    runtime::LogLevel level = runtime::LogLevel::info;
+    LogLevel level = runtime::LogLevel::info;
     std::string text;
   };
 
@@ -37,6 +37,11 @@ class ChangeLog {
     begin(monotonic_ns);
     return say();
   }
+  /// Something waits to be written.
+  [[nodiscard]] bool holds() const {
+    const std::lock_guard lock(mutex_);
+    return unsaid_ > 0;
+  }
 
  private:
   static constexpr DurationNs kPeriod_ns = 10 * kNsPerSecond;
@@ -54,11 +59,11 @@ class ChangeLog {
     return out;
   }
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::optional<TimeNs> begin_ns_;
   int said_ = 0;
   std::uint64_t unsaid_ = 0;
   Line newest_;
 };
 
-}  // namespace fathom::bridge
+}  // namespace fathom::runtime
