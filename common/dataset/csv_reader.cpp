@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <system_error>
 
@@ -102,41 +103,103 @@ std::string what_the_header_is(const std::vector<std::string>& names) {
 
 }  // namespace
 
-// Bytes of the file, decompressed where needed.
+// Bytes of the file, decompressed where needed: of every member of a gzip file. zlib's own reader of files
+// leaves out, without a word, whatever follows a member and does not begin as one.
 class CsvReader::Source {
  public:
-  explicit Source(const std::filesystem::path& path) : file_(gzopen(path.c_str(), "rb")) {
+  explicit Source(const std::filesystem::path& path) : file_(std::fopen(path.c_str(), "rbe")) {
     if (file_ == nullptr) throw DatasetError(path.string() + ": cannot be opened: " + std::strerror(errno));
-    gzbuffer(file_, 1U << 17U);
+    refill();
+    plain_ = !begins_member();
+    if (!plain_ && inflateInit2(&stream_, kGzip) != Z_OK)
+      throw DatasetError(path.string() + ": no memory to unpack it");
   }
-  ~Source() { gzclose_r(file_); }
+  ~Source() {
+    inflateEnd(&stream_);
+    std::fclose(file_);
+  }
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  // The next chunk of bytes, empty at the end of the file; an error text instead when the file is damaged.
+  // The next chunk of bytes, empty at the end of the file; an error text as well when the file is damaged.
   std::string_view read(const char*& error) {
-    errno = 0;
-    const int got = gzread(file_, buffer_.data(), static_cast<unsigned>(buffer_.size()));
-    int code = Z_OK;
-    gzerror(file_, &code);
-    if (code == Z_ERRNO) {
-      error_text_ = std::string("cannot be read: ") + std::strerror(errno);
-      error = error_text_.c_str();
-    } else if (code == Z_BUF_ERROR) {
-      error = "gzip data end too early: the file is truncated, expected a complete .gz file";
-    } else if (got < 0 || (code != Z_OK && code != Z_STREAM_END)) {
-      error = "gzip data are damaged, expected an intact .gz file";
+    stream_.next_out = reinterpret_cast<Bytef*>(buffer_.data());
+    stream_.avail_out = static_cast<uInt>(buffer_.size());
+    while (stream_.avail_out > 0 && error == nullptr) {
+      if (stream_.avail_in == 0) refill();
+      if (error_number_ != 0) {
+        error_text_ = std::string("cannot be read: ") + std::strerror(error_number_);
+        error = error_text_.c_str();
+      } else if (stream_.avail_in == 0) {
+        if (within_) error = "gzip data end too early: the file is truncated, expected a complete .gz file";
+        break;
+      } else if (plain_) {
+        copy();
+      } else {
+        unpack(error);
+      }
     }
-    return {buffer_.data(), static_cast<std::size_t>(std::max(got, 0))};
+    return {buffer_.data(), buffer_.size() - stream_.avail_out};
   }
-  [[nodiscard]] bool plain() const { return gzdirect(file_) == 1; }
+  [[nodiscard]] bool plain() const { return plain_; }
 
   std::string_view pending;      // read, not yet split into lines
   const char* damage = nullptr;  // found behind `pending`
 
  private:
-  gzFile file_;
+  static constexpr int kGzip = MAX_WBITS + 16;
+
+  /// Behind what is left of the input.
+  void refill() {
+    if (stream_.avail_in > 0) std::memmove(input_.data(), stream_.next_in, stream_.avail_in);
+    const std::size_t left = stream_.avail_in;
+    const std::size_t got = std::fread(input_.data() + left, 1, input_.size() - left, file_);
+    if (std::ferror(file_) != 0) error_number_ = errno;
+    stream_.next_in = input_.data();
+    stream_.avail_in = static_cast<uInt>(left + got);
+  }
+  [[nodiscard]] bool begins_member() const {
+    return stream_.avail_in >= 2 && stream_.next_in[0] == 0x1F && stream_.next_in[1] == 0x8B;
+  }
+  void copy() {
+    const uInt count = std::min(stream_.avail_in, stream_.avail_out);
+    std::memcpy(stream_.next_out, stream_.next_in, count);
+    stream_.next_out += count;
+    stream_.avail_out -= count;
+    stream_.next_in += count;
+    stream_.avail_in -= count;
+  }
+  void unpack(const char*& error) {
+    if (!within_ && !begin_member(error)) return;
+    const int code = inflate(&stream_, Z_NO_FLUSH);
+    if (code == Z_STREAM_END) {
+      within_ = false;
+    } else if (code != Z_OK && code != Z_BUF_ERROR) {
+      error = "gzip data are damaged, expected an intact .gz file";
+    }
+  }
+  /// False at padding, and at bytes that begin no member.
+  bool begin_member(const char*& error) {
+    if (stream_.avail_in < 2) refill();
+    if (begins_member()) {
+      within_ = inflateReset(&stream_) == Z_OK;
+      return within_;
+    }
+    const bool is_padding = *stream_.next_in == 0;  // of tapes and of blocks
+    ++stream_.next_in;
+    --stream_.avail_in;
+    if (!is_padding)
+      error = "gzip data are damaged: bytes follow that begin no gzip data, expected an intact .gz file";
+    return false;
+  }
+
+  std::FILE* file_;
+  int error_number_ = 0;
+  bool plain_ = true;
+  bool within_ = false;  ///< a member
+  z_stream stream_{};
   std::string error_text_;
+  std::array<Bytef, 1U << 17U> input_{};
   std::array<char, 1U << 16U> buffer_{};
 };
 

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include <gmock/gmock.h>
@@ -232,6 +233,37 @@ TEST(ReadDataset, NamesADamagedArchive) {
   file.write("\x55\xAA", 2);
   file.close();
   EXPECT_THAT(error_of_reading(folder), testing::ContainsRegex("depth.csv.gz:[0-9]+: gzip data are damaged"));
+}
+
+void append(const DatasetFolder& folder, const std::string& to, const std::string& more) {
+  std::ofstream(folder.path() / to, std::ios::app | std::ios::binary)
+      << std::ifstream(folder.path() / more, std::ios::binary).rdbuf();
+}
+
+TEST(ReadDataset, TakesTheRowsOfEveryMemberOfAnArchive) {
+  const DatasetFolder folder;
+  folder.zipped("depth.csv.gz", "t_s,depth_m\n1,2\n2,3\n");
+  folder.zipped("more", "3,4\n4,5\n");
+  append(folder, "depth.csv.gz", "more");
+  std::ofstream(folder.path() / "depth.csv.gz", std::ios::app | std::ios::binary) << std::string(512, '\0');
+  EXPECT_EQ(read(folder.path()).of<DepthSample>().size(), 4U);
+}
+
+TEST(ReadDataset, NamesAMemberOfAnArchiveWhoseHeaderIsDamaged) {
+  for (const int byte : {0, 1, 2}) {
+    const DatasetFolder folder;
+    folder.zipped("depth.csv.gz", "t_s,depth_m\n1,2\n2,3\n");
+    const auto first = std::filesystem::file_size(folder.path() / "depth.csv.gz");
+    folder.zipped("more", "3,4\n4,5\n");
+    append(folder, "depth.csv.gz", "more");
+    std::fstream file(folder.path() / "depth.csv.gz", std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(first) + byte);
+    file.write("\x55", 1);
+    file.close();
+    EXPECT_THAT(error_of_reading(folder),
+                testing::ContainsRegex("depth.csv.gz:[0-9]+: gzip data are damaged"))
+        << byte;
+  }
 }
 
 TEST(ReadDataset, RefusesTwoVersionsOfOneFileAndAMissingFolder) {
