@@ -5,6 +5,7 @@
 #include <mutex>
 #include <utility>
 
+#include "base/disk/regular_file.hpp"
 #include "bus/raw.hpp"
 #include "bus/topics.hpp"
 #include "config/json/error.hpp"
@@ -46,8 +47,11 @@ void verify(const config::FoxgloveConfig& config, const std::string& file, bool 
   (void)tokens_of(config, file);
   for (const auto& [key, path] : {std::pair{"tls.certificate_file", config.tls.certificate_file},
                                   std::pair{"tls.key_file", config.tls.key_file}}) {
-    if (!path.empty() && !std::ifstream(path))
-      throw config::ConfigError(file, key, "\"" + path + "\"", "a file that can be read");
+    if (path.empty()) continue;
+    const std::string value = "\"" + path + "\"";
+    if (const std::string wrong = no_regular_file(path); !wrong.empty())
+      throw config::ConfigError(file, key, value, "a file that can be read; it " + wrong);
+    if (!std::ifstream(path)) throw config::ConfigError(file, key, value, "a file that can be read");
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include "base/clock.hpp"
 #include "bus/reader.hpp"
@@ -22,6 +23,7 @@
 #include "support/free_port.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 #include "unit/ros2/state.hpp"
 
 namespace fathom::test {
@@ -161,6 +163,21 @@ TEST(Doors, MayDieAndComeBackWithoutHarm) {
     process.kill(SIGTERM);
     EXPECT_EQ(process.wait(), 0) << process.err();
   }
+}
+
+TEST(Foxglove, ATlsFileThatIsAPipeIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  const std::string pipe = (folder.path() / "key").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // nobody ever writes into it
+  std::vector<std::string> all =
+      arguments("foxglove", {"tls.certificate_file=" FATHOM_SOURCE_DIR "/README.md", "tls.key_file=" + pipe});
+  all.emplace_back("--check");
+  Process process("fathom-foxglove", all);
+  EXPECT_EQ(process.wait(), 2);
+  EXPECT_NE(
+      process.err().find("tls.key_file: is \"" + pipe + "\", expected a file that can be read; it is a pipe"),
+      std::string::npos)
+      << process.err();
 }
 
 }  // namespace

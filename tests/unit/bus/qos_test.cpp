@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "bus/detail/qos/effective_qos.hpp"
 #include "bus/reader.hpp"
@@ -263,6 +264,11 @@ TEST(BadProfiles, AreNamed) {
   bus::ParticipantOptions bad = options();
   bad.profiles_dir = folder.string();
   EXPECT_NE(error_of([&] { const bus::Participant participant(bad); }).find("participant.xml"),
+            std::string::npos);
+  ASSERT_EQ(::mkfifo((folder / "a.xml").c_str(), 0600), 0);  // nobody ever writes into it
+  EXPECT_NE(error_of([&] {
+              const bus::Participant participant(bad);
+            }).find("a.xml: is a pipe, expected a regular file"),
             std::string::npos);
   std::filesystem::remove_all(folder);
 }

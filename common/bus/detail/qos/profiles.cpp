@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/disk/folder.hpp"
+#include "base/disk/regular_file.hpp"
 #include "bus/detail/versions/settings.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
 #include "bus/option_error.hpp"
@@ -78,6 +79,9 @@ void load_profiles(const std::string& folder) {
   if (failed || files.empty()) throw OptionError(folder + ": expected a folder with QoS profiles (*.xml)");
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
+    if (const std::string wrong = no_regular_file(file); !wrong.empty()) {
+      throw OptionError(file.string() + ": " + wrong);
+    }
     if (!load_profiles_file(file.string())) {
       throw BusError(file.string() + ": not a file of QoS profiles that Fast DDS understands" +
                      last_dds_error());
