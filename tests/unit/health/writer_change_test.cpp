@@ -63,6 +63,20 @@ TEST(WriterChangeTest, WhoWritesInBetweenIsNamed) {
             "Inertial unit imu comes from process 2 now, before it came from process 1.");
 }
 
+TEST(WriterChangeTest, TwoThatWriteByTurnsFillNoLog) {
+  WriterChange watch({"fusion"});
+  AlarmBook book("auv");
+  for (int i = 0; i < 600; ++i) {
+    const double t = 1.0 + 0.1 * i;
+    watch.heard_imu("imu", writer(static_cast<std::uint8_t>(1 + i % 2)), at(t));
+    watch.report(book, at(t), describe);
+  }
+  // Each is raised and cleared.
+  const std::size_t told = book.take_transitions().size() / 2;
+  EXPECT_GE(told, 4U + 4U) << "a few are told each, later ones in their turn";
+  EXPECT_LE(told, 4U + 6U);
+}
+
 TEST(WriterChangeTest, AFusionThatNobodyExpectsIsHeldWhileItIsHeard) {
   WriterChange watch({"fusion", "fusion_standby"});
   AlarmBook book("auv");
