@@ -26,6 +26,8 @@ enum class RejectReason : std::uint8_t {
   incomplete = 7,    ///< good values, but one is missing without which they mean nothing
 };
 [[nodiscard]] std::string_view to_string(RejectReason reason);
+/// What that means, for people: "a field is not a number, or none of its words".
+[[nodiscard]] std::string_view meaning(RejectReason reason);
 
 struct Decoded {
   AnySample sample;
@@ -38,6 +40,7 @@ struct Rejected {
   RejectReason reason = RejectReason::checksum;
   std::uint64_t offset = 0;
   std::uint64_t length = 0;
+  std::span<const std::uint8_t> bytes{};  ///< of the frame; only while on_rejected() runs
 };
 
 /// Receives what a codec finds, in stream order.

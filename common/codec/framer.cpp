@@ -99,7 +99,7 @@ void Framer::refuse(Sink& sink, RejectReason reason, std::size_t length) {
   refused_until_ = offset_ + length;
   covered_until_ = std::max(covered_until_, refused_until_);
   ++totals_.rejected;
-  sink.on_rejected({reason, offset_, length});
+  sink.on_rejected({reason, offset_, length, Bytes(buffer_).subspan(head_, length)});
 }
 
 void Framer::emit(Sink& sink, const AnySample& sample, const DeviceTime& time, std::uint64_t offset,

@@ -7,6 +7,7 @@
 
 #include "bridge/babble.hpp"
 #include "bridge/backlog.hpp"
+#include "bridge/frame_text.hpp"
 #include "runtime/change_log.hpp"
 #include "runtime/device_time.hpp"
 
@@ -314,8 +315,7 @@ void SensorChannel::Impl::on_rejected(const codec::Rejected& rejected) {
   const auto index = static_cast<std::size_t>(rejected.reason);
   if (index >= kRejectReasons) return;
   if (said_rejected[index].first(arrival.monotonic_ns)) {
-    log.warning(plan.sensor.name.str() + ": frame of " + std::to_string(rejected.length) +
-                " bytes refused: " + std::string(codec::to_string(rejected.reason)));
+    log.warning(plan.sensor.name.str() + ": " + sentence(rejected));
   }
   rejected_bytes += rejected.length;
   const std::lock_guard lock(mutex);
