@@ -230,7 +230,11 @@ void Store::settle(TimeNs now_ns) {
   if (why.empty()) why = writer_->sync();
   if (writer_->is_removed()) return begin_in_place_of_removed(now_ns);
   if (why.empty()) well();
-  if (!why.empty()) fail(why);
+  if (!why.empty()) {
+    fail(why);
+    // Somebody put another disk there, or moved the file away to make room.
+    if (!writer_->is_at(path_)) return begin_beside(now_ns);
+  }
   counts_.bytes = bytes_before_ + writer_->size();
   counts_.samples = samples_before_ + writer_->messages();
   const bool large = options_.split_bytes > 0 && writer_->size() >= options_.split_bytes;
@@ -248,6 +252,13 @@ void Store::begin_in_place_of_removed(TimeNs now_ns) {
   const std::uint64_t gone = writer_->messages();
   note_lost("every topic", {gone, began_ns_, now_ns});
   fail("the file was removed while it was written, and " + std::to_string(gone) + " samples with it");
+  writer_.reset();
+  begin(now_ns);
+}
+
+void Store::begin_beside(TimeNs now_ns) {
+  bytes_before_ += writer_->size();
+  samples_before_ += writer_->messages();
   writer_.reset();
   begin(now_ns);
 }

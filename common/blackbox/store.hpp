@@ -70,6 +70,8 @@ class Store {
   void enclose_again(TimeNs now_ns);
   void end_file();
   void begin_in_place_of_removed(TimeNs now_ns);
+  /// The open file cannot be written and lies elsewhere by now.
+  void begin_beside(TimeNs now_ns);
   void note_lost(const std::string& topic, const Dropped& one);
   void fail(const std::string& why);
   void well();

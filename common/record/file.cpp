@@ -76,6 +76,13 @@ bool FileSink::is_removed() const {
   return ::fstat(descriptor_, &status) == 0 && status.st_nlink == 0;
 }
 
+bool FileSink::is_at(const std::filesystem::path& path) const {
+  struct stat own {};
+  struct stat there {};
+  return ::fstat(descriptor_, &own) == 0 && ::stat(path.c_str(), &there) == 0 && own.st_dev == there.st_dev &&
+         own.st_ino == there.st_ino;
+}
+
 Result<std::unique_ptr<FileSource>> FileSource::open(const std::filesystem::path& path) {
   // A pipe is not waited for.
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);

@@ -22,6 +22,8 @@ class Sink {
   [[nodiscard]] virtual std::uint64_t size() const = 0;
   /// Somebody has removed it: what is appended goes on working, and nobody will find it.
   [[nodiscard]] virtual bool is_removed() const { return false; }
+  /// What `path` names is this file: no other one, no disk mounted over it.
+  [[nodiscard]] virtual bool is_at(const std::filesystem::path& /*path*/) const { return true; }
 };
 
 /// What a file is read from.
@@ -48,6 +50,7 @@ class FileSink final : public Sink {
   [[nodiscard]] std::string sync() override;
   [[nodiscard]] std::uint64_t size() const override { return size_; }
   [[nodiscard]] bool is_removed() const override;
+  [[nodiscard]] bool is_at(const std::filesystem::path& path) const override;
 
  private:
   FileSink(int descriptor, std::uint64_t size) : descriptor_(descriptor), size_(size) {}

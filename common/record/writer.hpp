@@ -55,6 +55,7 @@ class Writer {
   /// See Sink::sync().
   [[nodiscard]] std::string sync() { return sink_->sync(); }
   [[nodiscard]] bool is_removed() const { return sink_->is_removed(); }
+  [[nodiscard]] bool is_at(const std::filesystem::path& path) const { return sink_->is_at(path); }
 
   /// Its CRC is computed. Closes the open chunks before.
   [[nodiscard]] std::string attach(Attachment attachment);

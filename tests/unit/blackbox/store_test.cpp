@@ -37,6 +37,7 @@ struct Disk {
     }
     std::string sync() override { return {}; }
     std::uint64_t size() const override { return bytes.size(); }
+    bool is_at(const std::filesystem::path& /*path*/) const override { return !disk.is_covered; }
     Disk& disk;
     record::Bytes& bytes;
   };
@@ -53,6 +54,7 @@ struct Disk {
   }
   std::map<std::string, record::Bytes> files;
   std::string trouble;
+  bool is_covered = false;  ///< another disk is mounted over it
   std::vector<std::string> said;
 };
 
@@ -205,6 +207,45 @@ TEST(Store, BeginsWhenTheDiskIsThereAgain) {
   store.finish();
   ASSERT_EQ(disk.files.size(), 1U);
   EXPECT_GE(read(disk.files.begin()->second).messages.size(), 25U);
+}
+
+TEST(Store, GoesOnWhereAnotherDiskIsPutInThePlaceOfOneThatFails) {
+  Disk disk;
+  Store store(in("/nowhere"), disk.create(), disk.say());
+  add_origins(store);
+  store.add(sample(0, 0.0, 1));
+  store.settle(kBegin);
+  disk.trouble = "Read-only file system";
+  store.add(sample(0, 1.0, 2));
+  store.settle(kBegin + kNsPerSecond);
+  EXPECT_EQ(disk.files.size(), 1U);
+  disk.trouble.clear();
+  disk.is_covered = true;
+  store.settle(kBegin + 2 * kNsPerSecond);
+  EXPECT_EQ(disk.files.size(), 1U) << "what can be written is written on";
+  disk.trouble = "Read-only file system";
+  store.add(sample(0, 3.0, 3));
+  store.settle(kBegin + 3 * kNsPerSecond);
+  disk.trouble.clear();
+  disk.is_covered = false;
+  store.add(sample(0, 6.0, 4));
+  store.settle(kBegin + 6 * kNsPerSecond);
+  ASSERT_EQ(disk.files.size(), 2U);
+  EXPECT_EQ(store.counts().trouble, "");
+  store.finish();
+  EXPECT_EQ(read(disk.files.rbegin()->second).messages, std::vector<std::string>{"a:4"});
+}
+
+TEST(FileSink, KnowsWhetherAPathStillNamesIt) {
+  const test::TemporaryFolder folder;
+  const auto sink = record::FileSink::create(folder / "a.mcap");
+  ASSERT_TRUE(sink);
+  EXPECT_TRUE(sink.value()->is_at(folder / "a.mcap"));
+  std::filesystem::rename(folder / "a.mcap", folder / "b.mcap");
+  EXPECT_FALSE(sink.value()->is_at(folder / "a.mcap"));
+  std::ofstream(folder / "a.mcap") << "another";
+  EXPECT_FALSE(sink.value()->is_at(folder / "a.mcap"));
+  EXPECT_TRUE(sink.value()->is_at(folder / "b.mcap"));
 }
 
 TEST(Store, BeginsAnewWhereSomebodyRemovesTheFile) {
