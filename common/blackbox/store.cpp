@@ -233,7 +233,10 @@ void Store::settle(TimeNs now_ns) {
   if (!why.empty()) {
     fail(why);
     // Somebody put another disk there, or moved the file away to make room.
-    if (!writer_->is_at(path_)) return begin_beside(now_ns);
+    if (!writer_->is_at(path_)) {
+      leave_file();
+      return begin(now_ns);
+    }
   }
   counts_.bytes = bytes_before_ + writer_->size();
   counts_.samples = samples_before_ + writer_->messages();
@@ -256,20 +259,17 @@ void Store::begin_in_place_of_removed(TimeNs now_ns) {
   begin(now_ns);
 }
 
-void Store::begin_beside(TimeNs now_ns) {
+void Store::leave_file() {
   bytes_before_ += writer_->size();
   samples_before_ += writer_->messages();
   writer_.reset();
-  begin(now_ns);
 }
 
 void Store::end_file() {
   if (const std::string why = writer_->finish(); !why.empty()) fail(why);
-  bytes_before_ += writer_->size();
-  samples_before_ += writer_->messages();
+  leave_file();
   counts_.bytes = bytes_before_;
   counts_.samples = samples_before_;
-  writer_.reset();
   counts_.file.clear();
 }
 

@@ -70,8 +70,8 @@ class Store {
   void enclose_again(TimeNs now_ns);
   void end_file();
   void begin_in_place_of_removed(TimeNs now_ns);
-  /// The open file cannot be written and lies elsewhere by now.
-  void begin_beside(TimeNs now_ns);
+  /// As it is; what it holds is counted.
+  void leave_file();
   void note_lost(const std::string& topic, const Dropped& one);
   void fail(const std::string& why);
   void well();

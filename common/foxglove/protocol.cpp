@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 
 namespace fathom::foxglove {
 namespace {

@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "mavlink/crc.hpp"
 
 /// Messages of MAVLink as structs. A struct names its fields once, in the order of the dialect; layout on the

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "mavlink/known.hpp"
 
 namespace fathom::mavlink {

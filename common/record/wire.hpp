@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "base/result.hpp"
 #include "base/time.hpp"
 #include "record/bytes.hpp"

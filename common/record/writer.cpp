@@ -4,7 +4,7 @@
 #include <cassert>
 #include <utility>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "record/wire.hpp"
 
 namespace fathom::record {

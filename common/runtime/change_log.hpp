@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/pace.hpp"
 #include "base/time.hpp"
 #include "runtime/log.hpp"
 
@@ -17,25 +18,21 @@ namespace fathom::runtime {
 class ChangeLog {
  public:
   struct Line {
-    LogLevel level = runtime::LogLevel::info;
+    LogLevel level = LogLevel::info;
     std::string text;
   };
 
   /// The line to be written now, if any.
   [[nodiscard]] std::optional<Line> add(Line line, TimeNs monotonic_ns) {
     const std::lock_guard lock(mutex_);
-    if (!begin_ns_ || monotonic_ns - *begin_ns_ >= kPeriod_ns) begin(monotonic_ns);
     newest_ = std::move(line);
     ++unsaid_;
-    if (said_ >= kFew) return std::nullopt;
-    return say();
+    return told(monotonic_ns);
   }
   /// What was held back and is to be written now. To be asked about once a second.
   [[nodiscard]] std::optional<Line> due(TimeNs monotonic_ns) {
     const std::lock_guard lock(mutex_);
-    if (unsaid_ == 0 || monotonic_ns - *begin_ns_ < kPeriod_ns) return std::nullopt;
-    begin(monotonic_ns);
-    return say();
+    return unsaid_ > 0 ? told(monotonic_ns) : std::nullopt;
   }
   /// Something waits to be written.
   [[nodiscard]] bool holds() const {
@@ -47,21 +44,16 @@ class ChangeLog {
   static constexpr DurationNs kPeriod_ns = 10 * kNsPerSecond;
   static constexpr int kFew = 8;
 
-  void begin(TimeNs monotonic_ns) {
-    begin_ns_ = monotonic_ns;
-    said_ = unsaid_ > 0 ? kFew - 1 : 0;
-  }
-  Line say() {
+  std::optional<Line> told(TimeNs monotonic_ns) {
+    if (!pace_.may_tell(monotonic_ns)) return std::nullopt;
     Line out = newest_;
     if (unsaid_ > 1) out.text += ", the last of " + std::to_string(unsaid_) + " changes";
     unsaid_ = 0;
-    ++said_;
     return out;
   }
 
   mutable std::mutex mutex_;
-  std::optional<TimeNs> begin_ns_;
-  int said_ = 0;
+  Pace pace_{kFew, kPeriod_ns};
   std::uint64_t unsaid_ = 0;
   Line newest_;
 };

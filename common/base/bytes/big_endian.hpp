@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 
 namespace fathom {
 

@@ -1,6 +1,6 @@
 #include "codec/dvl/pd0.hpp"
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "codec/dvl/pd0_ensemble.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/pd0_layout.hpp"

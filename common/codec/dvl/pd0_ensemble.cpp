@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "codec/dvl/pd0_layout.hpp"
 
 namespace fathom::codec::pd0 {

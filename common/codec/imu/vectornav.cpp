@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "codec/framer.hpp"
 #include "codec/imu/known3.hpp"

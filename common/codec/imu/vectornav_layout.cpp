@@ -1,6 +1,6 @@
 #include "codec/imu/vectornav_layout.hpp"
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 
 namespace fathom::codec::vectornav {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <optional>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 

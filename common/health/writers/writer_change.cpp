@@ -49,7 +49,7 @@ void WriterChange::tell(Stream& stream, const Name& key, const std::string& what
     stream.words = describe ? describe(stream.writer) : "a writer";
     stream.described_ns = now.monotonic_ns;
   }
-  if (!stream.changed || !stream.pace.may_tell(now)) return;
+  if (!stream.changed || !stream.pace.may_tell(now.monotonic_ns)) return;
   stream.changed = false;
   // Who wrote before may have written last, too: then the one between is news.
   const bool in_turn = of_same_process(stream.writer, stream.first);
@@ -59,16 +59,6 @@ void WriterChange::tell(Stream& stream, const Name& key, const std::string& what
                                        : "%s comes from %.100s now, before it came from %.100s.",
                                what.c_str(), other.c_str(), stream.before.c_str())},
              now);
-}
-
-bool WriterChange::Pace::may_tell(const Instant& now) {
-  if (begin_ns_ == 0 || to_seconds(now.monotonic_ns - begin_ns_) >= kPeriodS) {
-    begin_ns_ = now.monotonic_ns;
-    told_ = std::exchange(held_, false) ? kFew - 1 : 0;
-  }
-  held_ = told_ >= kFew;
-  if (!held_) ++told_;
-  return !held_;
 }
 
 void WriterChange::report(AlarmBook& book, const Instant& now, const DescribeWriter& describe) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/pace.hpp"
 #include "health/alarm_book.hpp"
 #include "health/instant.hpp"
 #include "health/writers/writer_watch.hpp"
@@ -29,19 +30,8 @@ class WriterChange {
 
  private:
   static constexpr std::size_t kMostUnits = 16;  ///< names come from the network: bounded
-  /// Two that write by turns change many times a second. A few changes are told at once, each. Where there
-  /// are many, one is told once a period, so that they fill neither log nor journal.
-  class Pace {
-   public:
-    [[nodiscard]] bool may_tell(const Instant& now);
-
-   private:
-    static constexpr double kPeriodS = 10.0;
-    static constexpr int kFew = 4;
-    TimeNs begin_ns_ = 0;  ///< monotonic
-    int told_ = 0;
-    bool held_ = false;  ///< something, since the period began
-  };
+  static constexpr int kFew = 4;                 ///< changes that are told at once: two may write by turns
+  static constexpr DurationNs kPeriod_ns = 10 * kNsPerSecond;
   struct Stream {
     WriterGuid writer{};
     std::string words;        ///< describe the writer, as it was known while it was present
@@ -51,7 +41,7 @@ class WriterChange {
     WriterGuid first{};       ///< that writer
     WriterGuid other{};       ///< the last one since that is of another process
     bool changed = false;
-    Pace pace;
+    Pace pace{kFew, kPeriod_ns};
   };
   static void note(Stream& stream, const WriterGuid& writer, const Instant& now);
   static void tell(Stream& stream, const Name& key, const std::string& what, AlarmBook& book,

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 
 namespace fathom::logs::dataflash {
 namespace {

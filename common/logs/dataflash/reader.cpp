@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "logs/dataflash/format.hpp"
 #include "logs/file_window.hpp"
 

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <utility>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 
 namespace fathom::logs::ulog {
 namespace {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "logs/file_window.hpp"
 #include "logs/ulog/message.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/pd0_layout.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "codec/satellite/ubx.hpp"
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cassert>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "codec/imu/known3.hpp"
 #include "codec/imu/vectornav.hpp"

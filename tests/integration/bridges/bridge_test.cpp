@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/units.hpp"
+#include "heading_by_tcp.hpp"
 #include "samples/actuator.hpp"
 #include "samples/airspeed.hpp"
 #include "samples/depth.hpp"
@@ -241,28 +242,19 @@ TEST(DepthBridge, SamplesReadAtOnceAfterAPauseAreStampedOnePeriodApart) {
 }
 
 TEST(HeadingBridge, TheInstrumentConnectsToTheBridge) {
-  constexpr int kDomain = 144;
-  const TemporaryFolder folder;
-  bus::Participant participant(test_participant(kDomain));
-  const Collector<HeadingSample> heading(participant);
-  const int port = free_port(SOCK_STREAM);
-  const Process bridge(
-      "fathom-heading-bridge",
-      bridge_arguments("heading", kDomain,
-                       {R"(sensors.0.source={"type":"tcp_server","port":)" + std::to_string(port) + "}"}),
-      folder / "log");
-  ASSERT_TRUE(eventually([&] { return heading.matched(); })) << bridge.output();
+  const HeadingByTcp run;
+  ASSERT_TRUE(eventually([&] { return run.heading.matched(); })) << run.bridge.output();
   int device = -1;  // the bridge is on the network a little before it listens
-  ASSERT_TRUE(eventually([&] { return (device = connect_to(port)) >= 0; })) << bridge.output();
+  ASSERT_TRUE(eventually([&] { return (device = connect_to(run.port)) >= 0; })) << run.bridge.output();
   HeadingSample sent;
   sent.heading_rad = 271.3 * kRadPerDeg;
   const std::string sentence = encode::nmea_heading(sent);
   EXPECT_TRUE(eventually([&] {
     ::send(device, sentence.data(), sentence.size(), MSG_NOSIGNAL);
-    return heading.count() > 3;
-  })) << bridge.output();
-  EXPECT_NEAR(heading.all().front().heading_rad, sent.heading_rad, 1e-3);
-  EXPECT_EQ(heading.all().front().north, North::true_north);
+    return run.heading.count() > 3;
+  })) << run.bridge.output();
+  EXPECT_NEAR(run.heading.all().front().heading_rad, sent.heading_rad, 1e-3);
+  EXPECT_EQ(run.heading.all().front().north, North::true_north);
   close(device);
 }
 

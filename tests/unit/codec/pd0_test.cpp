@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "capture.hpp"
 #include "codec/dvl/pd0_layout.hpp"

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 #include "support/codec/decode_run.hpp"

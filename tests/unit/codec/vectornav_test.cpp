@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/little_endian.hpp"
+#include "base/bytes/little_endian.hpp"
 #include "capture.hpp"
 
 namespace fathom::codec {
