@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "base/pace.hpp"
+#include "base/few_at_once.hpp"
 #include "base/time.hpp"
 #include "runtime/log.hpp"
 
@@ -53,7 +53,7 @@ class ChangeLog {
   }
 
   mutable std::mutex mutex_;
-  Pace pace_{kFew, kPeriod_ns};
+  FewAtOnce pace_{kFew, kPeriod_ns};
   std::uint64_t unsaid_ = 0;
   Line newest_;
 };

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/pace.hpp"
+#include "base/few_at_once.hpp"
 #include "health/alarm_book.hpp"
 #include "health/instant.hpp"
 #include "health/writers/writer_watch.hpp"
@@ -41,7 +41,7 @@ class WriterChange {
     WriterGuid first{};       ///< that writer
     WriterGuid other{};       ///< the last one since that is of another process
     bool changed = false;
-    Pace pace{kFew, kPeriod_ns};
+    FewAtOnce pace{kFew, kPeriod_ns};
   };
   static void note(Stream& stream, const WriterGuid& writer, const Instant& now);
   static void tell(Stream& stream, const Name& key, const std::string& what, AlarmBook& book,

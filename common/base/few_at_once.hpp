@@ -9,9 +9,9 @@ namespace fathom {
 
 /// What is told of things that happen again and again: a few at once, each; of many, one a period, so that
 /// they fill no disk. Not thread-safe; the time is an argument.
-class Pace {
+class FewAtOnce {
  public:
-  Pace(int few, DurationNs period_ns) : few_(few), period_ns_(period_ns) {}
+  FewAtOnce(int few, DurationNs period_ns) : few_(few), period_ns_(period_ns) {}
 
   /// Whether what happened is told now; else it is held back, and to be asked about again.
   [[nodiscard]] bool may_tell(TimeNs monotonic_ns) {
