@@ -253,6 +253,7 @@ void Estimate::correct_start(const Setup& setup, VelocityOver along, std::array<
 
 bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x) {
   // (GATE-11)
+  if (setup.config.left_out == LeftOut::noise) return false;
   const std::optional<BiasPrior::Wrong> wrong = bias_prior.wrong(state, filter);
   if (!wrong) return false;
   motion_noise.interrupt();

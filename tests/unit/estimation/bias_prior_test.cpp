@@ -151,8 +151,9 @@ TEST(BiasPrior, NoSingleMeasurementDecides) {
 }
 
 /// A survey whose inertial unit has these biases beside those that are configured.
-test::SpoiltSurvey biased(const SurveyRun& run, const Vector3d& gyro_rad_s, const Vector3d& accel_m_s2) {
-  return test::survey(run, 60.0, [&](test::Sample& sample, double) {
+test::SpoiltSurvey biased(const SurveyRun& run, const Vector3d& gyro_rad_s, const Vector3d& accel_m_s2,
+                          const EngineConfig& config = SurveyRun::config()) {
+  const auto spoil = [&](test::Sample& sample, double) {
     auto* imu = std::get_if<ImuSample>(&sample);
     if (imu == nullptr) return;
     const auto add = [&](std::array<double, 3>& rate, std::array<double, 3>& increment,
@@ -162,7 +163,18 @@ test::SpoiltSurvey biased(const SurveyRun& run, const Vector3d& gyro_rad_s, cons
     };
     add(imu->angular_rate_B_rad_s, imu->delta_angle_B_rad, gyro_rad_s);
     add(imu->specific_force_B_m_s2, imu->delta_velocity_B_m_s, accel_m_s2);
-  });
+  };
+  return test::survey(run, 60.0, spoil, config);
+}
+
+// What is left out passes for a bias there: taken back, it led a published filter astray for good.
+TEST(BiasPrior, IsTakenAsSaidWhereWhatIsLeftOutIsTakenForNone) {
+  const SurveyRun run({.duration_s = 140.0, .usbl = false});
+  EngineConfig config = SurveyRun::config();
+  config.left_out = LeftOut::noise;
+  EXPECT_EQ(
+      biased(run, {0.0, 200.0 * kDegPerHour, 0.0}, Vector3d::Zero(), config).advice.find("bias of gyro"),
+      std::string::npos);
 }
 
 TEST(BiasPrior, KeepsNavigationHonestBesideABiasedUnit) {
