@@ -122,7 +122,8 @@ void Estimate::follow(const Setup& setup) {
   filter.propagate(step, noise);
   start_heading.propagated(step, noise);
   bias_prior.propagated(setup.drift, dt, state, filter);
-  motion_noise.propagated(step, noise, setup.imu_noise, setup.config.imu.max_noise_factor);
+  motion_noise.propagated(step, noise, setup.imu_noise,
+                          setup.doubts_imu() ? setup.config.imu.max_noise_factor : 1.0);
   if (const double share = settling_share(setup, -dt, dt); share > 0.0) {
     settle(setup, share, filter);
     settle(setup, share, bias_prior);
@@ -253,7 +254,7 @@ void Estimate::correct_start(const Setup& setup, VelocityOver along, std::array<
 
 bool Estimate::correct_bias(const Setup& setup, VelocityOver along, std::array<double, kMaxStates>& x) {
   // (GATE-11)
-  if (setup.config.left_out == LeftOut::noise) return false;
+  if (!setup.doubts_imu()) return false;
   const std::optional<BiasPrior::Wrong> wrong = bias_prior.wrong(state, filter);
   if (!wrong) return false;
   motion_noise.interrupt();

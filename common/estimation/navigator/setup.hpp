@@ -50,6 +50,9 @@ struct Setup {
   [[nodiscard]] double magnetic_variation_rad() const {
     return config.magnetic_variation_known ? config.magnetic_variation_rad : kUnknown;
   }
+  /// Whether what the measurements contradict is put down to the inertial unit (GATE-11, GATE-12): what is
+  /// left out and taken for none would pass for it.
+  [[nodiscard]] bool doubts_imu() const { return config.left_out != LeftOut::noise; }
   /// (NOISE-1) At this attitude, with what is felt there.
   [[nodiscard]] ProcessNoise process_noise(const Eigen::Matrix3d& C_NB, const SquaredInputs& inputs) const;
   /// What the configuration says of a drop and what follows from it.

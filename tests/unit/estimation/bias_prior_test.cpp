@@ -167,7 +167,7 @@ test::SpoiltSurvey biased(const SurveyRun& run, const Vector3d& gyro_rad_s, cons
   return test::survey(run, 60.0, spoil, config);
 }
 
-// What is left out passes for a bias there: taken back, it led a published filter astray for good.
+// What is left out passes for a bias and for noise there: taken back, it led published filters astray.
 TEST(BiasPrior, IsTakenAsSaidWhereWhatIsLeftOutIsTakenForNone) {
   const SurveyRun run({.duration_s = 140.0, .usbl = false});
   EngineConfig config = SurveyRun::config();
