@@ -25,6 +25,9 @@ void AxesFit::fields(Archive& archive, Self& self) {
   archive("count", self.count_, fathom::archive::at_least_zero());
   archive("configured", self.configured_, fathom::archive::at_least_zero());
   archive("left", self.left_, fathom::archive::at_least_zero());
+  if (!archive.since(21)) return;
+  archive("acceleration_before_N_m_s2", self.acceleration_before_N_m_s2_, fathom::archive::finite());
+  archive("variance_before_m2_s4", self.variance_before_m2_s4_, fathom::archive::at_least_zero());
 }
 
 template <class Archive, class Self>
@@ -105,6 +108,14 @@ void Plausibility::fields(Archive& archive, Self& self) {
 template <class Archive, class Self>
 void Plausibility::later_fields(Archive& archive, Self& self) {
   archive("tilts", self.tilts_);
+  if (!archive.since(21)) return;
+  archive("gain_from_ns", self.gain_.from_ns, fathom::archive::kInstant);
+  archive("gain_newest_ns", self.gain_.newest_ns, fathom::archive::kInstant);
+  archive("gain_from_N_m_s", self.gain_.from_N_m_s, fathom::archive::finite());
+  archive("gain_newest_N_m_s", self.gain_.newest_N_m_s, fathom::archive::finite());
+  archive("gain_noise_m_s", self.gain_.noise_m_s, fathom::archive::at_least_zero());
+  archive("gain_variance_m2_s4", self.gain_.variance_m2_s4, fathom::archive::at_least_zero());
+  archive("gain_acceleration_N_m_s2", self.gain_.acceleration_N_m_s2, fathom::archive::finite());
 }
 
 }  // namespace fathom::estimation

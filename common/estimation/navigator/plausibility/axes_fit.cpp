@@ -18,7 +18,9 @@ constexpr double kLongestTurn_s = 8.0;
 
 }  // namespace
 
-void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double lasted_s, double speed_m_s) {
+void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double lasted_s,
+                  const BlockMotion& motion) {
+  const double speed_m_s = motion.speed_m_s;
   const double length = down_B.norm();
   if (!(length > 0.0) || !std::isfinite(length) || !(turn_rad.norm() < 1e3)) {
     has_before_ = false;
@@ -31,8 +33,14 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
     lasted_s_ += lasted_s;
     const Vector3d as_configured = turned_down(turn, down_before_);
     const double gained_m_s = std::abs(speed_m_s - speed_before_m_s_);
-    const double noise =
-        std::hypot(kShaken_rad, (speed_m_s * turn.norm() + gained_m_s) / (lasted_s_ * kStandardGravity_m_s2));
+    // Two mean forces differ in N by the change of acceleration. What moves as it points accelerates by
+    // turning and by gaining speed; a multicopter accelerates any way. What the noise of velocities makes is
+    // none.
+    const double changed_m2_s4 = (motion.acceleration_N_m_s2 - acceleration_before_N_m_s2_).squaredNorm() -
+                                 motion.variance_m2_s4 - variance_before_m2_s4_;
+    const double other_m_s2 =
+        std::max((speed_m_s * turn.norm() + gained_m_s) / lasted_s_, std::sqrt(std::max(0.0, changed_m2_s4)));
+    const double noise = std::hypot(kShaken_rad, other_m_s2 / kStandardGravity_m_s2);
     const double moved = (down - down_before_).norm();
     if (std::max(moved, (as_configured - down_before_).norm()) < kPairStandsOut * noise &&
         lasted_s_ < kLongestTurn_s && turn.norm() < kMostTurn_rad) {
@@ -54,6 +62,8 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
   turn_rad_ = 0.5 * turn_rad;
   lasted_s_ = 0.0;
   speed_before_m_s_ = speed_m_s >= 0.0 ? speed_m_s : -1.0;
+  acceleration_before_N_m_s2_ = motion.acceleration_N_m_s2;
+  variance_before_m2_s4_ = motion.variance_m2_s4;
 }
 
 OtherAxes AxesFit::other(const Proof& proof) const {

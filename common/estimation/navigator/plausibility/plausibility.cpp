@@ -109,7 +109,11 @@ void Plausibility::feel(const Setup& setup, double dt_s, const Vector3d& force_B
   along_x_s_ = along_x ? along_x_s_ + felt_s_ : 0.0;
   along_y_s_ = along_y ? along_y_s_ + felt_s_ : 0.0;
   const bool slow = speed_ns_ != 0 && to_seconds(now_ns - speed_ns_) <= kSteady_s;
-  axes_.add(-mean, felt_turn_rad_, felt_s_, slow ? speed_m_s_ : kUnknown);
+  gain_.close(now_ns);
+  axes_.add(-mean, felt_turn_rad_, felt_s_,
+            {.speed_m_s = slow ? speed_m_s_ : kUnknown,
+             .acceleration_N_m_s2 = gain_.acceleration_N_m_s2,
+             .variance_m2_s4 = gain_.variance_m2_s4});
   felt_s_ = felt_rate_rad_s_ = 0.0;
   felt_turn_rad_.setZero();
   felt_m_s_.setZero();
@@ -202,6 +206,19 @@ void Plausibility::follow(const SensorConfig& config, const GpsSample& gps, cons
   track_.way_m.setZero();
 }
 
+void Plausibility::Gain::close(TimeNs now_ns) {
+  const double lasted_s = to_seconds(newest_ns - from_ns);
+  if (from_ns == 0 || to_seconds(now_ns - newest_ns) > kSteady_s || lasted_s > kSteady_s) {
+    acceleration_N_m_s2.setZero();
+    variance_m2_s4 = 0.0;
+  } else if (lasted_s > 0.0) {
+    acceleration_N_m_s2 = (newest_N_m_s - from_N_m_s) / lasted_s;
+    variance_m2_s4 = 4.0 * noise_m_s * noise_m_s / (lasted_s * lasted_s);
+  }
+  from_ns = newest_ns;
+  from_N_m_s = newest_N_m_s;
+}
+
 void Plausibility::take(const Setup& setup, const SensorConfig& config, const GpsSample& gps,
                         const TrustedAttitude* attitude, TimeNs now_ns) {
   const Vector2d v(gps.velocity_N_m_s[0], gps.velocity_N_m_s[1]);
@@ -213,6 +230,9 @@ void Plausibility::take(const Setup& setup, const SensorConfig& config, const Gp
   const double speed = v.norm();
   speed_m_s_ = speed;
   speed_ns_ = now_ns;
+  gain_.newest_N_m_s = v;
+  gain_.newest_ns = now_ns;
+  gain_.noise_m_s = noise_m_s;
 
   if (config.use_velocity) follow(config, gps, v, noise_m_s, now_ns);
   if (config.use_velocity && attitude != nullptr) {

@@ -88,12 +88,14 @@ class Plausibility {
     visit(self.dvl_ns_);
     visit(self.heading_ns_);
     visit(self.speed_ns_);
+    visit(self.gain_.from_ns);
+    visit(self.gain_.newest_ns);
   }
 
   /// For archives: see fields/plausibility.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
-  /// Those that came with version 8.
+  /// Those that came with version 8 and later.
   template <class Archive, class Self>
   static void later_fields(Archive& archive, Self& self);
 
@@ -115,6 +117,19 @@ class Plausibility {
     Eigen::Vector2d velocity_m_s = Eigen::Vector2d::Zero();
     Eigen::Vector2d way_m = Eigen::Vector2d::Zero();
     PairFit fit;
+  };
+  /// How velocities of GPS change between the ends of two blocks of force.
+  struct Gain {
+    TimeNs from_ns = 0;  ///< of the newest one as the block before ended
+    TimeNs newest_ns = 0;
+    Eigen::Vector2d from_N_m_s = Eigen::Vector2d::Zero();
+    Eigen::Vector2d newest_N_m_s = Eigen::Vector2d::Zero();
+    double noise_m_s = 0.0;  ///< of one component
+    /// Of the last block, and its variance, both components together; 0 where it is not known.
+    Eigen::Vector2d acceleration_N_m_s2 = Eigen::Vector2d::Zero();
+    double variance_m2_s4 = 0.0;
+    /// At the end of a block.
+    void close(TimeNs now_ns);
   };
   struct Dive {
     TimeNs from_ns = 0;
@@ -165,6 +180,7 @@ class Plausibility {
   TiltFit tilts_;
   TimeNs speed_ns_ = 0;
   double speed_m_s_ = 0.0;
+  Gain gain_;
   double interval_s_ = 0.0;  ///< sum of inertial intervals
   double intervals_ = 0.0;
   double slots_ = 0.0;  ///< at the configured rate, lost samples too
