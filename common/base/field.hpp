@@ -8,8 +8,7 @@
 //   template <template <class> class Walk>
 //   void describe(Walk<Link>& fields) {
 //     fields.field("host", &Link::host, "address of the device").required();
-//     fields.field("timeout_s", &Link::timeout_s, "the connection is given up after").unit("s").range(0.01,
-//     60);
+//     fields.field("timeout_s", &Link::timeout_s, "given up after").unit("s").range(0.01, 60);
 //   }
 //
 // A walk offers `field(key, member, sentence)`, which returns a FieldRef. The default of a field is that of

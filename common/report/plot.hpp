@@ -5,8 +5,7 @@
 #include <vector>
 
 /// Plots as SVG text. Pure: the same plot gives the same bytes. Colours are the variables --s1 ... --s6,
-/// --ink,
-/// --soft, --line, --bad of the page around it; standalone() gives them where there is no page.
+/// --ink, --soft, --line, --bad of the page around it; standalone() gives them where there is no page.
 namespace fathom::report {
 
 struct Curve {

@@ -40,8 +40,11 @@ struct ImuTruth {
 /// on the rotating ellipsoid and the integrals of angular rate and specific force, so the inertial truth
 /// belongs to the trajectory to the accuracy of the integration (RK4, steps of at most 5 ms):
 ///
-///   v_N = C_NB V_B + c_N,   f_B = V_dot_B + omega_NB x V_B + C_BN (c_dot_N + (2 omega_IE + omega_EN) x v_N -
-///   g_N), omega_IB_B = omega_NB_B + C_BN (omega_IE + omega_EN)
+///   v_N = C_NB V_B + c_N
+///
+///   f_B = V_dot_B + omega_NB x V_B + C_BN (c_dot_N + (2 omega_IE + omega_EN) x v_N - g_N)
+///
+///   omega_IB_B = omega_NB_B + C_BN (omega_IE + omega_EN)
 ///
 /// with V_B the velocity through the medium and c_N the medium's own.
 class TruthGenerator {

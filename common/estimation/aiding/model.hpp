@@ -136,8 +136,7 @@ struct StatedError {
 ///   void jacobian(Jacobian&) const                                 d(predicted - measured)/dx
 ///   double wrapped(double) const      only where the innovation is an angle
 ///   StatedError stated(int) const     only where noise and slow error are stated in one
-///   static constexpr int kFirstComponent                          where another model of its source has
-///   those before
+///   static constexpr int kFirstComponent      only where another model of its source has those before
 /// and to the registry
 ///   using Sample
 ///   static Usable append_rows(const AidingInput&, const Sample&, Observation&)
