@@ -34,7 +34,7 @@ struct LinkStatus {
 class ByteLink {
  public:
   using BytesHandler = std::function<void(std::span<const std::uint8_t> bytes)>;
-  /// Each change between well and trouble.
+  /// Changes between well and trouble, of many the newest (Reopening); who is not heard.
   using Say = std::function<void(bool is_trouble, const std::string& text)>;
 
   /// The handlers run on the link's thread. Nothing runs before start().

@@ -27,10 +27,10 @@ struct Prepared {
 /// ranges and defaults, or `EXE --version`.
 ///
 /// Loads the configuration before anything starts and calls `body(host, config)`, which builds the service
-/// and returns host.run(). An error becomes one line on standard error, `fathom-NAME: ...`, and the exit
-/// code: 2 for usage or configuration, 4 for anything else. Config holds a member `common`, a member
-/// `instance` where there may be several services of the kind, `discovery_listen` where it is a discovery
-/// server, and is instantiated for config::load_service_config().
+/// and returns host.run(). An error becomes one line on standard error, `fathom-NAME: ...`, of a
+/// configuration one for each mistake, and the exit code: 2 for usage or configuration, 4 for anything else.
+/// Config holds a member `common`, a member `instance` where there may be several services of the kind,
+/// `discovery_listen` where it is a discovery server, and is instantiated for config::load_service_config().
 ///
 /// `verify(config, file, check)` checks the files that the configuration names, such as certificates, before
 /// anything starts, and throws config::ConfigError. `check`: --check was given, which may be stricter than a

@@ -23,7 +23,8 @@ struct OutletStatus {
 /// that fails is opened again, after 0.1 to 5 s, for ever.
 class Outlets {
  public:
-  /// `say` hears each change between well and trouble, on the outlets' thread.
+  /// `say` hears changes between well and trouble, of many the newest (runtime::Reopening), and that clients
+  /// are refused, on the outlets' thread.
   using Say = std::function<void(bool is_trouble, const std::string& text)>;
 
   Outlets(const std::vector<config::NmeaOutputConfig>& outputs, Say say);
