@@ -42,8 +42,8 @@ void describe(Walk<EngineConfig>& s) {
   s.field(
        "left_out", &C::left_out,
        "what becomes of errors that no state is estimated for: scale and misalignment of inertial unit and "
-       "DVL, the bias of a compass, the slow error of GPS; considered in the covariance, or noise of the "
-       "inertial unit and else none")
+       "DVL, the bias of DVL and compass, the slow error of GPS, USBL and a heading by two antennas, the "
+       "places of beacons; considered in the covariance, or noise of the inertial unit and else none")
       .words({{"considered", LeftOut::considered}, {"noise", LeftOut::noise}});
   s.field("imu", &C::imu, "error model of the inertial unit").required();
   s.field("states", &C::states, "initial uncertainty and drift of the states beyond the core");

@@ -70,18 +70,22 @@ void describe(Walk<ImuConfig>& s) {
       .unit("s")
       .range(0.1, 1e6);
   s.field("gyro_scale_sigma", &C::gyro_scale_sigma,
-          "gyro scale error, a ratio; where the state group gyro_scale is off it counts as noise")
+          "gyro scale error, a ratio; where the state group gyro_scale is off it is considered, or noise "
+          "(left_out)")
       .range(0, 0.1);
   s.field("accel_scale_sigma", &C::accel_scale_sigma,
-          "accelerometer scale error, a ratio; where the state group accel_scale is off it counts as noise")
+          "accelerometer scale error, a ratio; where the state group accel_scale is off it is considered, or "
+          "noise (left_out)")
       .range(0, 0.1);
   s.field("gyro_misalignment_sigma_deg", &C::gyro_misalignment_sigma_rad,
-          "misalignment between the gyro axes; where its state group is off it counts as noise")
+          "misalignment between the gyro axes; where its state group is off it is considered, or noise "
+          "(left_out)")
       .unit("deg")
       .range(0, 5)
       .scaled(kRadPerDeg);
   s.field("accel_misalignment_sigma_deg", &C::accel_misalignment_sigma_rad,
-          "misalignment between the accelerometer axes; where its state group is off it counts as noise")
+          "misalignment between the accelerometer axes; where its state group is off it is considered, or "
+          "noise (left_out)")
       .unit("deg")
       .range(0, 5)
       .scaled(kRadPerDeg);
