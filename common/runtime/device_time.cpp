@@ -72,6 +72,7 @@ std::optional<TimeNs> DeviceTimeTracker::utc_of(const DeviceTime& device, const 
       return utc;
     }
     out.implausible = true;
+    out.implausible_by_s = to_seconds(*device.utc_ns - arrival.utc_ns);
     return std::nullopt;
   }
   if (device.time_of_day_ns) {
@@ -82,6 +83,7 @@ std::optional<TimeNs> DeviceTimeTracker::utc_of(const DeviceTime& device, const 
     if (arrival.utc_ns - utc > kDay / 2) utc += kDay;
     if (believable(utc)) return utc;
     out.implausible = true;
+    out.implausible_by_s = to_seconds(utc - arrival.utc_ns);
   }
   return std::nullopt;
 }

@@ -40,6 +40,7 @@ struct Stamp {
   bool from_arrival = false;
   /// Device UTC was unbelievable (too old, or after its own arrival).
   bool implausible = false;
+  double implausible_by_s = 0.0;  ///< how far after its own arrival it would be
   /// Device UTC was wrong by whole GPS week roll-overs (1024 weeks) and was corrected.
   bool week_rollover = false;
   /// The device's clock was stepped or the device restarted; its offset was found anew.

@@ -1,8 +1,11 @@
 #include "bridge/sanity.hpp"
 
 #include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 
-#include "bridge/sanity/limits.hpp"
+#include "bridge/sanity/judge.hpp"
 
 namespace fathom::bridge {
 std::string_view to_string(Refusal refusal) {
@@ -17,7 +20,22 @@ std::string_view to_string(Refusal refusal) {
   return "no_instant";
 }
 
-std::optional<Refusal> refuse(const AnySample& sample, const config::SampleLimits& limits) {
+std::string sentence(const Refused& refused) {
+  const auto number = [](double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%g", value);
+    return std::string(text.data());
+  };
+  std::string out(refused.field);
+  if (refused.index) out += "[" + std::to_string(*refused.index) + "]";
+  if (std::isnan(refused.value)) return out + " is unknown, expected a number";
+  if (std::isinf(refused.value)) return out + " is infinite, expected a number";
+  out += " is " + number(refused.value) + ", expected ";
+  if (std::isfinite(refused.most)) return out + number(refused.least) + " to " + number(refused.most);
+  return out + (refused.least > 0.0 ? "more than 0" : "at least " + number(refused.least));
+}
+
+std::optional<Refused> refuse(const AnySample& sample, const config::SampleLimits& limits) {
   return std::visit([&](const auto& value) { return judge(value, limits); }, sample);
 }
 

@@ -108,6 +108,7 @@ struct SensorChannel::Impl : codec::Sink {
   void stamp_and_publish(const codec::Decoded& decoded, const Arrival& at);
   void publish_waiting();
   void keep_pace(const DeviceTime& time);
+  [[nodiscard]] Refused no_instant(const runtime::Stamp& stamp) const;
   void note_time(const runtime::Stamp& stamp);
   void add_totals();
   void judge_line(std::span<const std::uint8_t> bytes);
@@ -250,10 +251,17 @@ void SensorChannel::Impl::keep_pace(const DeviceTime& time) {
   arrival = {clock.utc_ns(), clock.monotonic_ns()};
 }
 
+Refused SensorChannel::Impl::no_instant(const runtime::Stamp& stamp) const {
+  return {.why = Refusal::no_instant,
+          .field = "the device's UTC less the vehicle's (s)",
+          .value = stamp.implausible_by_s,
+          .least = -plan.sensor.time.max_age_s,
+          .most = plan.sensor.time.tolerance_s};
+}
+
 void SensorChannel::Impl::note_time(const runtime::Stamp& stamp) {
-  if (stamp.implausible && said_implausible.first(arrival.monotonic_ns)) {
-    log.warning(plan.sensor.name.str() +
-                ": the device's UTC disagrees with the vehicle's; stamped by arrival");
+  if (stamp.implausible && !plan.dated && said_implausible.first(arrival.monotonic_ns)) {
+    log.warning(plan.sensor.name.str() + ": stamped by arrival: " + sentence(no_instant(stamp)));
   }
   if (stamp.clock_step && said_step.first(arrival.monotonic_ns)) {
     log.warning(plan.sensor.name.str() + ": the device's clock was stepped; its offset was found anew");
@@ -284,13 +292,12 @@ void SensorChannel::Impl::stamp_and_publish(const codec::Decoded& decoded, const
 
   AnySample sample = decoded.sample;
   if (auto* imu = std::get_if<ImuSample>(&sample)) rotate_into_body(*imu, plan.R_BS);
-  std::optional<Refusal> refusal = refuse(sample, plan.limits);
-  if (plan.dated && stamp.implausible) refusal = Refusal::no_instant;
-  if (refusal) {
-    const auto index = static_cast<std::size_t>(*refusal);
-    if (said_refused[index].first(arrival.monotonic_ns)) {
-      log.warning(plan.sensor.name.str() + ": sample refused: " + std::string(to_string(*refusal)));
-    }
+  std::optional<Refused> refused = refuse(sample, plan.limits);
+  if (plan.dated && stamp.implausible) refused = no_instant(stamp);
+  if (refused) {
+    const auto index = static_cast<std::size_t>(refused->why);
+    if (said_refused[index].first(arrival.monotonic_ns))
+      log.warning(plan.sensor.name.str() + ": sample refused: " + sentence(*refused));
     const std::lock_guard lock(mutex);
     ++counters.refused[index];
     return;

@@ -77,10 +77,8 @@ class InputOf final : public Input {
     if (!header.sample) return refuse(header.why, header.text);
     auto entry = convert_(message, *header.sample);
     if (!entry.sample) return refuse(entry.why, entry.text);
-    if (const auto reason = bridge::refuse(AnySample(*entry.sample), limits_)) {
-      return refuse(ros2::Refusal::value, "the sample is " + std::string(bridge::to_string(*reason)) +
-                                              ", expected values within the configured limits");
-    }
+    if (const auto refused = bridge::refuse(AnySample(*entry.sample), limits_))
+      return refuse(ros2::Refusal::value, bridge::sentence(*refused));
     door_.published(entry.sample->header);
     const bool written = writer_.write(*entry.sample);
     const std::lock_guard lock(mutex_);

@@ -1,22 +1,24 @@
 #include "samples/actuator.hpp"
 
-#include "bridge/sanity/limits.hpp"
+#include "base/unknown.hpp"
+#include "bridge/sanity/judge.hpp"
 
 namespace fathom::bridge {
 
 template <>
 Judgement judge(const PropulsionSample& s, const Limits& limits) {
-  if (!std::isfinite(s.rpm)) return Refusal::not_finite;
-  if (beyond(s.rpm, limits.rpm)) return Refusal::impossible;
-  return std::nullopt;
+  return Judge().numbers("rpm", s.rpm).at_most("rpm", s.rpm, limits.rpm).verdict();
 }
 
 template <>
 Judgement judge(const FinsSample& s, const Limits& limits) {
-  const std::array fins{s.rudder_rad, s.stern_rad};
-  if (any_infinite(fins) || (!known(fins[0]) && !known(fins[1]))) return Refusal::not_finite;
-  if (any_beyond(fins, limits.fin_rad)) return Refusal::impossible;
-  return std::nullopt;
+  Judge judge;
+  if (!known(s.rudder_rad) && !known(s.stern_rad)) judge.numbers("rudder_rad", s.rudder_rad);
+  return judge.finite("rudder_rad", s.rudder_rad)
+      .finite("stern_rad", s.stern_rad)
+      .at_most("rudder_rad", s.rudder_rad, limits.fin_rad)
+      .at_most("stern_rad", s.stern_rad, limits.fin_rad)
+      .verdict();
 }
 
 }  // namespace fathom::bridge

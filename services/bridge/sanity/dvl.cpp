@@ -1,21 +1,24 @@
 #include "samples/dvl.hpp"
 
-#include "bridge/sanity/limits.hpp"
+#include "bridge/sanity/judge.hpp"
 
 namespace fathom::bridge {
 
 template <>
 Judgement judge(const DvlSample& s, const Limits& limits) {
-  if (any_infinite(s.velocity_D_m_s) || any_infinite(s.beam_velocity_m_s) || any_infinite(s.beam_range_m) ||
-      any_infinite(std::array{s.error_velocity_m_s, s.sigma_m_s, s.altitude_m, s.sound_speed_m_s})) {
-    return Refusal::not_finite;
-  }
-  if (any_beyond(s.velocity_D_m_s, limits.dvl_speed_m_s) ||
-      any_beyond(s.beam_velocity_m_s, limits.dvl_speed_m_s)) {
-    return Refusal::impossible;
-  }
-  if (s.altitude_m < 0.0 || s.sigma_m_s < 0.0) return Refusal::impossible;
-  return std::nullopt;
+  return Judge()
+      .finite("velocity_D_m_s", s.velocity_D_m_s)
+      .finite("beam_velocity_m_s", s.beam_velocity_m_s)
+      .finite("beam_range_m", s.beam_range_m)
+      .finite("error_velocity_m_s", s.error_velocity_m_s)
+      .finite("sigma_m_s", s.sigma_m_s)
+      .finite("altitude_m", s.altitude_m)
+      .finite("sound_speed_m_s", s.sound_speed_m_s)
+      .at_most("velocity_D_m_s", s.velocity_D_m_s, limits.dvl_speed_m_s)
+      .at_most("beam_velocity_m_s", s.beam_velocity_m_s, limits.dvl_speed_m_s)
+      .not_negative("altitude_m", s.altitude_m)
+      .not_negative("sigma_m_s", s.sigma_m_s)
+      .verdict();
 }
 
 }  // namespace fathom::bridge

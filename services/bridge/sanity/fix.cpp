@@ -1,17 +1,21 @@
 #include "samples/position/fix.hpp"
 
-#include "bridge/sanity/limits.hpp"
+#include "bridge/sanity/place.hpp"
 
 namespace fathom::bridge {
 
 template <>
 Judgement judge(const FixSample& s, const Limits& limits) {
-  if (!all_finite(std::array{s.latitude_rad, s.longitude_rad, s.sigma_m}) ||
-      any_infinite(std::array{s.depth_m, s.depth_sigma_m}))
-    return Refusal::not_finite;
-  if (s.sigma_m <= 0.0 || s.depth_sigma_m <= 0.0 || beyond(s.depth_m, limits.depth_m))
-    return Refusal::impossible;
-  return position(s.latitude_rad, s.longitude_rad);
+  Judge judge;
+  judge.numbers("latitude_rad", s.latitude_rad)
+      .numbers("longitude_rad", s.longitude_rad)
+      .numbers("sigma_m", s.sigma_m)
+      .finite("depth_m", s.depth_m)
+      .finite("depth_sigma_m", s.depth_sigma_m)
+      .positive("sigma_m", s.sigma_m)
+      .positive("depth_sigma_m", s.depth_sigma_m)
+      .at_most("depth_m", s.depth_m, limits.depth_m);
+  return place(judge, "latitude_rad", s.latitude_rad, "longitude_rad", s.longitude_rad).verdict();
 }
 
 }  // namespace fathom::bridge
