@@ -43,6 +43,7 @@ struct CodecOptions {
   /// Rotation of the recorded instrument axes about down onto the vehicle, for DVLs in instrument axes.
   double dvl_heading_alignment_rad = 0.0;
   double usbl_sigma_floor_m = 0.0;
+  int mavlink_system = 0;  ///< of the autopilot that counts; 0: of the first that is heard
   AirDataOptions air_data;
   BeaconOptions beacons;
 };

@@ -64,7 +64,9 @@ class Mavlink final : public Framer {
         pressure_{.unit = kPascalPerHectopascal,
                   .value_is_depth = false,
                   .atmosphere_Pa = options.atmosphere_Pa,
-                  .latitude_rad = options.latitude_rad} {}
+                  .latitude_rad = options.latitude_rad} {
+    if (options.mavlink_system > 0) system_ = static_cast<std::uint8_t>(options.mavlink_system);
+  }
 
  private:
   [[nodiscard]] Probe probe(Bytes front) const override {
@@ -193,7 +195,7 @@ class Mavlink final : public Framer {
   }
 
   DepthScale pressure_;
-  std::optional<std::uint8_t> system_;
+  std::optional<std::uint8_t> system_;  ///< that counts; none: the first that is heard
 };
 
 }  // namespace

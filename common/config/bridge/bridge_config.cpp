@@ -66,6 +66,10 @@ void describe(Schema<SensorConfig>& s) {
        "its first sample may take this long, e.g. where water switches the instrument on; 0: stale_after_s")
       .unit("s")
       .range(0, 86'400);
+  s.field("mavlink_system", &SensorConfig::mavlink_system,
+          "system id of the autopilot that counts; 0: of the first that is heard")
+      .range(0, 255)
+      .only_for({"mavlink"});
   s.check([](const SensorConfig& c) -> Violation {
     if (codec::find_protocol(c.protocol) == nullptr)
       return {"protocol", "one of " + list_words(protocol_names())};

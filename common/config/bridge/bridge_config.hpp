@@ -24,6 +24,7 @@ struct SensorConfig {
   double stale_after_s =
       0.0;  ///< without a sample for this long it is degraded; 0: five periods, at least 2 s
   double first_sample_s = 0.0;  ///< the first one may take this long, e.g. where water switches it on
+  int mavlink_system = 0;       ///< of the autopilot; 0: of the first that is heard
 };
 
 /// How an instrument's axes lie in the vehicle.

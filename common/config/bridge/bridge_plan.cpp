@@ -42,6 +42,7 @@ double pascal(DepthUnit unit) {
 SensorPlan plan_of(const SensorConfig& sensor) {
   SensorPlan out;
   out.sensor = sensor;
+  out.options.mavlink_system = sensor.mavlink_system;
   if (out.sensor.source.silence_s <= 0.0) out.sensor.source.silence_s = stale_after_s(sensor);
   return out;
 }

@@ -218,6 +218,10 @@ void add_decode(CLI::App& app, ExitCode& /*exit_code*/) {
                       "DVL in instrument or beam axes: degrees from forward to beam 3, clockwise from above");
   command->add_option("--usbl-sigma-floor", options->codec.usbl_sigma_floor_m, "USBL: least sigma, m")
       ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--mavlink-system", options->codec.mavlink_system,
+                   "MAVLink: system id of the autopilot; 0: of the first that is heard")
+      ->check(CLI::Range(0, 255));
   command->callback([options] { run(*options); });
 }
 
