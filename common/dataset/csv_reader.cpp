@@ -65,6 +65,8 @@ std::string quoted(std::string_view text) {
   return out + (text.size() > 40 ? "...'" : "'");
 }
 
+constexpr const char* kTruncated =
+    "gzip data end too early: the file is truncated, expected a complete .gz file";
 constexpr const char* kOldLineEnds = "lines end with a carriage return alone, expected a line feed, or both";
 
 // The names of a header for people, as many as help.
@@ -74,6 +76,10 @@ std::string listed(const std::vector<std::string>& names) {
   for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
     out += (i == 0 ? "" : ", ") + quoted(std::string_view(names[i]));
   return out + (names.size() > kMost ? ", ..." : "");
+}
+
+std::string number_of_fields(std::size_t count) {
+  return std::to_string(count) + (count == 1 ? " field" : " fields");
 }
 
 bool is_comment(std::string_view line) {
@@ -131,7 +137,7 @@ class CsvReader::Source {
         error_text_ = std::string("cannot be read: ") + std::strerror(error_number_);
         error = error_text_.c_str();
       } else if (stream_.avail_in == 0) {
-        if (within_) error = "gzip data end too early: the file is truncated, expected a complete .gz file";
+        if (within_) error = kTruncated;
         break;
       } else if (plain_) {
         copy();
@@ -203,8 +209,8 @@ class CsvReader::Source {
   std::array<char, 1U << 16U> buffer_{};
 };
 
-CsvReader::CsvReader(const std::filesystem::path& path)
-    : file_(path.string()), source_(std::make_unique<Source>(path)) {
+CsvReader::CsvReader(const std::filesystem::path& path, LostEnd policy)
+    : file_(path.string()), policy_(policy), source_(std::make_unique<Source>(path)) {
   if (path.extension() == ".gz" && source_->plain()) {
     throw DatasetError(file_ + ": is not gzip data, expected a .gz file");
   }
@@ -230,16 +236,16 @@ bool CsvReader::next_line() {
   bool any = false;
   while (true) {
     if (source_->pending.empty()) {
-      if (source_->damage != nullptr) fail(source_->damage);
-      source_->pending = source_->read(source_->damage);
+      if (source_->damage == nullptr) source_->pending = source_->read(source_->damage);
       if (source_->pending.empty()) {
-        if (source_->damage != nullptr) fail(source_->damage);
-        return any;
+        if (source_->damage == nullptr) return any;
+        if (source_->damage == kTruncated && !names_.empty()) return leave_out(kTruncated);
+        fail(source_->damage);
       }
     }
     any = true;
     const auto end = source_->pending.find('\n');
-    line_.append(source_->pending.substr(0, end));
+    add_to_line(source_->pending.substr(0, end), end != std::string_view::npos);
     if (line_.size() > kLongestLine) {
       fail(line_.find('\r') < kLongestLine ? kOldLineEnds
                                            : "line is longer than 65536 bytes, expected a row of numbers");
@@ -251,6 +257,32 @@ bool CsvReader::next_line() {
     }
     source_->pending = {};
   }
+}
+
+void CsvReader::add_to_line(std::string_view text, bool ends_it) {
+  if (ends_it || text.find('\0') == std::string_view::npos) {
+    line_.append(text);
+    return;
+  }
+  // A file whose end was lost with the power may end in more zero bytes than any line is long: one stands for
+  // all.
+  for (const char c : text) {
+    if (c != '\0' || !line_.ends_with('\0')) line_ += c;
+  }
+}
+
+std::string CsvReader::lost_in_row() const {
+  if (line_ended_) return "";
+  if (line_.find('\0') != std::string::npos) return "the file ends in zero bytes, expected rows";
+  if (fields_.size() >= names_.size()) return "";
+  return "row has " + number_of_fields(fields_.size()) + ", expected " + std::to_string(names_.size()) +
+         ", and no line end: the file was cut there";
+}
+
+bool CsvReader::leave_out(const std::string& what) {
+  if (policy_ == LostEnd::refused) fail(what);
+  lost_end_ = std::to_string(line_number_) + ": " + what;
+  return false;
 }
 
 void CsvReader::split() {
@@ -278,6 +310,9 @@ bool CsvReader::next() {
     return false;
   }
   split();
+  if (policy_ == LostEnd::left_out) {
+    if (const std::string lost = lost_in_row(); !lost.empty()) return leave_out(lost);
+  }
   if (fields_.size() != names_.size()) fail_width();
   return true;
 }
@@ -290,8 +325,7 @@ void CsvReader::fail_width() const {
          "; delete it and what follows to use the rows before");
   const bool cut = !line_ended_ && fields_.size() < names_.size();
   fail(
-      "row has " + std::to_string(fields_.size()) + (fields_.size() == 1 ? " field, " : " fields, ") +
-      expected +
+      "row has " + number_of_fields(fields_.size()) + ", " + expected +
       (cut ? "; it ends the file and has no line end, so it was cut: delete it to use the rows before" : ""));
 }
 

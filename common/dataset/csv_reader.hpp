@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -18,8 +19,15 @@ class CsvReader {
   /// Position of a column in the file.
   using Column = std::size_t;
 
+  /// What becomes of a file whose end was lost with the power, with the disk's room or on the way: its last
+  /// row has no line end and too few fields, it ends in zero bytes, or its gzip data stop.
+  enum class LostEnd : std::uint8_t {
+    refused,
+    left_out,  ///< next() ends with the last whole row, lost_end() says why
+  };
+
   /// Opens `path` and reads the header line.
-  explicit CsvReader(const std::filesystem::path& path);
+  explicit CsvReader(const std::filesystem::path& path, LostEnd policy = LostEnd::refused);
   ~CsvReader();
   CsvReader(const CsvReader&) = delete;
   CsvReader& operator=(const CsvReader&) = delete;
@@ -40,6 +48,9 @@ class CsvReader {
   [[nodiscard]] std::string_view name(Column column) const { return names_[column]; }
   [[nodiscard]] std::size_t columns() const { return names_.size(); }
 
+  /// "LINE: what is missing of the file from there on"; empty where nothing is, or as long as rows come.
+  [[nodiscard]] const std::string& lost_end() const { return lost_end_; }
+
   /// Throws DatasetError about the present line.
   [[noreturn]] void fail(const std::string& message) const;
 
@@ -48,9 +59,16 @@ class CsvReader {
 
   [[nodiscard]] bool next_line();
   void split();
+  void add_to_line(std::string_view text, bool ends_it);
+  /// What was lost of the file's end in this row; empty where nothing was.
+  [[nodiscard]] std::string lost_in_row() const;
+  /// False: no row comes any more. Throws where what is lost is refused.
+  bool leave_out(const std::string& what);
   [[noreturn]] void fail_width() const;
 
   std::string file_;
+  LostEnd policy_;
+  std::string lost_end_;
   std::unique_ptr<Source> source_;
   std::size_t line_number_ = 0;
   std::string line_;

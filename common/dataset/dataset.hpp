@@ -49,6 +49,8 @@ struct Dataset : Kinds::Samples<StreamsOf> {
     return Stream<Sample>::samples;
   }
   std::vector<Truth> reference;
+  /// "FILE:LINE: what is missing": of files whose ends were lost.
+  std::vector<std::string> lost_ends;
 };
 
 /// The instant that t_s = 0 means where nothing else is said: 2020-01-01T00:00:00Z.
@@ -60,6 +62,8 @@ inline constexpr TimeNs kDefaultEpochNs = 1'577'836'800 * kNsPerSecond;
 struct ReadOptions {
   TimeNs epoch_ns = kDefaultEpochNs;  ///< UTC of t_s = 0
   Name vehicle = "auv";
+  bool without_lost_ends =
+      false;  ///< a file that was cut is read up to there, and named in Dataset::lost_ends
 };
 
 /// Throws DatasetError.

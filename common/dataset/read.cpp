@@ -21,7 +21,7 @@ constexpr double kLongestTime_s = 4.0e9;  // more than a century either side of 
 class SensorFile {
  public:
   SensorFile(const std::filesystem::path& path, std::string_view kind, const ReadOptions& options)
-      : csv(path),
+      : csv(path, options.without_lost_ends ? CsvReader::LostEnd::left_out : CsvReader::LostEnd::refused),
         kind_(kind),
         options_(options),
         t_(csv.optional_column("t_s").value_or(0)),  // Columns::Found refuses a file without it
@@ -82,7 +82,7 @@ class SensorFile {
 
 template <class T>
 void read_stream(const std::filesystem::path& directory, std::string_view kind, const ReadOptions& options,
-                 std::vector<T>& out) {
+                 std::vector<T>& out, std::vector<std::string>& lost_ends) {
   const std::filesystem::path plain = directory / (std::string(kind) + ".csv");
   std::filesystem::path zipped = plain;
   zipped += ".gz";
@@ -107,6 +107,9 @@ void read_stream(const std::filesystem::path& directory, std::string_view kind, 
     row.header = file.header;
     found.read(row);
   }
+  if (!file.csv.lost_end().empty())
+    lost_ends.push_back(there.filename().string() + ":" + file.csv.lost_end() +
+                        (out.empty() ? "" : "; the rows before it are used"));
 }
 
 }  // namespace
@@ -118,9 +121,9 @@ Dataset read(const std::filesystem::path& directory, const ReadOptions& options)
   }
   Dataset data;
   for_each_kind([&](auto kind) {
-    read_stream(directory, kind.kWord, options, data.of<typename decltype(kind)::Sample>());
+    read_stream(directory, kind.kWord, options, data.of<typename decltype(kind)::Sample>(), data.lost_ends);
   });
-  read_stream(directory, "reference", options, data.reference);
+  read_stream(directory, "reference", options, data.reference, data.lost_ends);
   return data;
 }
 

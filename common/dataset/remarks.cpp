@@ -118,7 +118,7 @@ void about_other_files(const fs::path& directory, std::vector<std::string>& out)
 }  // namespace
 
 std::vector<std::string> remarks(const fs::path& directory, const Dataset& data, const ReadOptions& options) {
-  std::vector<std::string> out;
+  std::vector<std::string> out = data.lost_ends;
   const auto& imu = data.of<ImuSample>();
   about_inertial_times(imu, out);
   for_each_kind([&](auto kind) {

@@ -127,9 +127,9 @@ config::LoadedConfig<config::FusionConfig> configuration_for(const std::string& 
   return recorded_configuration(reader, log, "fusion", sets);
 }
 
-dataset::Dataset read_dataset(const std::string& directory, Name vehicle) {
+dataset::Dataset read_dataset(const std::string& directory, Name vehicle, TimeNs epoch_ns) {
   try {
-    const dataset::ReadOptions options{dataset::kDefaultEpochNs, vehicle};
+    const dataset::ReadOptions options{epoch_ns, vehicle, true};
     dataset::Dataset data = dataset::read(directory, options);
     for (const std::string& remark : dataset::remarks(directory, data, options))
       std::fprintf(stderr, "fathom: %s: %s\n", directory.c_str(), remark.c_str());

@@ -28,8 +28,10 @@ struct ConfigFiles {
 [[nodiscard]] config::LoadedConfig<config::FusionConfig> configuration_for(
     const std::string& log, const ConfigFiles& files, const std::vector<std::string>& sets);
 
-/// The data set in a folder. What a person should know of it is said on standard error. Throws Failure.
-[[nodiscard]] dataset::Dataset read_dataset(const std::string& directory, Name vehicle);
+/// The data set in a folder. What a person should know of it is said on standard error, so which files were
+/// cut: their rows before that are used. Throws Failure.
+[[nodiscard]] dataset::Dataset read_dataset(const std::string& directory, Name vehicle,
+                                            TimeNs epoch_ns = dataset::kDefaultEpochNs);
 
 /// Throws Failure where a data set has no file of inertial samples.
 void refuse_without_imu_file(const std::string& directory);

@@ -65,7 +65,7 @@ bool holds_nothing(const dataset::Dataset& data) {
 
 void write_csv(const ExportOptions& options, std::optional<TimeNs> epoch_ns) {
   if (std::filesystem::is_directory(options.source)) {
-    const dataset::Dataset data = dataset::read(options.source);
+    const dataset::Dataset data = read_dataset(options.source, "auv");
     if (holds_nothing(data))
       throw Failure(ExitCode::bad_input,
                     options.source + ": no samples, expected a data set with imu.csv or others");

@@ -11,6 +11,7 @@
 #include "base/iso8601.hpp"
 #include "base/units.hpp"
 #include "cli/command.hpp"
+#include "cli/log.hpp"
 #include "dataset/csv_reader.hpp"
 #include "dataset/csv_writer.hpp"
 #include "dataset/dataset.hpp"
@@ -161,8 +162,7 @@ std::optional<TimeNs> epoch_of(const std::string& source, const std::string& ask
 }
 
 std::vector<Track> read_tracks(const std::string& source, TimeNs epoch_ns, double rate_hz) {
-  if (std::filesystem::is_directory(source))
-    return tracks_of(dataset::read(source, {epoch_ns, "auv"}), rate_hz);
+  if (std::filesystem::is_directory(source)) return tracks_of(read_dataset(source, "auv", epoch_ns), rate_hz);
   std::vector<Track> tracks{nav_track(source, epoch_ns, rate_hz)};
   if (tracks.front().points.empty()) tracks.clear();
   return tracks;

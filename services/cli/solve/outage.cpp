@@ -4,11 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <string_view>
 
 #include "cli/command.hpp"
 #include "cli/solve/smooth.hpp"
 #include "estimation/engine/fusion_engine.hpp"
+#include "geo/wgs84.hpp"
 #include "sim/random.hpp"
 
 namespace fathom::cli {
@@ -41,8 +43,27 @@ double seconds_in(std::string_view part, const std::string& whole) {
   return value;
 }
 
-double speed_m_s(const GpsSample& fix) {
-  return fix.fix == GpsFix::none ? kUnknown : std::hypot(fix.velocity_N_m_s[0], fix.velocity_N_m_s[1]);
+geo::Geodetic place_of(const GpsSample& fix) {
+  return {fix.latitude_rad, fix.longitude_rad, known(fix.altitude_m) ? fix.altitude_m : 0.0};
+}
+
+/// Over ground, of each fix. Where a receiver tells no velocity it is the way of the last five seconds, which
+/// leaves below half a metre a second of the noise of positions.
+std::vector<double> speeds_m_s(const std::vector<GpsSample>& gps) {
+  constexpr DurationNs kWay_ns = 5 * kNsPerSecond;
+  std::vector<double> out;
+  out.reserve(gps.size());
+  std::size_t before = 0;
+  for (const GpsSample& fix : gps) {
+    while (fix.header.stamp_ns - gps[before].header.stamp_ns > kWay_ns) ++before;
+    double speed =
+        fix.fix == GpsFix::none ? kUnknown : std::hypot(fix.velocity_N_m_s[0], fix.velocity_N_m_s[1]);
+    const double way_s = to_seconds(fix.header.stamp_ns - gps[before].header.stamp_ns);
+    if (fix.fix != GpsFix::none && !known(speed) && way_s >= 1.0)
+      speed = geo::difference_N(place_of(gps[before]), place_of(fix)).head<2>().norm() / way_s;
+    out.push_back(speed);
+  }
+  return out;
 }
 
 // Radius that 95 % of the errors stay within along the worse horizontal axis of the filter's covariance.
@@ -226,20 +247,18 @@ OutageRequest parse_outages(const std::string& text) {
 }
 
 std::optional<Motion> motion_of(const std::vector<GpsSample>& gps) {
-  std::vector<double> speeds;
-  for (const GpsSample& fix : gps) {
-    if (const double speed = speed_m_s(fix); known(speed)) speeds.push_back(speed);
-  }
-  if (speeds.empty()) return std::nullopt;
-  const auto high =
-      speeds.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(speeds.size() - 1));
-  std::nth_element(speeds.begin(), high, speeds.end());
+  const std::vector<double> speeds = speeds_m_s(gps);
+  std::vector<double> told;
+  std::copy_if(speeds.begin(), speeds.end(), std::back_inserter(told), known);
+  if (told.empty()) return std::nullopt;
+  const auto high = told.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(told.size() - 1));
+  std::nth_element(told.begin(), high, told.end());
   const double threshold = std::max(0.5, 0.25 * *high);
   std::optional<Motion> motion;
-  for (const GpsSample& fix : gps) {
-    if (!(speed_m_s(fix) > threshold)) continue;
-    if (!motion) motion = Motion{fix.header.stamp_ns, fix.header.stamp_ns};
-    motion->last_ns = fix.header.stamp_ns;
+  for (std::size_t i = 0; i < gps.size(); ++i) {
+    if (!(speeds[i] > threshold)) continue;
+    if (!motion) motion = Motion{gps[i].header.stamp_ns, gps[i].header.stamp_ns};
+    motion->last_ns = gps[i].header.stamp_ns;
   }
   return motion;
 }

@@ -81,6 +81,53 @@ TEST(CsvReader, WhatIsNoNumberIsNamed) {
   }
 }
 
+/// How many rows of a file are there, and what is said of its end.
+std::pair<std::size_t, std::string> rows_of(const test::DatasetFolder& folder, const char* name) {
+  CsvReader csv(folder.path() / name, CsvReader::LostEnd::left_out);
+  std::size_t rows = 0;
+  while (csv.next()) ++rows;
+  return {rows, csv.lost_end()};
+}
+
+TEST(CsvReader, WhatIsBeforeALostEndIsRead) {
+  const test::DatasetFolder folder;
+  const auto rows = [&](const std::string& text) {
+    folder.file("x.csv", text);
+    return rows_of(folder, "x.csv");
+  };
+  const std::string whole = "t_s,depth_m\n1,2\n2,3\n";
+  using Found = std::pair<std::size_t, std::string>;
+  EXPECT_EQ(rows(whole), Found(2, ""));
+  EXPECT_EQ(rows(whole + "3,4"), Found(3, "")) << "no line end, and whole";
+  EXPECT_EQ(rows(whole + "3"),
+            Found(2, "4: row has 1 field, expected 2, and no line end: the file was cut there"));
+  const std::string zeros = "4: the file ends in zero bytes, expected rows";
+  EXPECT_EQ(rows(whole + std::string(3, '\0')), Found(2, zeros));
+  EXPECT_EQ(rows(whole + "3,4" + std::string(300'000, '\0')), Found(2, zeros)) << "how long was the 4?";
+  // What goes on behind it was not lost, and is not left out without a word.
+  for (const std::string& damaged : {whole + "3\n4,5\n", whole + std::string(5, '\0') + "\n4,5\n"})
+    EXPECT_THROW((void)rows(damaged), DatasetError) << damaged;
+  folder.file("x.csv", "t_s,dep");
+  CsvReader header(folder.path() / "x.csv", CsvReader::LostEnd::left_out);
+  EXPECT_THROW(header.require({"t_s", "depth_m"}), DatasetError);
+}
+
+TEST(CsvReader, WhatIsBeforeTheEndOfCutGzipDataIsRead) {
+  const test::DatasetFolder folder;
+  std::mt19937_64 random(7);
+  std::string text = "t_s,depth_m\n";
+  for (int i = 0; i < 20'000; ++i) text += std::to_string(i) + "," + digits(random, 6) + "\n";
+  folder.zipped("x.csv.gz", text);
+  folder.cut("x.csv.gz", std::filesystem::file_size(folder.path() / "x.csv.gz") / 2);
+  const auto [rows, said] = rows_of(folder, "x.csv.gz");
+  EXPECT_GT(rows, 9'000U);
+  EXPECT_LT(rows, 11'000U);
+  EXPECT_EQ(said, std::to_string(rows + 2) +
+                      ": gzip data end too early: the file is truncated, expected a complete .gz file");
+  CsvReader strict(folder.path() / "x.csv.gz");
+  EXPECT_THROW(while (strict.next()){}, DatasetError);
+}
+
 TEST(CsvReader, BlanksAroundAFieldAreForgiven) {
   EXPECT_EQ(read({" 1.5", "2.5\t", "\t-3.5 \r"}), (std::vector<double>{1.5, 2.5, -3.5}));
   EXPECT_TRUE(std::isnan(read({"nan"}).at(0)));
