@@ -1,6 +1,7 @@
 // `fathom solve` over real vehicles.
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -96,6 +97,39 @@ TEST_F(SolveRecordings, AClassOfVehiclesServesAVehicleThatItWasNotFittedTo) {
   expect_auv_within(
       "tactical_auv",
       {"engine.sensors.0.lever_B_m=[-0.07,-0.02,0.28]", "engine.output_lever_B_m=[1.779,0.013,0.115]"}, 0.25);
+}
+
+// It flies to and fro sideways, which would look as exchanged axes of the gyro to who takes it for an
+// aircraft.
+TEST_F(SolveRecordings, AMulticopterByItsClassIsHonestWhereGpsIsWithheld) {
+  const fs::path flights = fs::path(FATHOM_DATASETS) / "mimu";
+  if (!fs::exists(flights)) FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
+  double squares = 0.0;
+  double covered = 0.0;
+  double windows = 0.0;
+  for (const char* flight :
+       {"horizontal_3", "horizontal_7", "horizontal_9", "horizontal_10", "vertical_1", "vertical_9"}) {
+    Process process("fathom",
+                    {"solve", (flights / flight).string(), "--config",
+                     std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/mems_multirotor.json", "--set",
+                     "engine.imu.nominal_rate_hz=120", "--set", "engine.sensors.0.lever_B_m=[0,-0.05,-0.23]",
+                     "--set", "engine.output_lever_B_m=[0,-0.05,-0.23]", "--start", "reference", "--out",
+                     path("nav.csv"), "--rate", "1", "--gps-outage", "10@8:12", "--json"});
+    ASSERT_EQ(process.wait(), 0) << process.err();
+    const auto metrics = nlohmann::json::parse(process.out());
+    EXPECT_EQ(metrics["refused_to_align"], nlohmann::json::array()) << flight;
+    EXPECT_LT(metrics["innovations"]["gps.gps_position"]["mean_normalised_squared"].get<double>(), 1.5)
+        << flight;
+    for (const auto& window : metrics["gps_outages"][0]["windows"]) {
+      const double error_m = window["horizontal_error_m"].get<double>();
+      squares += error_m * error_m;
+      covered += error_m < window["forecast_95_m"].get<double>() ? 1.0 : 0.0;
+      windows += 1.0;
+    }
+  }
+  ASSERT_GE(windows, 10.0);
+  EXPECT_LT(std::sqrt(squares / windows), 6.0);
+  EXPECT_GT(covered / windows, 0.9);
 }
 
 // The fixes of these recordings are stamped some hundredths of a second off their instant, and the reference
