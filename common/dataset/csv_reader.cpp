@@ -264,8 +264,7 @@ void CsvReader::add_to_line(std::string_view text, bool ends_it) {
     line_.append(text);
     return;
   }
-  // A file whose end was lost with the power may end in more zero bytes than any line is long: one stands for
-  // all.
+  // A file whose end was lost with the power may end in many zero bytes. One stands for all.
   for (const char c : text) {
     if (c != '\0' || !line_.ends_with('\0')) line_ += c;
   }

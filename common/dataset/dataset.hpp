@@ -62,8 +62,8 @@ inline constexpr TimeNs kDefaultEpochNs = 1'577'836'800 * kNsPerSecond;
 struct ReadOptions {
   TimeNs epoch_ns = kDefaultEpochNs;  ///< UTC of t_s = 0
   Name vehicle = "auv";
-  bool without_lost_ends =
-      false;  ///< a file that was cut is read up to there, and named in Dataset::lost_ends
+  /// A file that was cut is read up to there, and named in Dataset::lost_ends. Else it is refused.
+  bool without_lost_ends = false;
 };
 
 /// Throws DatasetError.

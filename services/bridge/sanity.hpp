@@ -23,7 +23,7 @@ inline constexpr std::size_t kRefusals = 3;
 /// A sample that is not published: of which value, and what was expected instead of it.
 struct Refused {
   Refusal why;
-  std::string_view field;                 ///< of the sample, with its unit; of all time
+  std::string_view field;                 ///< of the sample, with its unit; a literal
   std::optional<std::size_t> index = {};  ///< in the array that the field is
   double value = 0.0;
   double least = 0.0;

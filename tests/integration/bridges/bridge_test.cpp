@@ -312,6 +312,8 @@ TEST(ActuatorBridge, PropulsorAndFinsOfOneStreamOthersIgnored) {
     return propulsion.count() > 3 && fins.count() > 3 && counter(status, "ignored_kinds") > 0 &&
            counter(status, "refused_impossible") > 0;
   })) << bridge.output();
+  EXPECT_NE(bridge.output().find("sample refused: rpm is 9000, expected -2000 to 2000"), std::string::npos)
+      << bridge.output();
   for (const auto& each : propulsion.all()) EXPECT_NEAR(each.rpm, -600.0, 0.1);
   double rudder_rad = kUnknown;
   double stern_rad = kUnknown;
