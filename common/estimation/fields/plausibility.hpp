@@ -21,13 +21,13 @@ void AxesFit::fields(Archive& archive, Self& self) {
   archive("down_before", self.down_before_, fathom::archive::finite());
   archive("turn_rad", self.turn_rad_, fathom::archive::finite());
   archive("lasted_s", self.lasted_s_, fathom::archive::at_least_zero());
-  archive("speed_before_m_s", self.speed_before_m_s_, fathom::archive::finite());
+  archive("speed_before_m_s", self.before_.speed_m_s, fathom::archive::finite());
   archive("count", self.count_, fathom::archive::at_least_zero());
   archive("configured", self.configured_, fathom::archive::at_least_zero());
   archive("left", self.left_, fathom::archive::at_least_zero());
   if (!archive.since(21)) return;
-  archive("acceleration_before_N_m_s2", self.acceleration_before_N_m_s2_, fathom::archive::finite());
-  archive("variance_before_m2_s4", self.variance_before_m2_s4_, fathom::archive::at_least_zero());
+  archive("acceleration_before_N_m_s2", self.before_.acceleration_N_m_s2, fathom::archive::finite());
+  archive("variance_before_m2_s4", self.before_.variance_m2_s4, fathom::archive::at_least_zero());
 }
 
 template <class Archive, class Self>

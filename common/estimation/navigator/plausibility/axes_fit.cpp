@@ -27,17 +27,17 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
     return;
   }
   const Vector3d down = down_B / length;
-  if (has_before_ && speed_m_s >= 0.0 && speed_before_m_s_ >= 0.0) {
+  if (has_before_ && speed_m_s >= 0.0 && before_.speed_m_s >= 0.0) {
     // From the middle of one block to that of another.
     const Vector3d turn = turn_rad_ + 0.5 * turn_rad;
     lasted_s_ += lasted_s;
     const Vector3d as_configured = turned_down(turn, down_before_);
-    const double gained_m_s = std::abs(speed_m_s - speed_before_m_s_);
+    const double gained_m_s = std::abs(speed_m_s - before_.speed_m_s);
     // Two mean forces differ in N by the change of acceleration. What moves as it points accelerates by
     // turning and by gaining speed; a multicopter accelerates any way. What the noise of velocities makes is
     // none.
-    const double changed_m2_s4 = (motion.acceleration_N_m_s2 - acceleration_before_N_m_s2_).squaredNorm() -
-                                 motion.variance_m2_s4 - variance_before_m2_s4_;
+    const double changed_m2_s4 = (motion.acceleration_N_m_s2 - before_.acceleration_N_m_s2).squaredNorm() -
+                                 motion.variance_m2_s4 - before_.variance_m2_s4;
     const double other_m_s2 =
         std::max((speed_m_s * turn.norm() + gained_m_s) / lasted_s_, std::sqrt(std::max(0.0, changed_m2_s4)));
     const double noise = std::hypot(kShaken_rad, other_m_s2 / kStandardGravity_m_s2);
@@ -61,9 +61,8 @@ void AxesFit::add(const Vector3d& down_B, const Vector3d& turn_rad, double laste
   down_before_ = down;
   turn_rad_ = 0.5 * turn_rad;
   lasted_s_ = 0.0;
-  speed_before_m_s_ = speed_m_s >= 0.0 ? speed_m_s : -1.0;
-  acceleration_before_N_m_s2_ = motion.acceleration_N_m_s2;
-  variance_before_m2_s4_ = motion.variance_m2_s4;
+  before_ = motion;
+  if (!(speed_m_s >= 0.0)) before_.speed_m_s = -1.0;
 }
 
 OtherAxes AxesFit::other(const Proof& proof) const {

@@ -11,7 +11,7 @@ namespace fathom::estimation {
 
 /// What is known of how the mean force of a block differs from gravity.
 struct BlockMotion {
-  double speed_m_s;  ///< at its end; unknown: nobody measures it
+  double speed_m_s = -1.0;  ///< at its end; negative or unknown: nobody measures it
   /// Over ground, and the variance of it, both components together; 0 where no velocity tells.
   Eigen::Vector2d acceleration_N_m_s2 = Eigen::Vector2d::Zero();
   double variance_m2_s4 = 0.0;
@@ -38,9 +38,7 @@ class AxesFit {
   Eigen::Vector3d down_before_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();  ///< since
   double lasted_s_ = 0.0;
-  double speed_before_m_s_ = -1.0;  ///< negative: unknown
-  Eigen::Vector2d acceleration_before_N_m_s2_ = Eigen::Vector2d::Zero();
-  double variance_before_m2_s4_ = 0.0;
+  BlockMotion before_;
   // Of each hypothesis, over the pairs in which it differs from "as configured": squares in sigma.
   std::array<double, kAxesHypotheses> count_{};
   std::array<double, kAxesHypotheses> configured_{};
