@@ -189,8 +189,8 @@ void add_import(CLI::App& app, ExitCode&) {
       "Reads PX4 ULog (.ulg), ArduPilot DataFlash (.bin) and bags of ROS 2 (.mcap); the first bytes tell "
       "which.\n"
       "Damaged and cut files are read as far as they are good; what was lost is said. "
-      "common/logs/README.md,\n"
-      "installed as flight-logs.md, tells which message becomes what.");
+      "common/logs/README.md\n"
+      "of the documents (/usr/share/doc/fathom) tells which message becomes what.");
   command->add_option("file", options->file, "the log; of ROS 2 also the folder of a bag")->required();
   command
       ->add_option("--out", options->out,

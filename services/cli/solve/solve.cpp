@@ -284,9 +284,9 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
       "down) and any of " +
       other_files() +
       " (.csv or .csv.gz),\n"
-      "each with t_s in seconds. Their columns: common/dataset/README.md, installed as data-sets.md; one "
-      "that is\n"
-      "missing is named. Configurations to begin from: deploy/config/fusion.json, "
+      "each with t_s in seconds. Their columns: common/dataset/README.md of the documents\n"
+      "(/usr/share/doc/fathom); one that is missing is named. Configurations to begin from: "
+      "deploy/config/fusion.json, "
       "deploy/config/solve/*.json.");
   command
       ->add_option("directory", options->directory,
