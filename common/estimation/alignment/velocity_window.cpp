@@ -34,6 +34,11 @@ void VelocityWindow::measured(TimeNs stamp_ns, const Eigen::Vector3d& v_N_m_s,
   pending_sigma_m_s_ = sigma_m_s;
 }
 
+std::optional<NewVelocity> VelocityWindow::pending() const {
+  if (!pending_) return std::nullopt;
+  return NewVelocity{measured_ns_, pending_v_N_m_s_, pending_sigma_m_s_};
+}
+
 void VelocityWindow::add(TimeNs now_ns, double dt_s, const Eigen::Vector3d& rate_B_rad_s,
                          const Eigen::Vector3d& force_B_m_s2, double length_s) {
   if (complete_) {

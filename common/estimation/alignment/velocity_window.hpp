@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "base/time.hpp"
 #include "geo/so3.hpp"
 
@@ -26,6 +28,13 @@ struct VelocityMark {
   InertialSpan span;
 };
 
+/// A velocity over ground that was measured within the inertial interval that comes next.
+struct NewVelocity {
+  TimeNs stamp_ns = 0;
+  Eigen::Vector3d v_N_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d sigma_m_s = Eigen::Vector3d::Zero();
+};
+
 /// Holds a first, a middle and a last velocity of a satellite receiver beside the inertial increments between
 /// them (ALN-6). Fixed size.
 class VelocityWindow {
@@ -45,6 +54,8 @@ class VelocityWindow {
   [[nodiscard]] const VelocityMark* middle() const { return has_middle_ ? &middle_ : nullptr; }
   [[nodiscard]] const VelocityMark& last() const { return last_; }
   [[nodiscard]] const InertialSpan& now() const { return now_; }
+  /// None where nothing was measured since the last interval.
+  [[nodiscard]] std::optional<NewVelocity> pending() const;
   /// Of the velocity that was measured last; zero before the first.
   [[nodiscard]] const Eigen::Vector3d& newest_sigma_m_s() const { return pending_sigma_m_s_; }
 

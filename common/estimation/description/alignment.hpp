@@ -64,7 +64,9 @@ void describe(Walk<AlignmentConfig>& s) {
       .unit("m/s")
       .range(0, 1000);
   s.field("in_motion_heading_sigma_deg", &C::in_motion_heading_sigma_rad,
-          "uncertainty of a heading taken from the course: how far the vehicle may crab")
+          "uncertainty of a heading taken from the course: how far the vehicle may crab; above 17 degrees "
+          "without "
+          "in_motion_speed_m_s the course is no heading, and how the velocity of GPS changes tells it")
       .unit("deg")
       .range(0.01, 180)
       .scaled(kRadPerDeg);

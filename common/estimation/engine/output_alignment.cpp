@@ -45,6 +45,8 @@ const char* advice(const StartConditions& c, const Navigator& navigator, const A
   if (navigator.waits_for_state()) return "Waiting for the state that it is to start from.";
   if (config.mode == StartMode::air_drop && !known(navigator.starter().gps_speed_m_s()))
     return "The heading was lost too: surface and run straight with GPS, or give a state to start from.";
+  if (heads_by_acceleration(config) && (!c.slow || !c.quiet))
+    return "Speed up, brake and turn with GPS velocity, or give a compass, or stop the vehicle.";
   if (config.mode == StartMode::in_motion || config.mode == StartMode::air_drop)
     return "Move straight with a GPS fix until the course is steady.";
   if (!c.slow) return "Run faster and straight with GPS, or give a compass or a DVL, or stop the vehicle.";
@@ -220,10 +222,16 @@ void fill_waiting(const Navigator& navigator, const AlignmentConfig& config, con
                  window.force_spread_m_s2() <= config.force_spread_m_s2);
   rest_condition("gps_speed_m_s", navigator.starter().gps_speed_m_s(), config.max_speed_m_s, c.slow);
   add_condition(out, "heading_known", c.heading ? 1.0 : 0.0, 1.0, c.heading);
-  const double course = navigator.course_sigma_rad();
   // Either serves.
-  add_condition(out, "course_sigma_rad", course, kCoarsestHeading_rad,
-                c.heading || course <= kCoarsestHeading_rad);
+  if (heads_by_acceleration(config)) {
+    const double sigma_rad = navigator.acceleration_heading_sigma_rad();
+    add_condition(out, "acceleration_heading_sigma_rad", sigma_rad, kCoarsestByAcceleration_rad,
+                  c.heading || sigma_rad <= kCoarsestByAcceleration_rad);
+  } else {
+    const double course = navigator.course_sigma_rad();
+    add_condition(out, "course_sigma_rad", course, kCoarsestHeading_rad,
+                  c.heading || course <= kCoarsestHeading_rad);
+  }
   add_condition(out, "position_known", c.position ? 1.0 : 0.0, 1.0, c.position);
   if (c.quiet && c.slow && c.heading && c.position)
     out.time_to_aligned_s =

@@ -5,6 +5,7 @@
 #include "estimation/alignment/drop_alignment.hpp"
 #include "estimation/alignment/rest_window.hpp"
 #include "estimation/alignment/under_way.hpp"
+#include "estimation/alignment/velocity_track.hpp"
 #include "estimation/alignment/velocity_window.hpp"
 
 /// Fields of the parts that find the attitude. What is made from the configuration is left out.
@@ -67,6 +68,16 @@ void VelocityWindow::fields(Archive& archive, Self& self) {
   archive("first", self.first_);
   archive("middle", self.middle_);
   archive("last", self.last_);
+}
+
+template <class Archive, class Self>
+void VelocityTrack::fields(Archive& archive, Self& self) {
+  archive("count", self.count_, fathom::archive::Whole{0, kMarks});
+  // Those that are not in use are as constructed; the layout is told by the first.
+  const std::size_t used = std::clamp<std::size_t>(self.count_, 1, kMarks);
+  for (std::size_t i = 0; i < used; ++i) archive.element("marks", i, self.marks_[i]);
+  archive.left_out(self.marks_);
+  archive("now", self.now_);
 }
 
 template <class Archive, class Self>

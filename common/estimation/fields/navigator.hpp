@@ -208,6 +208,13 @@ void Starter::place_fields(Archive& archive, Self& self) {
 }
 
 template <class Archive, class Self>
+void Starter::acceleration_fields(Archive& archive, Self& self) {
+  archive("track", self.track_);
+  archive("acceleration_heading_sigma_rad", self.acceleration_heading_sigma_rad_,
+          fathom::archive::or_unknown(fathom::archive::at_least_zero()));
+}
+
+template <class Archive, class Self>
 void Descent::fields(Archive& archive, Self& self, const Setup& setup) {
   archive("released", self.fall_.released);
   archive("dropping", self.fall_.aligning);
@@ -305,6 +312,7 @@ void Navigator::fields(Archive& archive, Self& self) {
     self.estimate_.slow_usbl.begin();
     self.estimate_.slow_antennas.begin();
   }
+  if (archive.since(22)) Starter::acceleration_fields(archive, self.starter_);
   if constexpr (Archive::kReads) archive.expect(self.remembers_the_past_only(), "now_ns", "no later instant");
 }
 

@@ -6,7 +6,7 @@ namespace fathom::estimation {
 
 /// Of what an engine saves: goes up where a release writes other fields than the one before it. What came
 /// with a version stands in `if (archive.since(VERSION))`; a kind of sample has archive::kSince.
-inline constexpr std::uint32_t kStateVersion = 21;
+inline constexpr std::uint32_t kStateVersion = 22;
 
 /// Begins an engine's state.
 struct StateHead {

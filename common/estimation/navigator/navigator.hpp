@@ -80,6 +80,9 @@ class Navigator {
   /// For how long the inertial unit has to be heard still; 0: it was.
   [[nodiscard]] double unheard_s() const { return plausibility_.unheard_s(); }
   [[nodiscard]] double course_sigma_rad() const { return starter_.course_sigma_rad(start_inputs()); }
+  [[nodiscard]] double acceleration_heading_sigma_rad() const {
+    return starter_.acceleration_heading_sigma_rad();
+  }
   [[nodiscard]] StartConditions conditions() const { return starter_.conditions(start_inputs()); }
   [[nodiscard]] const Descent& descent() const { return descent_; }
   /// Only a state from outside can start it: what the configuration says, and no release has happened yet.

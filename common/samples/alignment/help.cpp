@@ -22,6 +22,9 @@ constexpr std::array kHelp{
     Help{"heading_known", "a compass, two antennas or a given heading serve; or a start in motion"},
     Help{"course_sigma_rad",
          "run straight and faster with GPS velocity, or with a DVL on the bottom beside it"},
+    Help{"acceleration_heading_sigma_rad",
+         "speed up, brake and turn with GPS velocity: what is felt and how the velocity changes tell the "
+         "heading"},
     Help{"position_known", "a GPS fix, two acoustic fixes that agree or an order of the position serves"},
     Help{"instruments_contradict",
          "go on turning: it takes some turns to say which instrument is wrong; a vehicle "

@@ -104,20 +104,27 @@ bool Starter::align(const StartInputs& in, bool released, const ImuStep& step, E
   const double keep = std::exp(-dt_s / config.in_motion_averaging_s);
   smooth_force_ = smooth_time_s_ > 0.0 ? Vector3d(keep * smooth_force_ + (1.0 - keep) * force) : force;
   smooth_time_s_ += dt_s;
-  velocities_.add(now_ns, dt_s, step.increments.dtheta_rad / dt_s, force, config.in_motion_averaging_s);
+  const Vector3d rate = step.increments.dtheta_rad / dt_s;
+  const bool marked =
+      heads_by_acceleration(config) && track_.add(velocities_.pending(), now_ns, dt_s, rate, force);
+  velocities_.add(now_ns, dt_s, rate, force, config.in_motion_averaging_s);
   const bool may_move = config.mode != StartMode::at_rest;
   // A dropped vehicle that only runs smoothly is not at rest: GPS has to say so.
   const bool may_rest =
       config.mode != StartMode::in_motion && (!released || estimate.since(gps_seen_ns_) <= kFreshFix_s);
   const bool late = to_seconds(now_ns - alignment.waiting_since_ns) > config.timeout_s;
 
-  if (may_move && can_start_in_motion(in) && start_in_motion(in, estimate)) return true;
-  if (may_move && can_start_under_way(in) && start_under_way(in, estimate)) return true;
+  if (may_move && ((can_start_in_motion(in) && start_in_motion(in, estimate)) ||
+                   (can_start_under_way(in) && start_under_way(in, estimate)) ||
+                   (marked && start_by_acceleration(in, estimate)))) {
+    forget_accelerations();
+    return true;
+  }
   if (!may_rest) {
     if (late) alignment.enter(AlignmentPhase::timed_out, now_ns);
     return false;
   }
-  window_.add(dt_s, step.increments.dtheta_rad / dt_s, force);
+  window_.add(dt_s, rate, force);
   const StartConditions c = conditions(in);
   const bool judged = window_.duration_s() >= kLeastWindow_s;
   if (!c.slow || (judged && !c.quiet) || window_.duration_s() > kWindowsKept * config.averaging_s) {
@@ -135,7 +142,9 @@ bool Starter::align(const StartInputs& in, bool released, const ImuStep& step, E
   const Eigen::Vector2d tilt = level(rest.force_start_m_s2);
   estimate.state.nav.q_NB = geo::from_rpy(Vector3d(tilt.x(), tilt.y(), 0.0)) * rest.q_start_now;
   alignment.enter(late ? AlignmentPhase::timed_out : AlignmentPhase::coarse, now_ns);
-  return c.position && start_at_rest(in, estimate);
+  if (!c.position || !start_at_rest(in, estimate)) return false;
+  forget_accelerations();
+  return true;
 }
 
 StartHeading::Column start_error(const StateIndex& index, bool by_compass) {

@@ -4,6 +4,7 @@
 
 #include "estimation/alignment/rest_window.hpp"
 #include "estimation/alignment/under_way.hpp"
+#include "estimation/alignment/velocity_track.hpp"
 #include "estimation/alignment/velocity_window.hpp"
 #include "estimation/navigator/estimate.hpp"
 #include "estimation/navigator/measurement.hpp"
@@ -13,6 +14,8 @@
 
 namespace fathom::estimation {
 
+struct MovingStart;
+
 /// A fix that is older does not place the vehicle any more.
 inline constexpr double kFreshFix_s = 5.0;
 /// A velocity or a heading that is older is not that of now any more.
@@ -20,6 +23,12 @@ inline constexpr double kFreshVelocity_s = 1.0;
 
 /// The filter's errors are small angles: a heading that is worse is none to begin with.
 inline constexpr double kCoarsestHeading_rad = 0.3;
+/// One by accelerations says less of how wrong it is (ALN-24).
+inline constexpr double kCoarsestByAcceleration_rad = 0.2;
+/// Whether the course of this vehicle is no heading at any speed, so that accelerations have to tell it.
+[[nodiscard]] inline bool heads_by_acceleration(const AlignmentConfig& config) {
+  return config.in_motion_heading_sigma_rad > kCoarsestHeading_rad && !(config.in_motion_speed_m_s > 0.0);
+}
 
 /// Why a start is not possible yet, or that it is.
 struct StartConditions {
@@ -50,7 +59,8 @@ struct StartInputs {
 };
 
 /// Finds an estimate to begin with: at rest from a quiet window, in motion from the course of GPS, under way
-/// from a compass. A start after a drop is Descent's.
+/// from a compass, or from accelerations where the course is no heading. A start after a drop
+/// is Descent's.
 class Starter {
  public:
   /// Remembers what a start needs; called for every measurement that is not refused outright.
@@ -63,6 +73,7 @@ class Starter {
   void interrupt() {
     window_.reset();
     velocities_.reset();
+    forget_accelerations();
   }
   /// The attitude was lost: what was averaged belongs to another one.
   void forget();
@@ -80,6 +91,8 @@ class Starter {
   /// Of the heading that the motion gives now: by the DVL and GPS, else by the course alone. Unknown without
   /// a fresh velocity of GPS.
   [[nodiscard]] double course_sigma_rad(const StartInputs& in) const;
+  /// Of the heading by accelerations; unknown while they say nothing of it.
+  [[nodiscard]] double acceleration_heading_sigma_rad() const { return acceleration_heading_sigma_rad_; }
   [[nodiscard]] double gps_speed_m_s() const { return gps_speed_m_s_; }
   /// By the speed of GPS a start under way would be possible.
   [[nodiscard]] bool goes_fast() const { return fast_fixes_ >= kFastFixes; }
@@ -98,11 +111,13 @@ class Starter {
   /// For archives: see fields/navigator.hpp.
   template <class Archive, class Self>
   static void fields(Archive& archive, Self& self);
-  /// Those that came with version 5, and with version 18.
+  /// Those that came with version 5, with version 18 and with version 22.
   template <class Archive, class Self>
   static void later_fields(Archive& archive, Self& self);
   template <class Archive, class Self>
   static void place_fields(Archive& archive, Self& self);
+  template <class Archive, class Self>
+  static void acceleration_fields(Archive& archive, Self& self);
 
  private:
   void collect_gps(const Setup& setup, const Estimate& estimate, const SensorConfig& config,
@@ -159,6 +174,14 @@ class Starter {
   /// By the velocities of GPS; heading from the course where none is given.
   [[nodiscard]] bool start_moving_by(const StartInputs& in, std::optional<double> heading_rad,
                                      double heading_sigma_rad, Estimate& estimate) const;
+  /// By how the velocities of GPS change, the newest of which was just marked.
+  [[nodiscard]] bool start_by_acceleration(const StartInputs& in, Estimate& estimate);
+  /// Begins with what the motion says.
+  void begin_moving(const StartInputs& in, const MovingStart& found, Estimate& estimate) const;
+  void forget_accelerations() {
+    track_.reset();
+    acceleration_heading_sigma_rad_ = kUnknown;
+  }
 
   RestWindow window_;
   Eigen::Vector3d smooth_force_ = Eigen::Vector3d::Zero();
@@ -172,6 +195,8 @@ class Starter {
   static constexpr int kFastFixes = 2;
   int fast_fixes_ = 0;
   VelocityWindow velocities_;
+  VelocityTrack track_;
+  double acceleration_heading_sigma_rad_ = kUnknown;
   UnderWay under_way_;
   LastPlace last_;
   bool out_of_sight_ = false;

@@ -1,5 +1,5 @@
 // A start under way: by the course of GPS, or with a compass where a vehicle moves too slowly for its course
-// to be a heading, or is out of reach of GPS.
+// to be a heading, or is out of reach of GPS, or by accelerations where nothing says where it points.
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +7,7 @@
 #include "estimation/aiding/gps_position.hpp"
 #include "estimation/aiding/heading.hpp"
 #include "estimation/aiding/usbl_station.hpp"
+#include "estimation/alignment/acceleration_start.hpp"
 #include "estimation/alignment/moving_start.hpp"
 #include "estimation/navigator/start/correlate.hpp"
 #include "estimation/navigator/start/starter.hpp"
@@ -21,6 +22,20 @@ constexpr double kVelocitySigma_m_s = 0.3;
 /// A DVL's velocity this old is still that of the vehicle, but for what it may have gained meanwhile.
 constexpr double kSameMotion_s = 0.5;
 constexpr double kGain_m_s2 = 0.2;
+
+/// What the accelerometers feel of a vehicle whose motion does not change.
+Vector3d gravity_N_m_s2(const geo::LocalEarth& earth, const Vector3d& v_N_m_s) {
+  return earth.gravity_N() - geo::cross(2.0 * earth.earth_rate_N + earth.transport_rate_N(v_N_m_s), v_N_m_s);
+}
+
+/// What is wrong with a specific force of one g beyond what the states of the accelerometers are joined to.
+double unexplained_force_m_s2(const Setup& setup, double g_m_s2) {
+  const ImuConfig& imu = setup.config.imu;
+  const double oblique =
+      setup.index.has(Group::accel_misalignment) ? 0.0 : g_m_s2 * imu.accel_misalignment_sigma_rad;
+  const double stretched = setup.index.has(Group::accel_scale) ? 0.0 : g_m_s2 * imu.accel_scale_sigma;
+  return std::hypot(g_m_s2 * setup.config.alignment.tilt_sigma_floor_rad, oblique, stretched);
+}
 
 /// (ALN-6): the errors of velocity and attitude have causes in common. The filter's velocity error is the
 /// estimate less the truth (KF-4), that of the start the truth less what was found.
@@ -159,11 +174,9 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
   const Setup& setup = in.setup;
   const ImuConfig& imu = setup.config.imu;
   const geo::LocalEarth earth(gps_position_);
-  const double g = earth.gravity_m_s2;
   const Vector3d v = velocities_.last().v_N_m_s;
   MovingStartInputs inputs;
-  inputs.gravity_N_m_s2 =
-      earth.gravity_N() - geo::cross(2.0 * earth.earth_rate_N + earth.transport_rate_N(v), v);
+  inputs.gravity_N_m_s2 = gravity_N_m_s2(earth, v);
   inputs.lever_B_m = gps_lever_B_m_;
   inputs.heading_rad = heading_rad;
   inputs.heading_sigma_rad = heading_sigma_rad;
@@ -177,25 +190,52 @@ bool Starter::start_moving_by(const StartInputs& in, std::optional<double> headi
     by_dvl = found.by_dvl;
     inputs.heading_sigma_rad = found.sigma_rad;
   }
-  const double oblique =
-      setup.index.has(Group::accel_misalignment) ? 0.0 : g * imu.accel_misalignment_sigma_rad;
-  const double stretched = setup.index.has(Group::accel_scale) ? 0.0 : g * imu.accel_scale_sigma;
-  const double floor = g * setup.config.alignment.tilt_sigma_floor_rad;
-  inputs.force_sigma_m_s2 = std::hypot(floor, oblique, stretched);
+  inputs.force_sigma_m_s2 = unexplained_force_m_s2(setup, earth.gravity_m_s2);
   inputs.accel_bias_sigma_m_s2 = imu.accel_bias_sigma_m_s2;
   const auto found = start_moving(velocities_, inputs);
   if (!found) return false;
 
-  FilterState start;
-  start.nav.q_NB = found->q_NB;
-  start.nav.v_N_m_s = found->v_N_m_s;
-  const StartPlace at = *place(in);
-  start.nav.position = geo::moved_by(at.position, at.age_s * found->v_N_m_s);
-  begin(in, at, start, setup.initial_sigma, estimate);
+  begin_moving(in, *found, estimate);
   if (heading_rad) estimate.start_heading.begin(start_error(setup.index, !under_way_.two_antenna));
-  correlate_moving(setup, *found, estimate.filter);
   if (heading_rad && under_way_.two_antenna) correlate_antennas(setup, found->by_heading, estimate.filter);
   if (by_dvl) correlate_dvl(setup, *found, estimate.filter);
+  return true;
+}
+
+void Starter::begin_moving(const StartInputs& in, const MovingStart& found, Estimate& estimate) const {
+  FilterState start;
+  start.nav.q_NB = found.q_NB;
+  start.nav.v_N_m_s = found.v_N_m_s;
+  const StartPlace at = *place(in);
+  start.nav.position = geo::moved_by(at.position, at.age_s * found.v_N_m_s);
+  begin(in, at, start, in.setup.initial_sigma, estimate);
+  correlate_moving(in.setup, found, estimate.filter);
+}
+
+bool Starter::start_by_acceleration(const StartInputs& in, Estimate& estimate) {
+  // (ALN-24)
+  acceleration_heading_sigma_rad_ = kUnknown;
+  if (hears_compass(in) || !(in.estimate.since(gps_seen_ns_) <= kFreshVelocity_s)) return false;
+  const ImuConfig& imu = in.setup.config.imu;
+  const geo::LocalEarth earth(gps_position_);
+  const double g = earth.gravity_m_s2;
+  AccelerationStartInputs inputs;
+  inputs.gravity_N_m_s2 = gravity_N_m_s2(earth, track_.newest().v_N_m_s);
+  inputs.lever_B_m = gps_lever_B_m_;
+  inputs.velocity_random_walk_m_s_sqrt_s = imu.velocity_random_walk_m_s_sqrt_s;
+  inputs.angle_random_walk_rad_sqrt_s = imu.angle_random_walk_rad_sqrt_s;
+  inputs.accel_bias_sigma_m_s2 = imu.accel_bias_sigma_m_s2;
+  inputs.accel_shape_sigma_m_s2 = g * std::hypot(imu.accel_scale_sigma, imu.accel_misalignment_sigma_rad,
+                                                 in.setup.config.alignment.tilt_sigma_floor_rad);
+  inputs.unexplained_force_sigma_m_s2 = unexplained_force_m_s2(in.setup, g);
+  inputs.gyro_bias_sigma_rad_s = imu.gyro_bias_sigma_rad_s;
+  inputs.turn_error_sigma = std::hypot(imu.gyro_scale_sigma, imu.gyro_misalignment_sigma_rad);
+  inputs.latency_sigma_s = in.setup.config.states.gps_latency_sigma_s;
+  const auto found = start_by_accelerations(track_, inputs);
+  if (!found) return false;
+  acceleration_heading_sigma_rad_ = found->sigma_N_rad.z();
+  if (!(found->sigma_N_rad.maxCoeff() <= kCoarsestByAcceleration_rad)) return false;
+  begin_moving(in, found->start, estimate);
   return true;
 }
 
