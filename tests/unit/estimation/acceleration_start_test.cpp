@@ -405,7 +405,8 @@ TEST(AccelerationStart, AnEngineThatWasSavedBeforeItsStartStartsAsIfItHadNot) {
   while (flight.t_s() < 20.0) {
     flight.step(engine);
     same.step(another);
-    ASSERT_EQ(known(engine.nav_state().latitude_rad), known(another.nav_state().latitude_rad)) << flight.t_s();
+    ASSERT_EQ(known(engine.nav_state().latitude_rad), known(another.nav_state().latitude_rad))
+        << flight.t_s();
     if (!known(engine.nav_state().latitude_rad)) continue;
     EXPECT_EQ(engine.nav_state().q_NB, another.nav_state().q_NB);
     return;
