@@ -88,6 +88,9 @@ TEST_F(Told, OrdersBecomeCommands) {
 TEST_F(Told, APositionThatIsFarAwayWaitsToBeConfirmed) {
   start({"orders.topic=order"});
   Last<Command> command(vehicle.participant());
+  // What is far away is known once the gateway has heard where navigation is.
+  const Peer tf("follow", kGraph, {"tf", "rt/tf"});
+  ASSERT_TRUE(wait_until([&] { return lines_of(tf.so_far()).size() > 100; }, 20.0));
   const std::string place =
       R"("kind": "set_position", "lat_deg": 37, "lon_deg": -121.5, "depth_m": 3, "sigma_m": 10)";
   const auto held = answer("{" + place + "}");
