@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -28,6 +30,15 @@ struct TransportDescriptor final : eprosima::fastdds::rtps::ChainingTransportDes
                       std::shared_ptr<DeliveryWatch> what_arrives,
                       std::shared_ptr<AcknowledgementBook> what_readers_have, Refused on_refused);
   [[nodiscard]] eprosima::fastdds::rtps::TransportInterface* create_transport() const override;
+  /// The bytes after which a writer of Fast DDS 2.9.1 sends a heartbeat to all its readers. It counts the
+  /// bytes of a batch again with each sample of the batch. With the size of a socket's buffer it sent that
+  /// heartbeat with nearly each sample that one reader had missed, and every other reader had to answer. On
+  /// a protected network of twenty services the answers kept two slow processors busy for good: datagrams
+  /// were dropped, and what had to be sent again kept them busy. The periodic heartbeat is enough: it goes
+  /// on as long as a reader lacks a sample.
+  [[nodiscard]] std::uint32_t min_send_buffer_size() const override {
+    return std::numeric_limits<std::int32_t>::max();
+  }
 
   std::shared_ptr<const LowPriorityPeers> low_priority_peers;
   std::shared_ptr<DeliveryWatch> delivery_watch;
