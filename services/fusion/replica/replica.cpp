@@ -68,7 +68,7 @@ bool Replica::own(const NavState& state, TimeNs now_ns) {
   if (others_ > 0) alone_ns_ = 0;
 
   const StateMark mark = mark_of(state);
-  const bool late = lateness_.of(mark.stamp_ns, now_ns) > options_.late_ns;
+  const bool withheld = withholds_late(lateness_.of(mark.stamp_ns, now_ns), now_ns);
   own_marks_[own_count_++ % own_marks_.size()] = mark;
   while (waiting_count_ > 0 && waiting_[waiting_first_].stamp_ns <= mark.stamp_ns) {
     const StateMark other = waiting_[waiting_first_];
@@ -94,7 +94,21 @@ bool Replica::own(const NavState& state, TimeNs now_ns) {
   }
   // A service that takes the lead back does not publish again what the other one has published.
   const bool said = follows_ && mark.stamp_ns <= other_stamp_ns_;
-  return phase_ == ReplicaPhase::in_step && !said && !(late && company) && !yielded_ns_;
+  return phase_ == ReplicaPhase::in_step && !said && !(withheld && company) && !yielded_ns_;
+}
+
+bool Replica::withholds_late(DurationNs lateness_ns, TimeNs now_ns) {
+  if (lateness_ns <= options_.late_ns) {
+    late_.reset();
+    return false;
+  }
+  if (!late_) late_ = {now_ns, lateness_ns};
+  if (const DurationNs span_ns = now_ns - late_->since_ns; span_ns >= options_.silence_ns) {
+    // What was kept from it comes faster than it was measured, and the newest will be in time.
+    const bool catches_up = late_->lateness_ns - lateness_ns > span_ns / 2;
+    late_ = {now_ns, lateness_ns, !catches_up};
+  }
+  return !late_->lasts || now_ns - other_ns_ <= options_.silence_ns;
 }
 
 bool Replica::leaves_the_lead(TimeNs now_ns) const {

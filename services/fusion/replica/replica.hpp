@@ -61,7 +61,9 @@ class Lateness {
 ///   for `silence_ns`, because navigation from what it has is better than none.
 /// - in step: it publishes, with three exceptions: states that are long past, states that the leader has
 ///   published already, and states during a hold. A hold begins when this service was late and a weaker one
-///   was delivered instead: it leaves the lead to the weaker one for a while.
+///   was delivered instead: it leaves the lead to the weaker one for a while. States that are late are
+///   published all the same when no other service was delivered for `silence_ns` and they do not become less
+///   late: nobody has newer ones.
 ///
 /// A service in step falls behind in three cases. Its states differ from the leader's for `quarrel_ns`, which
 /// is longer than late measurements make a difference (at once if it has just begun alone). Another service
@@ -119,6 +121,8 @@ class Replica {
   void differs(TimeNs now_ns, const char* how);
   void fall_behind(std::string reason);
   void come_in_step(TimeNs now_ns);
+  /// Whether a late state is withheld: another service has newer ones, or this one soon will.
+  [[nodiscard]] bool withholds_late(DurationNs lateness_ns, TimeNs now_ns);
   /// Whether a weaker service has the lead, and keeps it for now.
   [[nodiscard]] bool leaves_the_lead(TimeNs now_ns) const;
   [[nodiscard]] bool is_weaker(const Name& instance, TimeNs now_ns) const;
@@ -127,6 +131,12 @@ class Replica {
   struct Peer {
     ReplicaStatus status;
     TimeNs told_ns = 0;
+  };
+  /// The lateness at the begin of a span of late states.
+  struct Late {
+    TimeNs since_ns = 0;
+    DurationNs lateness_ns = 0;
+    bool lasts = false;  ///< it did not become less in the span before
   };
 
   Options options_;
@@ -146,6 +156,7 @@ class Replica {
   int alike_ = 0;         ///< in a row
   TimeNs unlike_ns_ = 0;  ///< since when not; 0: alike
   Lateness lateness_;
+  std::optional<Late> late_;    ///< none: the last state was in time
   bool missed_lately_ = false;  ///< samples, since the last state of its own
   bool took_state_ = false;     ///< since it fell behind
   std::uint64_t missed_ = 0;

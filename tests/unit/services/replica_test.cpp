@@ -243,6 +243,20 @@ TEST(Replica, SaysNothingOfThePast) {
   EXPECT_EQ(scene.alone(100), 100);
 }
 
+TEST(Replica, SpeaksThoughLateWhenNobodyHasNewerStates) {
+  Scene scene;
+  scene.alone(300);
+  scene.replica.others(1, scene.now_ns);
+  scene.led(300, 0.0);
+  // The machine is busy, and all that comes is 0.3 s late. The other one is in time, and is heard.
+  scene.now_ns += 300 * kNsPerMillisecond;
+  EXPECT_EQ(scene.led(100, 0.0), 0);
+  // The other one dies.
+  const int spoke = scene.alone(100);
+  EXPECT_GE(spoke, 75) << "after 0.2 s";
+  EXPECT_LE(spoke, 85);
+}
+
 TEST(Replica, AClockThatIsSetSilencesNobody) {
   for (const int hour : {-360'000, 360'000}) {
     Scene scene;
