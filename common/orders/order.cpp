@@ -190,11 +190,20 @@ FixSample sample_of(const ToldFix& told, const SampleHeader& header, TimeNs now_
   return out;
 }
 
-std::string held_text(const health::Departure& departure) {
-  return health::sentence(
-      "This position lies %.0f m from where navigation is, and %.0f m are expected at most. It is held "
-      "for 60 s, until it is confirmed.",
-      departure.apart_m, departure.allowed_m);
+bool waits_for_confirmation(const Command& order, const std::optional<health::Departure>& departure) {
+  return departure && departure->far() && !order.confirmed;
+}
+
+std::string waiting_text(const Command& order, const std::optional<health::Departure>& departure) {
+  if (waits_for_confirmation(order, departure)) {
+    return health::sentence(
+        "This position lies %.0f m from where navigation is, and %.0f m are expected at most. It is held "
+        "for 60 s, until it is confirmed.",
+        departure->apart_m, departure->allowed_m);
+  }
+  if (order.kind != CommandKind::set_position || order.confirmed || departure) return {};
+  return "Where navigation is has not been heard here. If navigation has a position far from this one, it "
+         "holds the order for 60 s, until it is confirmed.";
 }
 
 }  // namespace fathom::orders

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -37,7 +38,12 @@ using Order = std::variant<Command, ToldFix>;
 /// What goes onto the vehicle network: of `header` all but the sensor, the sequence and the times.
 [[nodiscard]] FixSample sample_of(const ToldFix& told, const SampleHeader& header, TimeNs now_ns);
 
-/// The sentence for whoever orders a position from which navigation is too far away to believe it at once.
-[[nodiscard]] std::string held_text(const health::Departure& departure);
+/// Whether the order waits until it is given once more, confirmed. `departure`: of health::departure().
+[[nodiscard]] bool waits_for_confirmation(const Command& order,
+                                          const std::optional<health::Departure>& departure);
+/// The sentence for whoever gives an order that waits, or that may wait because nothing is known here of
+/// where navigation is; empty for every other order.
+[[nodiscard]] std::string waiting_text(const Command& order,
+                                       const std::optional<health::Departure>& departure);
 
 }  // namespace fathom::orders

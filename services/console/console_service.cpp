@@ -220,9 +220,12 @@ struct ConsoleService::Impl {
       judgement = {503, "The vehicle network did not take the order.", {}};
       return false;
     }
-    if (departure && departure->far() && !command.confirmed) {
-      judgement.confirm = true;
-      judgement.text = orders::held_text(*departure);
+    judgement.confirm = orders::waits_for_confirmation(command, departure);
+    const std::string waiting = orders::waiting_text(command, departure);
+    if (judgement.confirm) {
+      judgement.text = waiting;
+    } else if (!waiting.empty()) {
+      judgement.text += " " + waiting;
     }
     return true;
   }

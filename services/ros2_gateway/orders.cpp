@@ -49,10 +49,11 @@ void Orders::take(const std::string& text) {
       departure = health::departure(command, state_);
     }
     accepted = commands_.write(command);
-    confirm = accepted && departure && departure->far() && !command.confirmed;
+    confirm = accepted && orders::waits_for_confirmation(command, departure);
+    const std::string waiting = orders::waiting_text(command, departure);
     said = !accepted ? kNotTaken
-           : confirm ? orders::held_text(*departure)
-                     : "Sent: " + orders::describe(command) + ".";
+           : confirm ? waiting
+                     : "Sent: " + orders::describe(command) + "." + (waiting.empty() ? "" : " " + waiting);
   }
   ++(accepted ? passed_on_ : refused_);
   if (accepted) {

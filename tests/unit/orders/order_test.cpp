@@ -1,6 +1,8 @@
 #include "orders/order.hpp"
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -121,6 +123,31 @@ TEST(Order, IsJudgedInWords) {
   EXPECT_EQ(fault_of(R"({"kind": "set_position", "lat_deg": 1e400})"),
             "lat_deg: is 1e400, expected a number between -1.8e308 and 1.8e308.");
   EXPECT_NE(fault_of("{\"kind\"").find("syntax error"), std::string::npos);
+}
+
+TEST(Order, OfAPositionSaysThatItWaitsOrMayWait) {
+  const std::string place =
+      R"("kind": "set_position", "lat_deg": 36.4, "lon_deg": 127.4, "depth_m": 5, "sigma_m": 10)";
+  const Command order = command_of("{" + place + "}");
+  const Command confirmed = command_of("{" + place + R"(, "confirmed": true})");
+  const health::Departure far{900.0, 60.0};
+  EXPECT_TRUE(waits_for_confirmation(order, far));
+  EXPECT_EQ(
+      waiting_text(order, far),
+      "This position lies 900 m from where navigation is, and 60 m are expected at most. It is held for "
+      "60 s, until it is confirmed.");
+
+  EXPECT_FALSE(waits_for_confirmation(order, std::nullopt)) << "fusion decides";
+  EXPECT_NE(waiting_text(order, std::nullopt).find("has not been heard here"), std::string::npos);
+
+  const health::Departure near{50.0, 60.0};
+  EXPECT_FALSE(waits_for_confirmation(order, near));
+  EXPECT_EQ(waiting_text(order, near), "");
+  for (const auto& departure : {std::optional(far), std::optional<health::Departure>()}) {
+    EXPECT_FALSE(waits_for_confirmation(confirmed, departure));
+    EXPECT_EQ(waiting_text(confirmed, departure), "");
+    EXPECT_EQ(waiting_text(command_of(R"({"kind": "realign"})"), std::nullopt), "");
+  }
 }
 
 }  // namespace
