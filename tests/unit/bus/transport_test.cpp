@@ -203,6 +203,11 @@ class Transports : public testing::Test {
   const std::unique_ptr<fastdds::ChainingTransport> transport;
 };
 
+TEST_F(Transports, CallForNoHeartbeatBesideThePeriodicOnes) {
+  // More than a batch is counted for: of a thousand samples of 1,500 bytes the sum over all before each.
+  EXPECT_GT(transport->get_configuration()->min_send_buffer_size(), 750'000'000U);
+}
+
 TEST_F(Transports, SendToLowPriorityPeersLast) {
   low_priority_peers->seen(prefix(1), {locator(7413)});
   rtps::LocatorList_t list;
