@@ -63,6 +63,7 @@ bool Replica::own(const NavState& state, TimeNs now_ns) {
   }
   if (yielded_ns_ && own_ns_ != 0 && now_ns - own_ns_ > options_.pause_ns) yielded_ns_ = now_ns;
   if (!leaves_the_lead(now_ns)) yielded_ns_.reset();
+  if (gap) late_.reset();  // what waited meanwhile is only now coming in
   own_ns_ = now_ns;
   missed_lately_ = false;
   if (others_ > 0) alone_ns_ = 0;

@@ -156,7 +156,7 @@ class Replica {
   int alike_ = 0;         ///< in a row
   TimeNs unlike_ns_ = 0;  ///< since when not; 0: alike
   Lateness lateness_;
-  std::optional<Late> late_;    ///< none: the last state was in time
+  std::optional<Late> late_;    ///< none: the last state was in time, or a gap came after it
   bool missed_lately_ = false;  ///< samples, since the last state of its own
   bool took_state_ = false;     ///< since it fell behind
   std::uint64_t missed_ = 0;

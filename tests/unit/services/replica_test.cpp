@@ -257,6 +257,21 @@ TEST(Replica, SpeaksThoughLateWhenNobodyHasNewerStates) {
   EXPECT_LE(spoke, 85);
 }
 
+TEST(Replica, SaysNothingOfThePastAlsoWhenItWasLateBefore) {
+  Scene scene;
+  scene.alone(300);
+  scene.replica.others(1, scene.now_ns);
+  scene.now_ns += 300 * kNsPerMillisecond;
+  scene.alone(100);
+  // It stands still for a second, and then takes in what waited before it hears anybody.
+  scene.now_ns += kNsPerSecond;
+  for (int i = 0; i < 100; ++i) {
+    scene.now_ns += kNsPerMillisecond;
+    ++scene.step;
+    EXPECT_FALSE(scene.replica.own(scene.state("b", 0.0), scene.now_ns));
+  }
+}
+
 TEST(Replica, AClockThatIsSetSilencesNobody) {
   for (const int hour : {-360'000, 360'000}) {
     Scene scene;
