@@ -23,7 +23,7 @@ constexpr double kVelocitySigma_m_s = 0.3;
 constexpr double kSameMotion_s = 0.5;
 constexpr double kGain_m_s2 = 0.2;
 
-/// Less the Coriolis acceleration of the motion.
+/// Gravity, less the Coriolis acceleration of the motion.
 Vector3d gravity_N_m_s2(const geo::LocalEarth& earth, const Vector3d& v_N_m_s) {
   return earth.gravity_N() - geo::cross(2.0 * earth.earth_rate_N + earth.transport_rate_N(v_N_m_s), v_N_m_s);
 }
