@@ -49,6 +49,7 @@ constexpr std::array<std::string_view, 4> kParoscientificAliases{"pressure", "di
                                                                  "pressure_paroscientific"};
 constexpr std::array<std::string_view, 3> kAsciiDepthAliases{"ascii", "depth_line", "ascii_line"};
 constexpr std::array<std::string_view, 4> kPsimssbAliases{"usbl", "kongsberg", "kongsberg_psimssb", "hipap"};
+constexpr std::array<std::string_view, 3> kPsonlldAliases{"sonardyne", "ranger2", "mini_ranger2"};
 constexpr std::array<std::string_view, 2> kAsciiAirDataAliases{"air_data", "air_data_line"};
 constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "openvario",
                                                               "nmea0183_air_data"};
@@ -63,7 +64,7 @@ constexpr std::string_view kXsensDescription =
 constexpr std::string_view kNoGreeting;
 constexpr bool kTurnsAxes = true;
 
-const std::array<Protocol, 15> kProtocols{{
+const std::array<Protocol, 16> kProtocols{{
     {"nmea0183", kNmeaAliases, kNmeaDescription, make_nmea0183, DeviceClock::none},
     {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx, DeviceClock::utc},
     {"pd0", kPd0Aliases, "Teledyne RDI PD0 ensembles with bottom track", make_pd0, DeviceClock::counter},
@@ -77,6 +78,7 @@ const std::array<Protocol, 15> kProtocols{{
     {"ascii_depth", kAsciiDepthAliases, "one depth or pressure a line, prefix, scale and offset configurable",
      make_ascii_depth, DeviceClock::none},
     {"psimssb", kPsimssbAliases, "Kongsberg $PSIMSSB acoustic positions", make_psimssb, DeviceClock::utc},
+    {"psonlld", kPsonlldAliases, "Sonardyne $PSONLLD acoustic positions", make_psonlld, DeviceClock::utc},
     {"ascii_air_data", kAsciiAirDataAliases, "air data a line, columns and units configurable",
      make_ascii_air_data, DeviceClock::none},
     {"nmea_air_data", kNmeaAirDataAliases, "air data as NMEA 0183 XDR, MWV, VWR or OpenVario $POV",

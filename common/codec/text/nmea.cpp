@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "codec/acoustic/psimssb.hpp"
+#include "codec/acoustic/psonlld.hpp"
 #include "codec/acoustic/ship_pose.hpp"
 #include "codec/actuator/nmea_actuator.hpp"
 #include "codec/altimeter/nmea_altimeter.hpp"
@@ -15,7 +16,8 @@
 namespace fathom::codec {
 namespace {
 
-enum class Scope : std::uint8_t { everything, usbl_only };
+/// Whose sentences give samples.
+enum class Scope : std::uint8_t { everything, psimssb, psonlld };
 
 class Nmea0183 final : public Framer {
  public:
@@ -30,11 +32,12 @@ class Nmea0183 final : public Framer {
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
     const Sentence sentence = split_sentence(frame);
-    if (sentence.type == "PSIMSSB") return decode_usbl(sentence, frame.size(), offset, sink);
-    if (scope_ == Scope::usbl_only) {
-      ship_.note(sentence);
-      return Outcome::ignored();
-    }
+    if (scope_ != Scope::psonlld && sentence.type == "PSIMSSB")
+      return decode_psimssb(sentence, frame.size(), offset, sink);
+    if (scope_ != Scope::psimssb && sentence.type == "PSONLLD")
+      return decode_psonlld(sentence, frame.size(), offset, sink);
+    if (scope_ == Scope::psimssb) ship_.note(sentence);
+    if (scope_ != Scope::everything) return Outcome::ignored();
     if (const std::optional<GpsSentence> type = gps_sentence(sentence)) {
       return decode_gps(*type, sentence, frame.size(), offset, sink);
     }
@@ -105,7 +108,7 @@ class Nmea0183 final : public Framer {
     return Outcome::used();
   }
 
-  Outcome decode_usbl(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
+  Outcome decode_psimssb(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
     UsblSample sample;
     DeviceTime time;
     bool usable = false;
@@ -113,6 +116,15 @@ class Nmea0183 final : public Framer {
     if (reason) return Outcome::refused(*reason);
     if (!usable) return Outcome::ignored();
     ship_.give(sample, time.time_of_day_ns);
+    emit(sink, sample, time, offset, length);
+    return Outcome::used();
+  }
+
+  Outcome decode_psonlld(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
+    UsblSample sample;
+    DeviceTime time;
+    if (const auto reason = parse_psonlld(sentence, usbl_sigma_floor_m_, sample, time))
+      return Outcome::refused(*reason);
     emit(sink, sample, time, offset, length);
     return Outcome::used();
   }
@@ -129,14 +141,18 @@ class Nmea0183 final : public Framer {
 }  // namespace
 
 constinit const std::string_view kNmeaDescription =
-    "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, DPT DBT, PSIMSSB; any talker";
+    "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, DPT DBT, PSIMSSB PSONLLD; any talker";
 
 std::unique_ptr<Codec> make_nmea0183(const CodecOptions& options) {
   return std::make_unique<Nmea0183>(options, Scope::everything);
 }
 
 std::unique_ptr<Codec> make_psimssb(const CodecOptions& options) {
-  return std::make_unique<Nmea0183>(options, Scope::usbl_only);
+  return std::make_unique<Nmea0183>(options, Scope::psimssb);
+}
+
+std::unique_ptr<Codec> make_psonlld(const CodecOptions& options) {
+  return std::make_unique<Nmea0183>(options, Scope::psonlld);
 }
 
 }  // namespace fathom::codec

@@ -19,4 +19,7 @@ extern const std::string_view kNmeaDescription;
 /// its relative fixes.
 [[nodiscard]] std::unique_ptr<Codec> make_psimssb(const CodecOptions& options);
 
+/// The same stream, of which only PSONLLD gives samples.
+[[nodiscard]] std::unique_ptr<Codec> make_psonlld(const CodecOptions& options);
+
 }  // namespace fathom::codec

@@ -39,7 +39,7 @@ std::string protocol_named(const std::string& text) {
 template <class Sensor>
 void require_checksum(Schema<Sensor>& s) {
   s.field("require_checksum", &Sensor::require_checksum, "NMEA 0183 sentences without a checksum are refused")
-      .only_for({"nmea0183", "psimssb"});
+      .only_for({"nmea0183", "psimssb", "psonlld"});
 }
 
 }  // namespace

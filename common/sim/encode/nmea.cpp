@@ -206,4 +206,18 @@ std::string psimssb(const UsblSample& sample, TimeNs utc_ns) {
                        decimal(sample.travel_time_s, 6) + ",");
 }
 
+std::string psonlld(const UsblSample& sample, TimeNs utc_ns) {
+  const bool located = sample.frame == UsblFrame::geodetic && known(sample.latitude_rad) &&
+                       known(sample.longitude_rad) && known(sample.depth_m);
+  std::string position = ",,";
+  std::string semi_axes = ",";
+  if (located) {
+    position = decimal(sample.latitude_rad * kDegPerRad, 9) + "," +
+               decimal(sample.longitude_rad * kDegPerRad, 9) + "," + decimal(sample.depth_m, 3);
+    semi_axes = decimal(sample.sigma_m, 3) + "," + decimal(sample.sigma_m, 3);
+  }
+  return nmea_sentence("PSONLLD," + time_text(civil_to_millisecond(utc_ns)) + "," + sample.transponder.str() +
+                       (located ? ",A," : ",V,") + position + "," + semi_axes + ",0.00,,,,,");
+}
+
 }  // namespace fathom::sim::encode

@@ -109,7 +109,8 @@ double UsblModel::latency_s() {
   return random_.uniform(config_.latency_s, std::max(config_.latency_s, config_.maximum_latency_s));
 }
 
-Bytes SimulatedDevice<UsblSample>::encode(const UsblSample& usbl, const DeviceCall& /*device*/) {
+Bytes SimulatedDevice<UsblSample>::encode(const UsblSample& usbl, const DeviceCall& device) {
+  if (device.protocol == "psonlld") return bytes_of(encode::psonlld(usbl, usbl.header.stamp_ns));
   return bytes_of(encode::psimssb(usbl, usbl.header.stamp_ns));
 }
 

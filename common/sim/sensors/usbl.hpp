@@ -66,7 +66,7 @@ struct ModelOf<UsblSample> {
 template <>
 class SimulatedDevice<UsblSample> {
  public:
-  static constexpr std::array<std::string_view, 1> kProtocols{"psimssb"};
+  static constexpr std::array<std::string_view, 2> kProtocols{"psimssb", "psonlld"};
   [[nodiscard]] Bytes encode(const UsblSample& usbl, const DeviceCall& device);
 };
 

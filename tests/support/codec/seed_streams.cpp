@@ -175,6 +175,10 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     nmea_frames(stream, frame);
   } else if (protocol == "psimssb") {
     append(stream, sim::encode::psimssb(usbl(frame), instant(frame)));
+  } else if (protocol == "psonlld") {
+    UsblSample fix = usbl(frame);
+    fix.frame = frame == 2 ? UsblFrame::ned : UsblFrame::geodetic;  // not told, as by a beacon out of earshot
+    append(stream, sim::encode::psonlld(fix, instant(frame)));
   } else if (protocol == "ubx") {
     append(stream, sim::encode::ubx_nav_pvt(gps(frame), instant(frame)));
     append(stream, sim::encode::ubx_frame(0x01, 0x35, ByteVector(20, static_cast<std::uint8_t>(frame))));

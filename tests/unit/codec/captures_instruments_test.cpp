@@ -267,5 +267,23 @@ TEST(UsblCaptures, AgreeWithTheExpectedFixes) {
   report(file, run, usbl.size(), 0);
 }
 
+TEST(UsblCaptures, PlacesAgreeWithTheExpectedFix) {
+  const auto file = root() / "usbl/psonlld_samples.nmea";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
+  std::ifstream in(root() / "usbl/expected.json");
+  const Json expected = Json::parse(in).at("psonlld");
+  const Harvest run = decode("psonlld", load(file));
+  const auto usbl = of_kind<UsblSample>(run);
+  ASSERT_EQ(usbl.size(), 3U);
+  const UsblSample& first = usbl[0].second;
+  EXPECT_EQ(first.transponder.view(), expected.at("id").get<std::string>());
+  EXPECT_DOUBLE_EQ(first.latitude_rad * kDegPerRad, expected.at("lat").get<double>());
+  EXPECT_DOUBLE_EQ(first.longitude_rad * kDegPerRad, expected.at("lon").get<double>());
+  EXPECT_DOUBLE_EQ(first.depth_m, expected.at("depth").get<double>());
+  EXPECT_DOUBLE_EQ(first.sigma_m, expected.at("ell_major").get<double>());
+  EXPECT_EQ(run.totals.rejected, 0U);
+  report(file, run, usbl.size(), 0);
+}
+
 }  // namespace
 }  // namespace fathom::codec::capture

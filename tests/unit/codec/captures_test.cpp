@@ -21,7 +21,7 @@ const std::vector<Folder>& folders() {
       {"ubx", {"ubx", "nmea0183"}},          {"pd0", {"pd0"}},
       {"waterlinked_json", {"waterlinked"}}, {"vectornav", {"vectornav", "nmea0183"}},
       {"xsens", {"xsens", "vectornav"}},     {"pressure", {"paroscientific", "nmea0183"}},
-      {"usbl", {"psimssb", "nmea0183"}}};
+      {"usbl", {"psimssb", "psonlld", "nmea0183"}}};
   return all;
 }
 

@@ -208,6 +208,76 @@ TEST(Psimssb, TheSigmaHasAFloor) {
   EXPECT_EQ(usbl("PSIMSSB,180554.432,M44,A,,C,N,M,3.0,40.0,34.0,2.5,T,0.05,", options).sigma_m, 2.5);
 }
 
+// A line as recorded on a ship of research that tracked a submersible.
+constexpr const char* kSubmersible =
+    "$PSONLLD,170004.53,ALVIN 914,A,28.8114807,-87.80925696,1951.156,13.96,13.96,0.00,2.62,,,,*6F\r\n";
+
+UsblSample place(const std::string& text, const CodecOptions& options = {}) {
+  const DecodeRun run = decode_text("psonlld", text, options);
+  EXPECT_EQ(run.samples.size(), 1U) << text;
+  return run.samples.empty() ? UsblSample{} : std::get<UsblSample>(run.samples[0].sample);
+}
+
+RejectReason place_refused(const std::string& body) {
+  const DecodeRun run = decode_text("psonlld", sentence(body));
+  EXPECT_TRUE(run.samples.empty()) << body;
+  EXPECT_EQ(run.rejected.size(), 1U) << body;
+  return run.rejected.empty() ? RejectReason::checksum : run.rejected[0].reason;
+}
+
+TEST(Psonlld, APlaceWithItsBeaconAndErrorEllipse) {
+  for (const char* protocol : {"psonlld", "sonardyne", "nmea0183"}) {
+    const DecodeRun run = decode_text(protocol, kSubmersible);
+    ASSERT_EQ(run.samples.size(), 1U) << protocol;
+    const auto& sample = std::get<UsblSample>(run.samples[0].sample);
+    EXPECT_EQ(sample.frame, UsblFrame::geodetic);
+    EXPECT_EQ(sample.transponder.view(), "ALVIN 914");
+    EXPECT_DOUBLE_EQ(sample.latitude_rad * kDegPerRad, 28.8114807);
+    EXPECT_DOUBLE_EQ(sample.longitude_rad * kDegPerRad, -87.80925696);
+    EXPECT_DOUBLE_EQ(sample.depth_m, 1951.156);
+    EXPECT_DOUBLE_EQ(sample.sigma_m, 13.96);
+    EXPECT_EQ(run.samples[0].time.time_of_day_ns, (17 * 3600 + 4) * kNsPerSecond + 530 * kNsPerMillisecond);
+  }
+}
+
+TEST(Psonlld, TheSigmaIsThatOfTheLargerSemiAxisWithAFloor) {
+  const std::string body = "PSONLLD,170004.53,24,A,50.02495,8.873323,425.3,";
+  CodecOptions options;
+  options.usbl_sigma_floor_m = 0.5;
+  EXPECT_EQ(place(sentence(body + "3.0,1.0,30.0,0.5,,,,"), options).sigma_m, 3.0);
+  EXPECT_EQ(place(sentence(body + "0.1,0.3,30.0,0.5,,,,"), options).sigma_m, 0.5);
+  EXPECT_EQ(place(sentence(body + "2.0,,,,,,,"), options).sigma_m, 2.0);
+  EXPECT_TRUE(std::isnan(place(sentence(body + "0.00,0.00,0.00,0.00,,,,"), options).sigma_m));
+  EXPECT_TRUE(std::isnan(place(sentence(body + ",,,,,,,"), options).sigma_m));
+}
+
+TEST(Psonlld, AFixThatIsNotValidHasNoPlace) {
+  const UsblSample sample =
+      place(sentence("PSONLLD,170004.53,24,V,50.02495,8.873323,425.3,3.0,1.0,30.0,0.5,,,,"));
+  EXPECT_EQ(sample.transponder.view(), "24");
+  EXPECT_TRUE(std::isnan(sample.latitude_rad));
+  EXPECT_TRUE(std::isnan(sample.depth_m));
+  EXPECT_TRUE(std::isnan(sample.sigma_m));
+}
+
+TEST(Psonlld, WhatCannotBeIsRefused) {
+  EXPECT_EQ(place_refused("PSONLLD,170004.53,24,A,50.02495,8.873323"), RejectReason::structure);
+  EXPECT_EQ(place_refused("PSONLLD,170004.53,24,A,95.0,8.8,425.3,3.0,1.0,30.0,0.5,,,,"),
+            RejectReason::out_of_range);
+  EXPECT_EQ(place_refused("PSONLLD,170004.53,24,A,5O.0,8.8,425.3,3.0,1.0,30.0,0.5,,,,"), RejectReason::field);
+  EXPECT_EQ(place_refused("PSONLLD,170004.53,24,X,50.0,8.8,425.3,3.0,1.0,30.0,0.5,,,,"), RejectReason::field);
+  EXPECT_EQ(place_refused("PSONLLD,250004.53,24,A,50.0,8.8,425.3,3.0,1.0,30.0,0.5,,,,"), RejectReason::field);
+}
+
+TEST(Psonlld, OtherSentencesCarryNoSample) {
+  const DecodeRun run = decode_text(
+      "psonlld", "$PSONALL,Ship 1,CRP,134446.175,650879.00,5688874.16,0.00,180.00,,G,0.00,0.00,,0.109,0.001*51\r\n" +
+                     sentence("PSIMSSB,180554.432,M44,A,,C,N,M,3.0,40.0,34.0,0.5,T,0.05,"));
+  EXPECT_TRUE(run.samples.empty());
+  EXPECT_TRUE(run.rejected.empty());
+  EXPECT_EQ(run.totals.frames_ignored, 2U);
+}
+
 TEST(Psimssb, OtherCoordinatesAndOtherSentencesCarryNoSample) {
   const DecodeRun run = decode_text(
       "psimssb",

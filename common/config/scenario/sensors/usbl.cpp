@@ -49,6 +49,8 @@ void describe(Schema<sim::SimulatedSensor<UsblSample>>& s) {
   s.check([](const C& usbl) -> std::pair<std::string, std::string> {
     const bool polar = usbl.output == C::Output::range_bearing || usbl.output == C::Output::inverted;
     if (polar && !usbl.protocol.empty()) return {"output", "geodetic, ned or vessel for a device protocol"};
+    if (usbl.protocol == "psonlld" && usbl.output != C::Output::geodetic)
+      return {"output", "geodetic for psonlld, which tells places alone"};
     return {};
   });
 }
