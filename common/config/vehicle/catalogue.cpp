@@ -39,12 +39,16 @@ void describe(Schema<CatalogueEntry>& s) {
       .only_for({std::string(to_string(SourceKind::imu))});
   s.field("bridge", &C::bridge, "keys of the instrument in the file of its bridge");
   s.field("fusion", &C::fusion, "keys of the instrument in the file of fusion");
+  s.field("states", &C::states,
+          "how uncertain its errors are at the start: keys of engine.states in the file of fusion");
   s.field("figures", &C::figures, "where each figure stands, by its key here, e.g. fusion.sigma_m_s");
   s.check([](const C& entry) -> std::pair<std::string, std::string> {
     std::set<std::string> needed;
-    const nlohmann::json fusion = nlohmann::json::parse(entry.fusion.json);
-    for (const auto& [key, value] : fusion.items()) {
-      if (key != "$comment") needed.insert("fusion." + key);
+    for (const auto& [section, keys] : {std::pair{"fusion.", &entry.fusion}, {"states.", &entry.states}}) {
+      const nlohmann::json object = nlohmann::json::parse(keys->json);
+      for (const auto& [key, value] : object.items()) {
+        if (key != "$comment") needed.insert(section + key);
+      }
     }
     if (entry.rate_hz > 0.0) needed.insert("rate_hz");
     if (entry.latency_s > 0.0) needed.insert("latency_s");

@@ -25,6 +25,7 @@ struct CatalogueEntry {
   int port = 0;  ///< of its TCP server; 0: unknown
   AxisNames axes = AxisNames::frd;
   RawObject bridge, fusion;
+  RawObject states;  ///< how uncertain its errors are at the start, where they are states of fusion
   std::map<std::string, CatalogueFigure> figures;  ///< by the key here that follows from it
 };
 

@@ -29,6 +29,19 @@ void add_own_keys(Layers& out, const std::string& at, const Known& known) {
   if (known.own.contains("fusion")) out.overlay(at, known.own.at("fusion"), known.at.child("fusion"));
 }
 
+/// The starting uncertainties that the model brings. Of several instruments that bring the same the larger
+/// holds.
+void add_model_states(Layers& out, const Known& known) {
+  if (!known.model.contains("states")) return;
+  const json& so_far = out.value().at("engine");
+  for (const auto& [key, value] : known.model.at("states").items()) {
+    if (key == "$comment") continue;
+    const json::json_pointer at("/states/" + key);
+    if (so_far.contains(at) && so_far.at(at) >= value) continue;
+    out.overlay("engine.states." + key, value, known.model_at.child("states").child(key));
+  }
+}
+
 /// What an inertial unit is taken for where nobody says better: the engine's own default is that of a
 /// tactical unit, which few are. deploy/README.md has the figures of the classes.
 void add_class_of_unit(Layers& out, bool has_model) {
@@ -77,6 +90,7 @@ void fusion_layers(const Sources& vehicle, const LoadRequest& request, Layers& o
   std::size_t count = 0;
   for (const Known& known : vehicle.instruments) {
     const VehicleInstrument& one = *known.config;
+    add_model_states(out, known);
     const bool placed = known.own.contains("position_m");
     if (one.kind == SourceKind::altimeter) {
       add_model_keys(out, "engine.altimeter", known);

@@ -36,8 +36,8 @@ namespace fathom::sim::encode {
 /// ahead as GGA and HDT, as a topside merges them. Range and direction have no place in it.
 [[nodiscard]] std::string psimssb(const UsblSample& sample, TimeNs utc_ns);
 
-/// $PSONLLD of a geodetic fix; one without position, and of any other frame, is sent with status V. `utc_ns` is
-/// when the fix was valid.
+/// $PSONLLD of a geodetic fix; one without position, and of any other frame, is sent with status V. `utc_ns`
+/// is when the fix was valid.
 [[nodiscard]] std::string psonlld(const UsblSample& sample, TimeNs utc_ns);
 
 }  // namespace fathom::sim::encode

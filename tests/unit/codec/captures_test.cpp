@@ -16,12 +16,15 @@ struct Folder {
 };
 
 const std::vector<Folder>& folders() {
-  static const std::vector<Folder> all{
-      {"nmea0183", {"nmea0183", "ubx"}},     {"nmea0183_depth_heading", {"nmea0183"}},
-      {"ubx", {"ubx", "nmea0183"}},          {"pd0", {"pd0"}},
-      {"waterlinked_json", {"waterlinked"}}, {"vectornav", {"vectornav", "nmea0183"}},
-      {"xsens", {"xsens", "vectornav"}},     {"pressure", {"paroscientific", "nmea0183"}},
-      {"usbl", {"psimssb", "psonlld", "nmea0183"}}};
+  static const std::vector<Folder> all{{"nmea0183", {"nmea0183", "ubx"}},
+                                       {"nmea0183_depth_heading", {"nmea0183"}},
+                                       {"ubx", {"ubx", "nmea0183"}},
+                                       {"pd0", {"pd0"}},
+                                       {"waterlinked_json", {"waterlinked"}},
+                                       {"vectornav", {"vectornav", "nmea0183"}},
+                                       {"xsens", {"xsens", "vectornav"}},
+                                       {"pressure", {"paroscientific", "nmea0183"}},
+                                       {"usbl", {"psimssb", "psonlld", "nmea0183"}}};
   return all;
 }
 

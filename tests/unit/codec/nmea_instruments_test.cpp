@@ -271,8 +271,9 @@ TEST(Psonlld, WhatCannotBeIsRefused) {
 
 TEST(Psonlld, OtherSentencesCarryNoSample) {
   const DecodeRun run = decode_text(
-      "psonlld", "$PSONALL,Ship 1,CRP,134446.175,650879.00,5688874.16,0.00,180.00,,G,0.00,0.00,,0.109,0.001*51\r\n" +
-                     sentence("PSIMSSB,180554.432,M44,A,,C,N,M,3.0,40.0,34.0,0.5,T,0.05,"));
+      "psonlld",
+      "$PSONALL,Ship 1,CRP,134446.175,650879.00,5688874.16,0.00,180.00,,G,0.00,0.00,,0.109,0.001*51\r\n" +
+          sentence("PSIMSSB,180554.432,M44,A,,C,N,M,3.0,40.0,34.0,0.5,T,0.05,"));
   EXPECT_TRUE(run.samples.empty());
   EXPECT_TRUE(run.rejected.empty());
   EXPECT_EQ(run.totals.frames_ignored, 2U);

@@ -1,4 +1,5 @@
-// What the registry says of a protocol decides how a vehicle's bridge stamps and turns its samples.
+// What registry and catalogue say of an instrument: how a vehicle's bridge stamps and turns its samples, and
+// how far fusion trusts it.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 
 #include "codec/registry.hpp"
 #include "config/bridge/bridge_config.hpp"
+#include "config/fusion/fusion_config.hpp"
 #include "config/service_config.hpp"
 #include "config/vehicle/vehicle_config.hpp"
 
@@ -52,6 +54,81 @@ TEST_F(ProtocolOfAVehicle, AxesThatItsCodecTurnsAreNotTurnedAgain) {
   EXPECT_EQ(of_a_model.sensor.protocol, "xsens");
   EXPECT_EQ(of_a_model.sensor.time.mode, runtime::TimeMode::device_clock);
   EXPECT_DOUBLE_EQ(of_a_model.mounting.rotation()[4], 1.0);
+}
+
+class ModelOfAVehicle : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    setenv("FATHOM_CATALOGUE_DIR", FATHOM_SOURCE_DIR "/deploy/config/catalogue", 1);
+    std::filesystem::create_directories(folder_ / "catalogue");
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  /// A DVL of one's own with this scale error, or with a key that may mean nothing.
+  void write_model(const std::string& name, const json& states, const std::string& figure) {
+    std::ofstream(folder_ / "catalogue" / (name + ".json"))
+        << json{{"title", name},
+                {"kind", "dvl"},
+                {"protocol", "pd0"},
+                {"states", states},
+                {"figures", {{"states." + figure, {{"says", "as tried"}, {"source", "page 1"}}}}}};
+  }
+  /// The states of fusion of a vehicle with DVLs of these models.
+  estimation::StateModelConfig states(const std::vector<std::string>& models, const json& services = {}) {
+    json instruments = json::array();
+    instruments.push_back(placed("imu", "imu"));
+    instruments.back()["protocol"] = "vectornav";
+    for (const std::string& model : models) {
+      instruments.push_back(placed("dvl_" + std::to_string(instruments.size()), "dvl"));
+      instruments.back()["model"] = model;
+    }
+    json file = {{"name", "auv"}, {"instruments", instruments}};
+    if (!services.is_null()) file["services"] = services;
+    const auto path = (folder_ / "vehicle.json").string();
+    std::ofstream(path) << file;
+    return load_service_config<FusionConfig>(with_vehicle({}, path, "fusion")).value.engine.states;
+  }
+
+ private:
+  static json placed(const std::string& name, const std::string& kind) {
+    return {{"name", name},
+            {"kind", kind},
+            {"rate_hz", 5},
+            {"port", {{"type", "serial"}, {"path", "/dev/tty_" + name}}},
+            {"position_m", {0, 0, 0}},
+            {"mounting_rpy_deg", {0, 0, 0}}};
+  }
+  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "model_of_a_vehicle";
+};
+
+TEST_F(ModelOfAVehicle, ItsAccuracyIsTheStartOfTheStates) {
+  const double standard = estimation::StateModelConfig{}.dvl_scale_sigma;
+  EXPECT_DOUBLE_EQ(states({"teledyne_workhorse_navigator"}).dvl_scale_sigma, standard) << "says nothing";
+  EXPECT_GT(states({"waterlinked_a50"}).dvl_scale_sigma, 2.0 * standard) << "the standard one is of 1 %";
+  const json better = {{"fusion", {{"engine", {{"states", {{"dvl_scale_sigma", 0.001}}}}}}}};
+  EXPECT_DOUBLE_EQ(states({"waterlinked_a50"}, better).dvl_scale_sigma, 0.001) << "the vehicle's word holds";
+}
+
+TEST_F(ModelOfAVehicle, TheWorseOfTwoHolds) {
+  write_model("good", {{"dvl_scale_sigma", 0.001}}, "dvl_scale_sigma");
+  write_model("bad", {{"dvl_scale_sigma", 0.02}}, "dvl_scale_sigma");
+  EXPECT_DOUBLE_EQ(states({"good"}).dvl_scale_sigma, 0.001);
+  EXPECT_DOUBLE_EQ(states({"good", "bad"}).dvl_scale_sigma, 0.02);
+  EXPECT_DOUBLE_EQ(states({"bad", "good"}).dvl_scale_sigma, 0.02);
+}
+
+TEST_F(ModelOfAVehicle, AStateThatIsNoneIsNamedWithItsFile) {
+  write_model("odd", {{"dvl_scale", 0.02}}, "dvl_scale");
+  write_model("bare", {{"dvl_scale_sigma", 0.02}}, "dvl_bias_sigma_m_s");
+  for (const auto& [model, said] :
+       {std::pair{"odd", "catalogue/odd.json: states.dvl_scale"}, {"bare", "catalogue/bare.json"}}) {
+    try {
+      (void)states({model});
+      ADD_FAILURE() << model << " was taken";
+    } catch (const ConfigError& error) {
+      EXPECT_NE(std::string(error.what()).find(said), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace
