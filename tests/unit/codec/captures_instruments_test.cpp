@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/units.hpp"
 #include "capture.hpp"
 #include "support/data.hpp"
 

@@ -266,7 +266,8 @@ TEST(Psonlld, WhatCannotBeIsRefused) {
             RejectReason::out_of_range);
   EXPECT_EQ(place_refused("PSONLLD,170004.53,24,A,5O.0,8.8,425.3,3.0,1.0,30.0,0.5,,,,"), RejectReason::field);
   EXPECT_EQ(place_refused("PSONLLD,170004.53,24,X,50.0,8.8,425.3,3.0,1.0,30.0,0.5,,,,"), RejectReason::field);
-  EXPECT_EQ(place_refused("PSONLLD,250004.53,24,A,50.0,8.8,425.3,3.0,1.0,30.0,0.5,,,,"), RejectReason::field);
+  EXPECT_EQ(place_refused("PSONLLD,250004.53,24,A,50.0,8.8,425.3,3.0,1.0,30.0,0.5,,,,"),
+            RejectReason::out_of_range);
 }
 
 TEST(Psonlld, OtherSentencesCarryNoSample) {
