@@ -9,6 +9,7 @@
 #include "codec/depth/ascii_depth.hpp"
 #include "codec/depth/paroscientific.hpp"
 #include "codec/dvl/pd0.hpp"
+#include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
@@ -40,6 +41,8 @@ constexpr std::array<std::string_view, 16> kNmeaAliases{"nmea",
 constexpr std::array<std::string_view, 5> kUbxAliases{"ublox", "u_blox", "ubx_nav_pvt", "nav_pvt", "gps_ubx"};
 constexpr std::array<std::string_view, 5> kPd0Aliases{"teledyne_pd0", "rdi", "rdi_pd0", "workhorse",
                                                       "dvl_pd0"};
+constexpr std::array<std::string_view, 5> kPd6Aliases{"teledyne_pd6", "rdi_pd6", "dvl_pd6", "wayfinder_pd6",
+                                                      "navquest"};
 constexpr std::array<std::string_view, 5> kWaterlinkedAliases{"waterlinked_json", "water_linked", "a50",
                                                               "a125", "water_linked_json"};
 constexpr std::array<std::string_view, 4> kVectornavAliases{"vn", "vnbin", "vectornav_binary",
@@ -64,10 +67,12 @@ constexpr std::string_view kXsensDescription =
 constexpr std::string_view kNoGreeting;
 constexpr bool kTurnsAxes = true;
 
-const std::array<Protocol, 16> kProtocols{{
+const auto kProtocols = std::to_array<Protocol>({
     {"nmea0183", kNmeaAliases, kNmeaDescription, make_nmea0183, DeviceClock::none},
     {"ubx", kUbxAliases, "u-blox UBX NAV-PVT", make_ubx, DeviceClock::utc},
     {"pd0", kPd0Aliases, "Teledyne RDI PD0 ensembles with bottom track", make_pd0, DeviceClock::counter},
+    {"pd6", kPd6Aliases, "Teledyne RDI PD6 lines: Wayfinder, Pathfinder, NavQuest, Water Linked", make_pd6,
+     DeviceClock::counter},
     {"waterlinked", kWaterlinkedAliases, "Water Linked A50 and A125, JSON lines", make_waterlinked,
      DeviceClock::counter},
     {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data", make_vectornav,
@@ -89,7 +94,7 @@ const std::array<Protocol, 16> kProtocols{{
     {"mavlink", kMavlinkAliases, "telemetry of an autopilot, MAVLink 1 and 2", make_mavlink,
      DeviceClock::counter},
     {"fix_text", kFixTextAliases, "positions told, one a line: $PFTHX", make_fix_text, DeviceClock::utc},
-}};
+});
 
 char folded(char c) {
   if (c == '-') return '_';

@@ -134,7 +134,7 @@ void describe(Schema<DvlSensorConfig>& s) {
       .unit("deg")
       .range(-360, 360)
       .scaled(kRadPerDeg)
-      .only_for({"pd0"});
+      .only_for({"pd0", "pd6"});
   s.field("max_speed_m_s", &DvlSensorConfig::max_speed_m_s, "samples beyond are refused")
       .unit("m/s")
       .range(0.1, 1000);

@@ -17,7 +17,7 @@ struct Demand {
 
 /// The lower, the less likely it is that anything else looks like it.
 int rank_of(std::string_view protocol) {
-  if (protocol == "nmea0183") return 1;
+  if (protocol == "nmea0183" || protocol == "pd6") return 1;
   if (protocol == "nmea_air_data" || protocol == "paroscientific") return 2;
   if (protocol.starts_with("ascii_")) return 3;
   return 0;

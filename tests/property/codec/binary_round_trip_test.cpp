@@ -7,10 +7,12 @@
 #include "base/units.hpp"
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
+#include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
 #include "sim/encode/pd0.hpp"
+#include "sim/encode/pd6.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/waterlinked.hpp"
 #include "sim/encode/xsens.hpp"
@@ -235,6 +237,58 @@ TEST_F(RoundTrip, Pd0WithWaterLayerAndLostBottom) {
     EXPECT_EQ(w.mode, DvlMode::water);
     expect_same3(water.velocity_D_m_s, w.velocity_D_m_s, 0.0, 1e-5);
     EXPECT_EQ(got[0].offset, got[1].offset);
+  }
+}
+
+TEST_F(RoundTrip, Pd6InEveryFrame) {
+  for (const DvlFrame frame : {DvlFrame::instrument, DvlFrame::ship, DvlFrame::earth}) {
+    for (int run = 0; run < kRuns; ++run) {
+      DvlSample s = draw_dvl(frame);
+      if (chance(0.2)) s.error_velocity_m_s = kUnknown;
+      DvlSample w = s;
+      w.velocity_D_m_s = draw3(2.0);
+      const bool lost = chance(0.2);
+      if (lost) {
+        s.velocity_D_m_s.fill(kUnknown);
+        s.altitude_m = kUnknown;
+      }
+      const bool water = chance(0.5);
+      codec::CodecOptions reading;
+      reading.dvl_heading_alignment_rad = chance(0.5) ? 45.0 * kRadPerDeg : 0.0;
+      const TimeNs clock_ns = kSomeTime_ns + run * 123'456'789LL;
+
+      const auto got =
+          read(codec::make_pd6(reading),
+               sim::encode::pd6(s, clock_ns, reading.dvl_heading_alignment_rad, water ? &w : nullptr));
+      ASSERT_EQ(got.size(), water ? 2U : 1U);
+      const auto& r = std::get<DvlSample>(got[0].sample);
+      EXPECT_EQ(r.mode, DvlMode::bottom);
+      EXPECT_EQ(r.recorded_frame, frame);
+      ASSERT_TRUE(got[0].time.clock_ns.has_value());
+      EXPECT_LE(std::abs(*got[0].time.clock_ns - clock_ns), 5 * kNsPerMillisecond);
+      EXPECT_EQ(known(r.velocity_D_m_s[0]), !lost);
+      EXPECT_EQ(known(r.altitude_m), !lost);
+      // Half a millimetre a second along each axis that was sent.
+      constexpr double kRounding_m_s = 0.9e-3;
+      if (!lost) {
+        expect_same3(s.velocity_D_m_s, r.velocity_D_m_s, 0.0, kRounding_m_s);
+        EXPECT_NEAR(r.altitude_m, s.altitude_m, 0.0051);
+        const bool sent = frame == DvlFrame::instrument && known(s.error_velocity_m_s);
+        ASSERT_EQ(known(r.error_velocity_m_s), sent);
+        if (sent) {
+          EXPECT_NEAR(r.error_velocity_m_s, s.error_velocity_m_s, 0.51e-3);
+        }
+      }
+      EXPECT_NEAR(r.heading_rad, s.heading_rad, 1e-9);
+      EXPECT_NEAR(r.pitch_rad, s.pitch_rad, 1e-9);
+      EXPECT_NEAR(r.roll_rad, s.roll_rad, 1e-9);
+      EXPECT_DOUBLE_EQ(r.sound_speed_m_s, s.sound_speed_m_s);
+      if (!water) continue;
+      const auto& through = std::get<DvlSample>(got[1].sample);
+      EXPECT_EQ(through.mode, DvlMode::water);
+      expect_same3(w.velocity_D_m_s, through.velocity_D_m_s, 0.0, kRounding_m_s);
+      EXPECT_EQ(got[0].offset, got[1].offset);
+    }
   }
 }
 

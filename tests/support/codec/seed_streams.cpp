@@ -11,6 +11,7 @@
 #include "sim/encode/depth.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/pd0.hpp"
+#include "sim/encode/pd6.hpp"
 #include "sim/encode/ubx.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/waterlinked.hpp"
@@ -64,6 +65,21 @@ DvlSample dvl(int frame) {
   sample.heading_rad = 1.2;
   if (frame == 2) sample.velocity_D_m_s.fill(kUnknown);
   return sample;
+}
+
+/// Teledyne's lines, those of Water Linked, and two lines between which the line end was lost.
+void pd6_lines(ByteVector& stream, int frame) {
+  const DvlSample bottom = dvl(frame);
+  DvlSample water = bottom;
+  water.velocity_D_m_s = {1.25, 0.5, 0.0};
+  append(stream, sim::encode::pd6(bottom, instant(frame), 0.0, frame % 3 == 0 ? &water : nullptr));
+  append(stream, ":HM,G,D,0e89,0ffe, 10.842, 1.974, 5.493\r\n");
+  if (frame == 4) {
+    append(stream,
+           ":SA, +0.00, +0.00,  0.00\r\n:TS,22020812061800, 0.0, +0.0,   0.0,1475.0,  0:WI,    +0,    +0,"
+           "    +0,    +0,V\r\n:BI,  +123,  -420, +2000,    +0,A\r\n:BS,  -420,  +123, +2000,A\r\n"
+           ":BE,    +0,    +0,    +0,V\r\n:BD,       +0.00,       +0.00,       +0.00,   5.32,  0.00\r\n");
+  }
 }
 
 UsblSample usbl(int frame) {
@@ -192,6 +208,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     options.ensemble = static_cast<std::uint32_t>(frame + 1);
     options.high_resolution = frame % 2 == 0;
     append(stream, sim::encode::pd0(dvl(frame), instant(frame), options));
+  } else if (protocol == "pd6") {
+    pd6_lines(stream, frame);
   } else if (protocol == "waterlinked") {
     append(stream, sim::encode::waterlinked(
                        dvl(frame), {instant(frame), instant(frame) + 190 * kNsPerMillisecond, 250.0}));

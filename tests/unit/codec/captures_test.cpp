@@ -24,7 +24,8 @@ const std::vector<Folder>& folders() {
                                        {"vectornav", {"vectornav", "nmea0183"}},
                                        {"xsens", {"xsens", "vectornav"}},
                                        {"pressure", {"paroscientific", "nmea0183"}},
-                                       {"usbl", {"psimssb", "psonlld", "nmea0183"}}};
+                                       {"usbl", {"psimssb", "psonlld", "nmea0183"}},
+                                       {"pd6", {"pd6", "nmea0183"}}};
   return all;
 }
 
