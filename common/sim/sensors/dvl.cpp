@@ -5,6 +5,7 @@
 
 #include "geo/so3.hpp"
 #include "sim/encode/pd0.hpp"
+#include "sim/encode/pd6.hpp"
 #include "sim/encode/waterlinked.hpp"
 #include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
@@ -93,7 +94,7 @@ DvlSample DvlModel::measure(const TruthPoint& at, const Ping& ping, Random& rand
 }
 
 Bytes SimulatedDevice<DvlSample>::encode(const DvlSample& dvl, const DeviceCall& device) {
-  if (device.protocol != "waterlinked") return pd0(dvl, device.scenario.sensors.of<DvlSample>().water_layer);
+  if (device.protocol != "waterlinked") return both_layers(dvl, device);
   if (dvl.mode == DvlMode::water) return {};  // it has no word for it
   const TimeNs valid_ns = dvl.header.stamp_ns;
   const double since_ms = last_ns_ == 0 ? kUnknown : to_seconds(valid_ns - last_ns_) * 1e3;
@@ -101,15 +102,13 @@ Bytes SimulatedDevice<DvlSample>::encode(const DvlSample& dvl, const DeviceCall&
   return bytes_of(encode::waterlinked(dvl, {valid_ns, dvl.header.received_ns, since_ms}));
 }
 
-Bytes SimulatedDevice<DvlSample>::pd0(const DvlSample& sample, bool water_layer) {
+Bytes SimulatedDevice<DvlSample>::both_layers(const DvlSample& sample, const DeviceCall& device) {
   const TimeNs valid_ns = sample.header.stamp_ns;
-  if (sample.mode == DvlMode::bottom && water_layer) {
-    ping_ = sample;  // the other half of the ensemble comes next
+  if (sample.mode == DvlMode::bottom && device.scenario.sensors.of<DvlSample>().water_layer) {
+    ping_ = sample;  // the other half comes next
     return {};
   }
-  encode::Pd0Options options;
-  options.ensemble = ++ensemble_;
-  if (sample.mode == DvlMode::bottom) return encode::pd0(sample, valid_ns, options);
+  if (sample.mode == DvlMode::bottom) return written(sample, nullptr, valid_ns, device);
   DvlSample bottom = sample;
   bottom.mode = DvlMode::bottom;
   if (ping_ && ping_->header.stamp_ns == valid_ns) {
@@ -121,7 +120,15 @@ Bytes SimulatedDevice<DvlSample>::pd0(const DvlSample& sample, bool water_layer)
     bottom.error_velocity_m_s = bottom.altitude_m = kUnknown;
   }
   ping_.reset();
-  return encode::pd0(bottom, valid_ns, options, &sample);
+  return written(bottom, &sample, valid_ns, device);
+}
+
+Bytes SimulatedDevice<DvlSample>::written(const DvlSample& bottom, const DvlSample* water, TimeNs valid_ns,
+                                          const DeviceCall& device) {
+  if (device.protocol == "pd6") return bytes_of(encode::pd6(bottom, valid_ns, 0.0, water));
+  encode::Pd0Options options;
+  options.ensemble = ++ensemble_;
+  return encode::pd0(bottom, valid_ns, options, water);
 }
 
 }  // namespace fathom::sim

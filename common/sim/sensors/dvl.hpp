@@ -79,13 +79,14 @@ struct ModelOf<DvlSample> {
 template <>
 class SimulatedDevice<DvlSample> {
  public:
-  static constexpr std::array<std::string_view, 2> kProtocols{"pd0", "waterlinked"};
-  /// Empty for the first of two measurements that share an ensemble: what is measured of the bottom waits for
-  /// the water layer.
+  static constexpr std::array<std::string_view, 3> kProtocols{"pd0", "pd6", "waterlinked"};
+  /// Empty for the first of two measurements that share a ping's frame: what is measured of the bottom waits
+  /// for the water layer.
   [[nodiscard]] Bytes encode(const DvlSample& dvl, const DeviceCall& device);
 
  private:
-  Bytes pd0(const DvlSample& sample, bool water_layer);
+  Bytes both_layers(const DvlSample& sample, const DeviceCall& device);
+  Bytes written(const DvlSample& bottom, const DvlSample* water, TimeNs valid_ns, const DeviceCall& device);
 
   std::uint32_t ensemble_ = 0;
   TimeNs last_ns_ = 0;

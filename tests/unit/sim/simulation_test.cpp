@@ -124,13 +124,15 @@ std::vector<DvlSample> decoded(const Outcome& outcome, const Scenario& scenario)
     const auto some = encoder.encode(one);
     bytes.insert(bytes.end(), some.begin(), some.end());
   }
-  const test::DecodeRun run = test::decode_whole("pd0", bytes);
+  const test::DecodeRun run = test::decode_whole(scenario.sensors.of<DvlSample>().protocol, bytes);
   EXPECT_TRUE(run.rejected.empty());
   return run.all<DvlSample>();
 }
 
-TEST(Simulation, APingMeasuresBottomAndWaterLayer) {
+void expect_both_layers(const char* protocol) {
+  SCOPED_TRACE(protocol);
   Scenario scenario = instrumented();
+  scenario.sensors.of<DvlSample>().protocol = protocol;
   scenario.environment.current_N_m_s = {0.3, -0.2};
   scenario.environment.current_from_s = 0.0;
   const auto alone = decoded(play(scenario, 3, 30.0), scenario);
@@ -157,6 +159,11 @@ TEST(Simulation, APingMeasuresBottomAndWaterLayer) {
     EXPECT_EQ(bottom.velocity_D_m_s, alone[i / 2].velocity_D_m_s) << "as without the layer";
   }
   EXPECT_EQ(lost, 25);
+}
+
+TEST(Simulation, APingMeasuresBottomAndWaterLayer) {
+  expect_both_layers("pd0");
+  expect_both_layers("pd6");
 }
 
 TEST(Simulation, AWaterTrackIsNoBottomTrack) {
@@ -260,6 +267,7 @@ TEST(DeviceEncoder, KnowsWhatItCanSay) {
   EXPECT_TRUE(can_encode("gps", "nmea"));
   EXPECT_TRUE(can_encode("gps", "u-blox"));
   EXPECT_TRUE(can_encode("dvl", "teledyne_pd0"));
+  EXPECT_TRUE(can_encode("dvl", "teledyne_pd6"));
   EXPECT_TRUE(can_encode("airspeed", "openvario"));
   EXPECT_FALSE(can_encode("dvl", "nmea0183"));
   EXPECT_FALSE(can_encode("imu", "no_such_protocol"));
