@@ -9,6 +9,7 @@
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "codec/framer.hpp"
+#include "codec/gps_time.hpp"
 #include "codec/imu/known3.hpp"
 #include "codec/imu/vectornav_layout.hpp"
 #include "codec/text/numbers.hpp"
@@ -42,9 +43,6 @@ constexpr std::string_view kTextStart = "$VN";
 // Beyond every instrument of the family (2000 deg/s, 16 g and their high-range variants).
 constexpr double kMaxRate_rad_s = 100.0;
 constexpr double kMaxForce_m_s2 = 2000.0;
-
-constexpr TimeNs kGpsEpoch_ns = 315'964'800 * kNsPerSecond;  // 1980-01-06 in Unix time
-constexpr DurationNs kGpsAheadOfUtc_ns = 18 * kNsPerSecond;  // since 2017-01-01
 
 std::array<double, 3> vector3(Bytes frame, std::size_t at, double factor = 1.0) {
   std::array<double, 3> v{};
@@ -97,7 +95,7 @@ DeviceTime device_time(Bytes frame, const Layout& layout) {
   const std::size_t gps = clock[time_field::gps] ? clock[time_field::gps] : common[common_field::time_gps];
   if (gps && (status & kTimeOk) && (status & kDateOk)) {
     const auto ns = load_le<std::uint64_t>(frame, gps);
-    if (ns < 1ULL << 62) time.utc_ns = kGpsEpoch_ns - kGpsAheadOfUtc_ns + static_cast<TimeNs>(ns);
+    if (ns < 1ULL << 62) time.utc_ns = utc_of_gps(static_cast<DurationNs>(ns));
   } else if (const std::size_t utc = clock[time_field::utc]; utc && (status & kUtcOk)) {
     CivilTime civil;
     civil.year = 2000 + load_le<std::int8_t>(frame, utc);

@@ -6,15 +6,11 @@
 
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
+#include "codec/gps_time.hpp"
 #include "codec/satellite/ubx.hpp"
 
 namespace fathom::sim::encode {
 namespace {
-
-/// 1980-01-06, the start of GPS time, and the leap seconds since.
-constexpr TimeNs kGpsEpoch = 315'964'800 * kNsPerSecond;
-constexpr DurationNs kLeapSeconds = 18 * kNsPerSecond;
-constexpr DurationNs kWeek = 7 * 86'400 * kNsPerSecond;
 
 std::int32_t scaled(double value, double scale) {
   if (!known(value)) return 0;
@@ -92,8 +88,8 @@ std::vector<std::uint8_t> ubx_nav_pvt(const GpsSample& sample, TimeNs utc_ns) {
 
   std::vector<std::uint8_t> p;
   p.reserve(92);
-  const std::int64_t gps_ns = utc_ns - kGpsEpoch + kLeapSeconds;
-  append_le<std::uint32_t>(p, static_cast<std::uint32_t>(gps_ns % kWeek / kNsPerMillisecond));
+  append_le<std::uint32_t>(
+      p, static_cast<std::uint32_t>(codec::gps_of_utc(utc_ns) % codec::kGpsWeek_ns / kNsPerMillisecond));
   append_le<std::uint16_t>(p, static_cast<std::uint16_t>(civil.year));
   for (const int field : {civil.month, civil.day, civil.hour, civil.minute, civil.second}) {
     p.push_back(static_cast<std::uint8_t>(field));

@@ -5,6 +5,7 @@
 
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
+#include "codec/gps_time.hpp"
 #include "codec/imu/known3.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/vectornav_layout.hpp"
@@ -15,9 +16,6 @@ namespace {
 using codec::known3;
 
 namespace vn = codec::vectornav;
-
-constexpr TimeNs kGpsEpoch_ns = 315'964'800 * kNsPerSecond;
-constexpr DurationNs kGpsAheadOfUtc_ns = 18 * kNsPerSecond;
 
 void append3(std::vector<std::uint8_t>& bytes, const std::array<double, 3>& v, double factor = 1.0) {
   for (const double x : v) append_le<float>(bytes, static_cast<float>(factor * x));
@@ -38,7 +36,7 @@ std::vector<std::uint8_t> vectornav(const ImuSample& s, DurationNs since_startup
   append_le<std::uint64_t>(payload, static_cast<std::uint64_t>(since_startup_ns));
   if (utc_ns) {
     time_mask |= bit(vn::time_field::gps) | bit(vn::time_field::status);
-    append_le<std::uint64_t>(payload, static_cast<std::uint64_t>(*utc_ns - kGpsEpoch_ns + kGpsAheadOfUtc_ns));
+    append_le<std::uint64_t>(payload, static_cast<std::uint64_t>(codec::gps_of_utc(*utc_ns)));
     payload.push_back(0x07);  // time, date and UTC valid
   }
   std::uint16_t imu_mask = 0;
