@@ -9,7 +9,7 @@
 #include "capture.hpp"
 #include "codec/dvl/pd0_layout.hpp"
 
-namespace fathom::codec {
+namespace fathom::codec::pd0_test {
 namespace {
 
 using capture::ByteVector;
@@ -359,4 +359,4 @@ TEST(Pd0, EnsembleInsideARefusedOneIsFound) {
 }
 
 }  // namespace
-}  // namespace fathom::codec
+}  // namespace fathom::codec::pd0_test

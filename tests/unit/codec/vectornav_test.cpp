@@ -9,7 +9,7 @@
 #include "base/bytes/little_endian.hpp"
 #include "capture.hpp"
 
-namespace fathom::codec {
+namespace fathom::codec::vectornav_test {
 namespace {
 
 using capture::ByteVector;
@@ -213,4 +213,4 @@ TEST(VectorNav, CutFrameAtTheEndIsTruncated) {
 }
 
 }  // namespace
-}  // namespace fathom::codec
+}  // namespace fathom::codec::vectornav_test
