@@ -8,6 +8,7 @@
 #include "codec/autopilot/mavlink.hpp"
 #include "codec/depth/ascii_depth.hpp"
 #include "codec/depth/paroscientific.hpp"
+#include "codec/dvl/nortek.hpp"
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
@@ -45,6 +46,8 @@ constexpr std::array<std::string_view, 5> kPd6Aliases{"teledyne_pd6", "rdi_pd6",
                                                       "navquest"};
 constexpr std::array<std::string_view, 5> kWaterlinkedAliases{"waterlinked_json", "water_linked", "a50",
                                                               "a125", "water_linked_json"};
+constexpr std::array<std::string_view, 5> kNortekAliases{"nortek_dvl", "nortek_dvl500", "nortek_dvl1000",
+                                                         "df21", "ad2cp_dvl"};
 constexpr std::array<std::string_view, 4> kVectornavAliases{"vn", "vnbin", "vectornav_binary",
                                                             "imu_vectornav"};
 constexpr std::array<std::string_view, 4> kXsensAliases{"xsens_mti", "mti", "mtdata2", "xbus"};
@@ -74,6 +77,8 @@ const auto kProtocols = std::to_array<Protocol>({
     {"pd6", kPd6Aliases, "Teledyne RDI PD6 lines: Wayfinder, Pathfinder, NavQuest, Water Linked", make_pd6,
      DeviceClock::counter},
     {"waterlinked", kWaterlinkedAliases, "Water Linked A50 and A125, JSON lines", make_waterlinked,
+     DeviceClock::counter},
+    {"nortek", kNortekAliases, "Nortek DVL, binary bottom and water track (DF21, DF22)", make_nortek,
      DeviceClock::counter},
     {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data", make_vectornav,
      DeviceClock::counter},

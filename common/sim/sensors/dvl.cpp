@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geo/so3.hpp"
+#include "sim/encode/nortek.hpp"
 #include "sim/encode/pd0.hpp"
 #include "sim/encode/pd6.hpp"
 #include "sim/encode/waterlinked.hpp"
@@ -94,6 +95,7 @@ DvlSample DvlModel::measure(const TruthPoint& at, const Ping& ping, Random& rand
 }
 
 Bytes SimulatedDevice<DvlSample>::encode(const DvlSample& dvl, const DeviceCall& device) {
+  if (device.protocol == "nortek") return encode::nortek(dvl, {dvl.header.stamp_ns, dvl.header.received_ns});
   if (device.protocol != "waterlinked") return both_layers(dvl, device);
   if (dvl.mode == DvlMode::water) return {};  // it has no word for it
   const TimeNs valid_ns = dvl.header.stamp_ns;

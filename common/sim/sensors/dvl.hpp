@@ -79,7 +79,7 @@ struct ModelOf<DvlSample> {
 template <>
 class SimulatedDevice<DvlSample> {
  public:
-  static constexpr std::array<std::string_view, 3> kProtocols{"pd0", "pd6", "waterlinked"};
+  static constexpr std::array<std::string_view, 4> kProtocols{"pd0", "pd6", "waterlinked", "nortek"};
   /// Empty for the first of two measurements that share a ping's frame: what is measured of the bottom waits
   /// for the water layer.
   [[nodiscard]] Bytes encode(const DvlSample& dvl, const DeviceCall& device);

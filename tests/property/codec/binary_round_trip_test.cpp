@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "base/units.hpp"
+#include "codec/dvl/nortek.hpp"
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
+#include "sim/encode/nortek.hpp"
 #include "sim/encode/pd0.hpp"
 #include "sim/encode/pd6.hpp"
 #include "sim/encode/vectornav.hpp"
@@ -326,6 +328,48 @@ TEST_F(RoundTrip, WaterLinkedKeepsEveryBit) {
       if (known(s.beam_velocity_m_s[i])) {
         EXPECT_EQ(r.beam_velocity_m_s[i], s.beam_velocity_m_s[i]);
       }
+    }
+  }
+}
+
+TEST_F(RoundTrip, NortekKeepsSinglePrecision) {
+  for (int run = 0; run < kRuns; ++run) {
+    DvlSample s = draw_dvl(DvlFrame::instrument);
+    s.mode = chance(0.8) ? DvlMode::bottom : DvlMode::water;
+    if (chance(0.7)) s.sigma_m_s = draw(1e-4, 0.1);
+    for (std::size_t i = 0; i < 4; ++i) {
+      s.beam_velocity_m_s[i] = chance(0.9) ? draw(-2.0, 2.0) : kUnknown;
+      if (chance(0.1)) s.beam_range_m[i] = kUnknown;
+    }
+    for (double& v : s.velocity_D_m_s) {
+      if (chance(0.1)) v = kUnknown;
+    }
+    const bool three_beams = chance(0.2);
+    if (three_beams) s.error_velocity_m_s = kUnknown;
+    sim::encode::NortekTimes times;
+    times.valid_ns = kSomeTime_ns + run * 123'456'789LL;
+    times.sent_ns = times.valid_ns + static_cast<DurationNs>(draw(0.0, 9e8));
+    const auto got = read(codec::make_nortek({}), sim::encode::nortek(s, times));
+    ASSERT_EQ(got.size(), 1U);
+    const auto& r = std::get<DvlSample>(got[0].sample);
+    EXPECT_EQ(r.mode, s.mode);
+    ASSERT_TRUE(got[0].time.clock_ns && got[0].time.age_ns);
+    EXPECT_LE(std::abs(*got[0].time.clock_ns - times.valid_ns), 2);
+    EXPECT_LE(std::abs(*got[0].time.age_ns - (times.sent_ns - times.valid_ns)), 60);
+    const auto expect_same = [](double sent, double read, double absolute) {
+      EXPECT_EQ(known(read), known(sent));
+      if (known(sent)) {
+        EXPECT_NEAR(read, sent, 6e-8 * std::abs(sent) + absolute);
+      }
+    };
+    for (std::size_t i = 0; i < 3; ++i) expect_same(s.velocity_D_m_s[i], r.velocity_D_m_s[i], 6e-9);
+    expect_same(known(s.velocity_D_m_s[2]) ? s.error_velocity_m_s : kUnknown, r.error_velocity_m_s, 1e-6);
+    const bool horizontal = known(s.velocity_D_m_s[0]) && known(s.velocity_D_m_s[1]);
+    expect_same(horizontal ? s.sigma_m_s : kUnknown, r.sigma_m_s, 0.0);
+    expect_same(s.sound_speed_m_s, r.sound_speed_m_s, 0.0);
+    for (std::size_t i = 0; i < 4; ++i) {
+      expect_same(s.beam_velocity_m_s[i], r.beam_velocity_m_s[i], 0.0);
+      expect_same(s.mode == DvlMode::bottom ? s.beam_range_m[i] : kUnknown, r.beam_range_m[i], 0.0);
     }
   }
 }

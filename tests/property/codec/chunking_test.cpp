@@ -104,6 +104,7 @@ std::string_view captures_of(std::string_view protocol) {
   if (protocol == "waterlinked") return "waterlinked_json";
   if (protocol == "paroscientific" || protocol == "ascii_depth") return "pressure";
   if (protocol == "psimssb" || protocol == "psonlld") return "usbl";
+  if (protocol == "nortek") return "nortek_dvl";
   if (protocol.ends_with("air_data")) return "air_data";
   return protocol;
 }

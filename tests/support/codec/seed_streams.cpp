@@ -10,6 +10,7 @@
 #include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
 #include "sim/encode/nmea.hpp"
+#include "sim/encode/nortek.hpp"
 #include "sim/encode/pd0.hpp"
 #include "sim/encode/pd6.hpp"
 #include "sim/encode/ubx.hpp"
@@ -213,6 +214,12 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
   } else if (protocol == "waterlinked") {
     append(stream, sim::encode::waterlinked(
                        dvl(frame), {instant(frame), instant(frame) + 190 * kNsPerMillisecond, 250.0}));
+  } else if (protocol == "nortek") {
+    DvlSample track = dvl(frame);
+    if (frame % 3 == 2) track.mode = DvlMode::water;
+    track.beam_velocity_m_s = {0.5, 0.4, -0.5, kUnknown};
+    append(stream, sim::encode::nortek(track, {instant(frame), instant(frame) + 190 * kNsPerMillisecond}));
+    append(stream, sim::encode::nortek_record(0x16, ByteVector(77, 0xA5), frame % 2 == 0));  // currents
   } else if (protocol == "vectornav") {
     append(stream, sim::encode::vectornav(imu(frame), since_power_on(frame), some_utc(frame)));
   } else if (protocol == "xsens") {

@@ -25,7 +25,8 @@ const std::vector<Folder>& folders() {
                                        {"xsens", {"xsens", "vectornav"}},
                                        {"pressure", {"paroscientific", "nmea0183"}},
                                        {"usbl", {"psimssb", "psonlld", "nmea0183"}},
-                                       {"pd6", {"pd6", "nmea0183"}}};
+                                       {"pd6", {"pd6", "nmea0183"}},
+                                       {"nortek_dvl", {"nortek"}}};
   return all;
 }
 
