@@ -15,7 +15,7 @@ struct DeviceTime {
   std::optional<TimeNs> clock_ns;
   /// UTC time of day without a date (NMEA); the date is completed from the arrival.
   std::optional<DurationNs> time_of_day_ns;
-  /// How long before the end of transmission the sample was valid, where the frame says so.
+  /// How long before its transmission the sample was valid, where the frame says so.
   std::optional<DurationNs> age_ns;
 };
 

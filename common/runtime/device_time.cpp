@@ -11,6 +11,11 @@ constexpr DurationNs kGpsRollover = 1024 * 7 * kDay;
 constexpr int kConfirmations = 3;
 constexpr int kFewestInWindow = 20;
 
+/// How long ago the sample was valid when the quickest frame that says so of itself arrives.
+DurationNs least_age(const DeviceTime& device, const TimeConfig& config) {
+  return std::max(from_seconds(config.minimum_latency_s), device.age_ns.value_or(0));
+}
+
 }  // namespace
 
 DeviceTimeTracker::DeviceTimeTracker(const TimeConfig& config) : config_(config) {}
@@ -24,7 +29,8 @@ void DeviceTimeTracker::reset() {
 void DeviceTimeTracker::foresee(const DeviceTime& device, const Arrival& arrival) {
   const auto clock = device.clock_ns ? device.clock_ns : device.utc_ns;
   if (config_.mode != TimeMode::device_clock || anchored_ || !clock) return;
-  const DurationNs offset = arrival.monotonic_ns - (*clock + wrapped_ns_);
+  const DurationNs beyond = least_age(device, config_) - from_seconds(config_.minimum_latency_s);
+  const DurationNs offset = arrival.monotonic_ns - beyond - (*clock + wrapped_ns_);
   // Frames do not gather for longer than delays last: such a one was damaged, or the counter began anew.
   if (foreseen_ns_ && std::abs(offset - *foreseen_ns_) > from_seconds(config_.window_s)) return;
   foreseen_ns_ = std::min(foreseen_ns_.value_or(offset), offset);
@@ -40,12 +46,13 @@ Stamp DeviceTimeTracker::stamp(const DeviceTime& device, const Arrival& arrival)
     if (utc) out.utc_ns = *utc;
   } else if (config_.mode == TimeMode::device_clock) {
     const auto clock = device.clock_ns ? device.clock_ns : device.utc_ns;
-    const auto age = clock ? track(*clock, arrival.monotonic_ns, out.clock_step) : std::nullopt;
+    const DurationNs least = least_age(device, config_);
+    const auto age = clock ? track(*clock, least, arrival.monotonic_ns, out.clock_step) : std::nullopt;
     out.from_arrival = !age.has_value();
     if (age) {
       out.utc_ns = arrival.utc_ns - *age;
     } else if (clock) {
-      out.utc_ns = arrival.utc_ns - from_seconds(config_.minimum_latency_s);
+      out.utc_ns = arrival.utc_ns - least;
     }
   }
   out.backwards = last_stamp_ns_ && out.utc_ns < *last_stamp_ns_;
@@ -100,7 +107,8 @@ void DeviceTimeTracker::anchor(DurationNs offset, TimeNs unwrapped_ns, TimeNs ar
   last_arrival_ns_ = arrival_ns;
 }
 
-std::optional<DurationNs> DeviceTimeTracker::track(TimeNs device_ns, TimeNs arrival_ns, bool& stepped) {
+std::optional<DurationNs> DeviceTimeTracker::track(TimeNs device_ns, DurationNs least, TimeNs arrival_ns,
+                                                   bool& stepped) {
   const DurationNs rollover = from_seconds(config_.rollover_s);
   if (anchored_ && rollover > 0) {
     if (device_ns - last_raw_ns_ < -rollover / 2) wrapped_ns_ += rollover;
@@ -108,11 +116,11 @@ std::optional<DurationNs> DeviceTimeTracker::track(TimeNs device_ns, TimeNs arri
   }
   last_raw_ns_ = device_ns;
   const TimeNs now_device = device_ns + wrapped_ns_;
-  const DurationNs offset = arrival_ns - now_device;
   const DurationNs minimum = from_seconds(config_.minimum_latency_s);
+  const DurationNs offset = arrival_ns - (least - minimum) - now_device;
   if (!anchored_) {
     anchor(std::min(offset, foreseen_ns_.value_or(offset)), now_device, arrival_ns);
-    return minimum + (offset - applied_ns_);
+    return least + (offset - applied_ns_);
   }
 
   const DurationNs jump = from_seconds(config_.jump_s);

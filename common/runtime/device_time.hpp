@@ -24,7 +24,7 @@ enum class TimeMode : std::uint8_t {
 struct TimeConfig {
   TimeMode mode = TimeMode::arrival;
   double latency_s = 0.0;          ///< validity to arrival when the frame does not tell
-  double minimum_latency_s = 0.0;  ///< device_clock: validity to arrival of the quickest frame
+  double minimum_latency_s = 0.0;  ///< device_clock: validity to arrival of the quickest frame, at least
   double drift_ppm = 100.0;        ///< device_clock: how fast device and host clock may drift apart
   double jump_s = 0.5;             ///< device_clock: a shift of its offset beyond this is a step of its clock
   double window_s = 10.0;          ///< device_clock: delays last for less than this; a longer shift is a step
@@ -56,8 +56,8 @@ struct Stamp {
 /// is never below the configured minimum. The smallest recent offset is therefore the best one; it is allowed
 /// to grow by drift_ppm, so that it stays an upper bound when the device's clock is the slower one. Arrivals
 /// are counted on the host's monotonic clock, so a step of the host's UTC moves stamps with it and does not
-/// disturb the offset. A corrected offset is blended in such that successive stamps keep at least half of the
-/// device's own interval.
+/// disturb the offset. A frame that says its age has at least that for its delay. A corrected offset is
+/// blended in such that successive stamps keep at least half of the device's own interval.
 class DeviceTimeTracker {
  public:
   explicit DeviceTimeTracker(const TimeConfig& config);
@@ -76,8 +76,10 @@ class DeviceTimeTracker {
   [[nodiscard]] std::uint64_t clock_steps() const { return clock_steps_; }
 
  private:
-  /// Age of the sample at arrival; nothing while a suspected step is not confirmed.
-  [[nodiscard]] std::optional<DurationNs> track(TimeNs device_ns, TimeNs arrival_ns, bool& stepped);
+  /// Age of the sample at arrival, where `least` is that of a frame without delay; nothing while a suspected
+  /// step is not confirmed.
+  [[nodiscard]] std::optional<DurationNs> track(TimeNs device_ns, DurationNs least, TimeNs arrival_ns,
+                                                bool& stepped);
   void anchor(DurationNs offset, TimeNs unwrapped_ns, TimeNs arrival_ns);
   [[nodiscard]] std::optional<TimeNs> utc_of(const DeviceTime& device, const Arrival& arrival,
                                              Stamp& out) const;

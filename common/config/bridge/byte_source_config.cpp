@@ -98,7 +98,7 @@ void describe(Schema<TimeConfig>& s) {
       .unit("s")
       .range(0, 60);
   s.field("minimum_latency_s", &TimeConfig::minimum_latency_s,
-          "from validity to arrival of the quickest frame")
+          "from validity to arrival of the quickest frame; the age that a frame says counts where it is more")
       .unit("s")
       .range(0, 60)
       .only_for({"device_clock"});

@@ -167,6 +167,42 @@ TEST(DeviceClock, JitterAndDriftAreRemoved) {
   }
 }
 
+TEST(DeviceClock, WhatAFrameSaysOfItsAgeIsItsLeastDelay) {
+  // An instrument that sends some 0.6 s after it measured, and says how long; on its way it takes 1 ms and
+  // more.
+  for (const double minimum_latency_s : {0.0, 0.05}) {
+    DeviceTimeTracker tracker(tracked(minimum_latency_s));
+    Device device{40.0, -5 * kNsPerSecond, {}};
+    Noise ranges;
+    double worst_s = 0.0;
+    for (int i = 0; i < 600; ++i) {
+      const TimeNs valid = kStart + i * kNsPerSecond;
+      DeviceTime said = clock_of(device.clock(valid));
+      said.age_ns = 600 * kMs + static_cast<DurationNs>(ranges.next() * 40.0 * static_cast<double>(kMs));
+      const TimeNs arrived = valid + *said.age_ns + device.delay() - kMs;
+      if (i == 0) tracker.foresee(said, at(arrived));
+      const Stamp stamp = tracker.stamp(said, at(arrived));
+      EXPECT_FALSE(stamp.from_arrival);
+      EXPECT_FALSE(stamp.clock_step);
+      EXPECT_LE(stamp.utc_ns, arrived - *said.age_ns);
+      worst_s = std::max(worst_s, std::abs(to_seconds(stamp.utc_ns - valid)));
+    }
+    EXPECT_LT(worst_s, 0.018) << minimum_latency_s;
+  }
+}
+
+TEST(DeviceClock, AnAgeBelowTheConfiguredLatencyChangesNothing) {
+  DeviceTimeTracker plain(tracked(0.2));
+  DeviceTimeTracker aged(tracked(0.2));
+  for (int i = 0; i < 100; ++i) {
+    DeviceTime said = clock_of(i * 100 * kMs);
+    const Arrival arrival = at(kStart + i * 100 * kMs + 200 * kMs + i % 7 * kMs);
+    const TimeNs expected = plain.stamp(said, arrival).utc_ns;
+    said.age_ns = 190 * kMs;
+    EXPECT_EQ(aged.stamp(said, arrival).utc_ns, expected);
+  }
+}
+
 TEST(DeviceClock, ABurstAfterAStallKeepsTheDevicesSpacing) {
   DeviceTimeTracker tracker(tracked());
   for (int i = 0; i < 100; ++i)
