@@ -12,6 +12,7 @@
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
+#include "codec/imu/stim300.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
 #include "codec/range/micromodem.hpp"
@@ -51,6 +52,7 @@ constexpr std::array<std::string_view, 5> kNortekAliases{"nortek_dvl", "nortek_d
 constexpr std::array<std::string_view, 4> kVectornavAliases{"vn", "vnbin", "vectornav_binary",
                                                             "imu_vectornav"};
 constexpr std::array<std::string_view, 4> kXsensAliases{"xsens_mti", "mti", "mtdata2", "xbus"};
+constexpr std::array<std::string_view, 2> kStim300Aliases{"stim", "sensonor_stim300"};
 constexpr std::array<std::string_view, 4> kParoscientificAliases{"pressure", "digiquartz", "paros",
                                                                  "pressure_paroscientific"};
 constexpr std::array<std::string_view, 3> kAsciiDepthAliases{"ascii", "depth_line", "ascii_line"};
@@ -83,6 +85,8 @@ const auto kProtocols = std::to_array<Protocol>({
     {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data", make_vectornav,
      DeviceClock::counter},
     {"xsens", kXsensAliases, kXsensDescription, make_xsens, DeviceClock::counter, kNoGreeting, kTurnsAxes},
+    {"stim300", kStim300Aliases, "Safran Sensonor STIM300, rate and acceleration or increments", make_stim300,
+     DeviceClock::none},
     {"paroscientific", kParoscientificAliases, "Paroscientific Digiquartz pressure", make_paroscientific,
      DeviceClock::none},
     {"ascii_depth", kAsciiDepthAliases, "one depth or pressure a line, prefix, scale and offset configurable",

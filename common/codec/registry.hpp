@@ -29,6 +29,12 @@ struct BeaconOptions {
   double sound_speed_m_s = 1'500.0;
 };
 
+/// What the datagrams of a STIM300 do not say of themselves.
+struct Stim300Options {
+  double accel_range_g = 10.0;  ///< 5, 10, 30 or 80: the accelerometers' type
+  double increments_hz = 0.0;  ///< incremental angle and velocity at this rate; 0: angular rate, acceleration
+};
+
 /// What a codec needs to be told because the bytes do not say it. Each protocol reads the fields it knows.
 struct CodecOptions {
   bool require_checksum = true;         ///< NMEA 0183, ASCII air data
@@ -46,6 +52,7 @@ struct CodecOptions {
   int mavlink_system = 0;  ///< of the autopilot that counts; 0: of the first that is heard
   AirDataOptions air_data;
   BeaconOptions beacons;
+  Stim300Options stim300;
 };
 
 /// What a protocol's frames say of time beside their arrival. It decides how a bridge stamps its samples

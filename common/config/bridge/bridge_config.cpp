@@ -1,6 +1,8 @@
 #include "config/bridge/bridge_config.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "config/bridge/bridge_schema.hpp"
 #include "config/bridge/byte_source_config.hpp"
@@ -22,6 +24,10 @@ bool is_rotation(const std::array<double, 9>& m) {
   const double determinant = m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
                              m[2] * (m[3] * m[7] - m[4] * m[6]);
   return determinant > 0.0;
+}
+
+bool is_one_of(double number, std::initializer_list<double> numbers) {
+  return std::find(numbers.begin(), numbers.end(), number) != numbers.end();
 }
 
 std::vector<std::string> protocol_names() {
@@ -109,6 +115,26 @@ void describe(Schema<AsciiConfig>& s) {
   s.field("offset", &AsciiConfig::offset, "in the sensor's unit").range(-1e9, 1e9);
 }
 
+void describe(Schema<codec::Stim300Options>& s) {
+  using C = codec::Stim300Options;
+  s.field("accel_range_g", &C::accel_range_g,
+          "range of its accelerometers: 5, 10, 30 or 80; what its configuration datagram says goes before")
+      .unit("g")
+      .range(5, 80);
+  s.field(
+       "increments_hz", &C::increments_hz,
+       "its sample rate where it gives incremental angle and incremental velocity; 0: it gives angular rate "
+       "and acceleration, or their averages")
+      .unit("Hz")
+      .range(0, 2000);
+  s.check([](const C& c) -> Violation {
+    if (!is_one_of(c.accel_range_g, {5, 10, 30, 80})) return {"accel_range_g", "5, 10, 30 or 80"};
+    if (!is_one_of(c.increments_hz, {0, 125, 250, 500, 1000, 2000}))
+      return {"increments_hz", "0, 125, 250, 500, 1000 or 2000"};
+    return {};
+  });
+}
+
 void describe(Schema<ImuSensorConfig>& s) {
   s.include(&ImuSensorConfig::sensor);
   s.field("mounting", &ImuSensorConfig::mounting, "how its axes lie in the vehicle").required();
@@ -119,6 +145,8 @@ void describe(Schema<ImuSensorConfig>& s) {
   s.field("max_specific_force_m_s2", &ImuSensorConfig::max_specific_force_m_s2, "samples beyond are refused")
       .unit("m/s^2")
       .range(10, 1e6);
+  s.field("stim300", &ImuSensorConfig::stim300, "what its datagrams do not say of themselves")
+      .only_for({"stim300"});
   s.check([](const ImuSensorConfig& c) -> Violation {
     const codec::Protocol* protocol = codec::find_protocol(c.sensor.protocol);
     if (protocol == nullptr || !protocol->turns_axes || c.mounting.frame != MountingFrame::flu) return {};

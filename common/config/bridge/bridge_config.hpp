@@ -48,6 +48,7 @@ struct ImuSensorConfig {
   MountingConfig mounting;
   double max_angular_rate_rad_s = 35.0;
   double max_specific_force_m_s2 = 400.0;
+  codec::Stim300Options stim300;
 };
 
 struct DvlSensorConfig {

@@ -73,6 +73,7 @@ double stale_after_s(const SensorConfig& config) {
 SensorPlan sensor_plan(const ImuSensorConfig& config) {
   SensorPlan out = plan_of(config.sensor);
   out.R_BS = config.mounting.rotation();
+  out.options.stim300 = config.stim300;
   out.limits.angular_rate_rad_s = config.max_angular_rate_rad_s;
   out.limits.specific_force_m_s2 = config.max_specific_force_m_s2;
   return out;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geo/so3.hpp"
+#include "sim/encode/stim300.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/xsens.hpp"
 #include "sim/truth_generator.hpp"
@@ -11,6 +12,10 @@
 namespace fathom::sim {
 
 using Eigen::Vector3d;
+
+namespace {
+constexpr DurationNs kStimSample_ns = 500'000;  // its own rate, whatever the rate of its datagrams
+}
 
 TriadModel::TriadModel(const TriadConfig& config, Random& random) : config_(config) {
   for (int i = 0; i < 3; ++i) turn_on_[i] = random.normal(config.bias_sigma);
@@ -88,6 +93,11 @@ ImuSample ImuModel::sample(const ImuTruth& interval, const TruthPoint& end) {
 Bytes SimulatedDevice<ImuSample>::encode(const ImuSample& imu, const DeviceCall& device) {
   const DurationNs since_power_on_ns = imu.header.stamp_ns - device.power_on_ns;
   if (device.protocol == "xsens") return encode::xsens(imu, counter_++, since_power_on_ns);
+  if (device.protocol == "stim300") {
+    encode::Stim300Frame frame;
+    frame.counter = static_cast<std::uint8_t>(since_power_on_ns / kStimSample_ns);
+    return encode::stim300(imu, frame);
+  }
   return encode::vectornav(imu, since_power_on_ns);
 }
 

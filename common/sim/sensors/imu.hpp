@@ -87,7 +87,7 @@ struct ModelOf<ImuSample> {
 template <>
 class SimulatedDevice<ImuSample> {
  public:
-  static constexpr std::array<std::string_view, 2> kProtocols{"vectornav", "xsens"};
+  static constexpr std::array<std::string_view, 3> kProtocols{"vectornav", "xsens", "stim300"};
   [[nodiscard]] Bytes encode(const ImuSample& imu, const DeviceCall& device);
 
  private:

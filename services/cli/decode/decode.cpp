@@ -222,6 +222,14 @@ void add_decode(CLI::App& app, ExitCode& /*exit_code*/) {
       ->add_option("--mavlink-system", options->codec.mavlink_system,
                    "MAVLink: system id of the autopilot; 0: of the first that is heard")
       ->check(CLI::Range(0, 255));
+  command
+      ->add_option("--stim300-accel-range", options->codec.stim300.accel_range_g,
+                   "STIM300: range of its accelerometers, g, where no configuration datagram says it")
+      ->check(CLI::IsMember({5.0, 10.0, 30.0, 80.0}));
+  command
+      ->add_option("--stim300-increments-hz", options->codec.stim300.increments_hz,
+                   "STIM300: sample rate where it gives increments; 0: it gives rates and accelerations")
+      ->check(CLI::IsMember({0.0, 125.0, 250.0, 500.0, 1000.0, 2000.0}));
   command->callback([options] { run(*options); });
 }
 

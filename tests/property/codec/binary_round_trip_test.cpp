@@ -10,11 +10,13 @@
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
+#include "codec/imu/stim300.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
 #include "sim/encode/nortek.hpp"
 #include "sim/encode/pd0.hpp"
 #include "sim/encode/pd6.hpp"
+#include "sim/encode/stim300.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/waterlinked.hpp"
 #include "sim/encode/xsens.hpp"
@@ -147,6 +149,60 @@ TEST_F(RoundTrip, XsensKeepsTicksAndSinglePrecision) {
       expect_same3(s.delta_angle_B_rad, r.delta_angle_B_rad, 2e-7, 0.0);
       expect_same3(s.delta_velocity_B_m_s, r.delta_velocity_B_m_s, 6e-8, 0.0);
     }
+  }
+}
+
+TEST_F(RoundTrip, Stim300KeepsHalfACount) {
+  constexpr std::array<double, 4> kRanges_g{5.0, 10.0, 30.0, 80.0};
+  constexpr std::array<double, 3> kRates_Hz{0.0, 125.0, 2'000.0};
+  for (int run = 0; run < kRuns; ++run) {
+    const auto index = static_cast<std::size_t>(run);
+    sim::encode::Stim300Frame frame;
+    frame.options = {kRanges_g[index % 4], kRates_Hz[index % 3]};
+    frame.latency_us = static_cast<std::uint16_t>(draw(0.0, 65'535.0));
+    frame.line = chance(0.5);
+    const bool increments = frame.options.increments_hz > 0.0;
+    const double interval_s = increments ? 1.0 / frame.options.increments_hz : 0.01;
+    ImuSample s;
+    s.angular_rate_B_rad_s = draw3(6.0);
+    s.specific_force_B_m_s2 = draw3(9.8 * frame.options.accel_range_g);
+    for (std::size_t i = 0; i < 3; ++i) {
+      s.delta_angle_B_rad[i] = s.angular_rate_B_rad_s[i] * interval_s;
+      s.delta_velocity_B_m_s[i] = s.specific_force_B_m_s2[i] * interval_s;
+    }
+    if (chance(0.5)) s.temperature_degC = draw(-40.0, 85.0);
+    const std::size_t lost = index % 5;  // an axis of the gyros; from 3 on none
+    if (lost < 3) {
+      s.angular_rate_B_rad_s[lost] = kUnknown;
+      s.delta_angle_B_rad[lost] = kUnknown;
+    }
+
+    codec::CodecOptions reading;
+    reading.stim300 = frame.options;
+    const auto got = read(codec::make_stim300(reading), sim::encode::stim300(s, frame));
+    ASSERT_EQ(got.size(), 1U);
+    const auto& r = std::get<ImuSample>(got[0].sample);
+    EXPECT_EQ(got[0].time.age_ns, frame.latency_us * 1'000LL);
+    EXPECT_EQ(known(r.temperature_degC), known(s.temperature_degC));
+    if (known(s.temperature_degC)) {
+      EXPECT_NEAR(r.temperature_degC, s.temperature_degC, 0.51 / 256.0);
+    }
+    const auto& turn = increments ? s.delta_angle_B_rad : s.angular_rate_B_rad_s;
+    const auto& turn_read = increments ? r.delta_angle_B_rad : r.angular_rate_B_rad_s;
+    const auto& push = increments ? s.delta_velocity_B_m_s : s.specific_force_B_m_s2;
+    const auto& push_read = increments ? r.delta_velocity_B_m_s : r.specific_force_B_m_s2;
+    const double turn_unit =
+        increments ? codec::stim300::angle_unit_rad() : codec::stim300::rate_unit_rad_s();
+    const double push_unit = increments ? codec::stim300::velocity_unit_m_s(frame.options.accel_range_g)
+                                        : codec::stim300::force_unit_m_s2(frame.options.accel_range_g);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(known(turn_read[i]), i != lost);
+      if (i != lost) {
+        EXPECT_NEAR(turn_read[i], turn[i], 0.501 * turn_unit);
+      }
+      EXPECT_NEAR(push_read[i], push[i], 0.501 * push_unit);
+    }
+    EXPECT_EQ(known(r.delta_time_s), increments);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "sim/encode/nortek.hpp"
 #include "sim/encode/pd0.hpp"
 #include "sim/encode/pd6.hpp"
+#include "sim/encode/stim300.hpp"
 #include "sim/encode/ubx.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/waterlinked.hpp"
@@ -130,6 +131,19 @@ std::optional<TimeNs> some_utc(int frame) {
   return frame % 4 == 3 ? std::optional<TimeNs>(instant(frame)) : std::nullopt;
 }
 
+/// Rates at 10 g, then increments at 5 g, as the configuration between them says.
+void stim300_datagrams(ByteVector& stream, int frame) {
+  sim::encode::Stim300Frame datagram;
+  datagram.counter = static_cast<std::uint8_t>(250 + frame);
+  datagram.latency_us = static_cast<std::uint16_t>(500 + frame);
+  datagram.line = frame % 3 == 2;
+  if (frame >= kFrames / 2) datagram.options = {5.0, 125.0};
+  if (frame == kFrames / 2) append(stream, sim::encode::stim300_configuration(datagram.options, 0));
+  ImuSample sample = imu(frame);
+  if (frame >= kFrames / 2) sample = imu(1);
+  append(stream, sim::encode::stim300(sample, datagram));
+}
+
 AirspeedSample air(int frame) {
   AirspeedSample sample;
   sample.airspeed_m_s = 45.0 + frame;
@@ -227,6 +241,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
                                       since_power_on(frame), some_utc(frame)));
     append(stream, sim::encode::xsens_message(0x42, {0x28}));                 // an error code
     append(stream, sim::encode::xsens_message(0x0D, ByteVector(300, 0x03)));  // of extended length
+  } else if (protocol == "stim300") {
+    stim300_datagrams(stream, frame);
   } else if (protocol == "ascii_air_data") {
     append(stream, sim::encode::ascii_air_data(air(frame), seed_options(protocol)));
   } else if (protocol == "nmea_air_data") {

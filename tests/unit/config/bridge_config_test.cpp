@@ -173,6 +173,29 @@ TEST(BridgeConfig, DepthUnitsBecomePascal) {
   EXPECT_FALSE(plan.at(0).options.value_is_depth);
 }
 
+TEST(BridgeConfig, WhatAStim300DoesNotSayReachesItsCodec) {
+  const auto plan = [](const std::string& keys) {
+    return sensor_plans(shipped<ImuBridgeConfig>("imu_bridge", {R"(sensors.0.protocol=stim)",
+                                                                "sensors.0.time={\"mode\":\"arrival\"}",
+                                                                "sensors.0.stim300={" + keys + "}"}))
+        .at(0)
+        .options.stim300;
+  };
+  EXPECT_EQ(plan("").accel_range_g, 10.0);
+  EXPECT_EQ(plan("").increments_hz, 0.0);
+  EXPECT_EQ(plan(R"("accel_range_g":5,"increments_hz":500)").accel_range_g, 5.0);
+  EXPECT_EQ(plan(R"("accel_range_g":5,"increments_hz":500)").increments_hz, 500.0);
+  const auto mistake = [](const std::string& set) {
+    return refused<ImuBridgeConfig>("imu_bridge", {"sensors.0.protocol=stim300", set});
+  };
+  EXPECT_NE(mistake("sensors.0.stim300.accel_range_g=20").find("expected 5, 10, 30 or 80"),
+            std::string::npos);
+  EXPECT_NE(mistake("sensors.0.stim300.increments_hz=100").find("250, 500, 1000 or 2000"), std::string::npos);
+  EXPECT_NE(refused<ImuBridgeConfig>("imu_bridge", {"sensors.0.stim300.accel_range_g=5"})
+                .find("protocol is one of stim300"),
+            std::string::npos);
+}
+
 TEST(BridgeConfig, AirColumnsAndNamesReachTheCodec) {
   const auto plan = sensor_plans(shipped<AirDataBridgeConfig>(
       "air_data_bridge",
