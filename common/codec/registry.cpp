@@ -69,6 +69,8 @@ constexpr std::array<std::string_view, 3> kMicromodemAliases{"whoi", "whoi_micro
 
 constexpr std::string_view kXsensDescription =
     "Xsens MTi, MTData2 with rate of turn and acceleration or increments";
+constexpr std::string_view kMicroStrainDescription =
+    "MicroStrain 3DM, MIP packets with angular rate and acceleration or increments";
 constexpr std::string_view kNoGreeting;
 constexpr bool kTurnsAxes = true;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geo/so3.hpp"
+#include "sim/encode/microstrain.hpp"
 #include "sim/encode/stim300.hpp"
 #include "sim/encode/vectornav.hpp"
 #include "sim/encode/xsens.hpp"
@@ -93,6 +94,7 @@ ImuSample ImuModel::sample(const ImuTruth& interval, const TruthPoint& end) {
 Bytes SimulatedDevice<ImuSample>::encode(const ImuSample& imu, const DeviceCall& device) {
   const DurationNs since_power_on_ns = imu.header.stamp_ns - device.power_on_ns;
   if (device.protocol == "xsens") return encode::xsens(imu, counter_++, since_power_on_ns);
+  if (device.protocol == "microstrain") return encode::microstrain(imu, since_power_on_ns);
   if (device.protocol == "stim300") {
     encode::Stim300Frame frame;
     frame.counter = static_cast<std::uint8_t>(since_power_on_ns / kStimSample_ns);

@@ -10,9 +10,11 @@
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
+#include "codec/imu/microstrain.hpp"
 #include "codec/imu/stim300.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
+#include "sim/encode/microstrain.hpp"
 #include "sim/encode/nortek.hpp"
 #include "sim/encode/pd0.hpp"
 #include "sim/encode/pd6.hpp"
@@ -203,6 +205,55 @@ TEST_F(RoundTrip, Stim300KeepsHalfACount) {
       EXPECT_NEAR(push_read[i], push[i], 0.501 * push_unit);
     }
     EXPECT_EQ(known(r.delta_time_s), increments);
+  }
+}
+
+TEST_F(RoundTrip, MicroStrainKeepsNanosecondsAndSinglePrecision) {
+  for (int run = 0; run < kRuns; ++run) {
+    const auto start_ns = static_cast<DurationNs>(draw(0.0, 4e15));
+    std::vector<std::uint8_t> stream;
+    std::array<ImuSample, 3> sent;
+    const bool utc = chance(0.5);
+    const bool increments_only = chance(0.3);
+    const TimeNs utc_ns = kSomeTime_ns + run * 10'000'001LL;
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+      ImuSample& s = sent[i];
+      s.delta_time_s = 0.008;
+      s.delta_angle_B_rad = draw3(0.03);
+      s.delta_velocity_B_m_s = draw3(0.3);
+      if (!increments_only) {
+        s.angular_rate_B_rad_s = draw3(3.0);
+        s.specific_force_B_m_s2 = draw3(30.0);
+      }
+      const auto packet = sim::encode::microstrain(s, start_ns + 8'000'000 * static_cast<DurationNs>(i),
+                                                   utc ? std::optional(utc_ns) : std::nullopt);
+      stream.insert(stream.end(), packet.begin(), packet.end());
+    }
+    const auto got = read(codec::make_microstrain({}), stream);
+    const std::size_t first = increments_only ? 1 : 0;  // whose interval nobody knows yet
+    ASSERT_EQ(got.size(), sent.size() - first);
+    for (std::size_t i = first; i < sent.size(); ++i) {
+      const ImuSample& s = sent[i];
+      const codec::Decoded& decoded = got[i - first];
+      const auto& r = std::get<ImuSample>(decoded.sample);
+      EXPECT_EQ(decoded.time.clock_ns, start_ns + 8'000'000 * static_cast<DurationNs>(i));
+      EXPECT_EQ(decoded.time.utc_ns, utc ? std::optional(utc_ns) : std::nullopt);
+      EXPECT_EQ(known(r.delta_time_s), i > 0);
+      if (i > 0) {
+        EXPECT_NEAR(r.delta_time_s, 0.008, 1e-12);
+        expect_same3(s.delta_angle_B_rad, r.delta_angle_B_rad, 6e-8, 0.0);
+        expect_same3(s.delta_velocity_B_m_s, r.delta_velocity_B_m_s, 6e-8, 0.0);
+      }
+      if (increments_only) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          EXPECT_NEAR(r.angular_rate_B_rad_s[axis], s.delta_angle_B_rad[axis] / 0.008, 1e-6);
+          EXPECT_NEAR(r.specific_force_B_m_s2[axis], s.delta_velocity_B_m_s[axis] / 0.008, 1e-5);
+        }
+      } else {
+        expect_same3(s.angular_rate_B_rad_s, r.angular_rate_B_rad_s, 6e-8, 0.0);
+        expect_same3(s.specific_force_B_m_s2, r.specific_force_B_m_s2, 6e-8, 0.0);
+      }
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "mavlink/messages.hpp"
 #include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
+#include "sim/encode/microstrain.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/nortek.hpp"
 #include "sim/encode/pd0.hpp"
@@ -144,6 +145,16 @@ void stim300_datagrams(ByteVector& stream, int frame) {
   append(stream, sim::encode::stim300(sample, datagram));
 }
 
+/// What a MicroStrain unit may send without a rate or a force: overrange, event, GPS timestamp, delta of
+/// time.
+ByteVector other_sensor_data() {
+  ByteVector fields{0x04, 0x18, 0x00, 0x11, 0x03, 0xD0, 0x00, 0x0E, 0x12};
+  append(fields, ByteVector(11, 0x00));
+  fields.push_back(0x1F);
+  append(fields, ByteVector{0x0A, 0xD4, 0x3F, 0x84, 0x7A, 0xE1, 0x47, 0xAE, 0x14, 0x7B});
+  return sim::encode::microstrain_packet(0x80, fields);
+}
+
 AirspeedSample air(int frame) {
   AirspeedSample sample;
   sample.airspeed_m_s = 45.0 + frame;
@@ -243,6 +254,10 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::xsens_message(0x0D, ByteVector(300, 0x03)));  // of extended length
   } else if (protocol == "stim300") {
     stim300_datagrams(stream, frame);
+  } else if (protocol == "microstrain") {
+    append(stream, sim::encode::microstrain(imu(frame), since_power_on(frame), some_utc(frame)));
+    append(stream, sim::encode::microstrain_packet(0x82, {0x04, 0x10, 0x00, 0x01}));  // of the unit's filter
+    if (frame > 4) append(stream, other_sensor_data());
   } else if (protocol == "ascii_air_data") {
     append(stream, sim::encode::ascii_air_data(air(frame), seed_options(protocol)));
   } else if (protocol == "nmea_air_data") {

@@ -26,7 +26,8 @@ const std::vector<Folder>& folders() {
                                        {"pressure", {"paroscientific", "nmea0183"}},
                                        {"usbl", {"psimssb", "psonlld", "nmea0183"}},
                                        {"pd6", {"pd6", "nmea0183"}},
-                                       {"nortek_dvl", {"nortek"}}};
+                                       {"nortek_dvl", {"nortek"}},
+                                       {"microstrain", {"microstrain", "vectornav"}}};
   return all;
 }
 
@@ -35,7 +36,7 @@ bool is_recording(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
   const auto ends = [&](std::string_view end) { return name.ends_with(end); };
   return name != "SOURCE.txt" && !ends(".expected.json") && !ends("expected.json") && !ends(".csv") &&
-         !ends(".chk") && !ends(".nc") && !ends(".yml") && !ends(".dolfyn.log") &&
+         !ends(".csv.gz") && !ends(".chk") && !ends(".nc") && !ends(".yml") && !ends(".dolfyn.log") &&
          !ends(".receive_times.txt") && !ends("_B") && !ends("_Bt") && !ends("_Gt") && !ends("_P") &&
          !ends(".golden") && !ends(".md");
 }

@@ -263,6 +263,42 @@ TEST(DeviceEncoder, TheCodecsReadWhatTheDevicesSay) {
   }
 }
 
+TEST(DeviceEncoder, AnInertialUnitSaysTheSameInEveryProtocol) {
+  Scenario scenario = test::auv_scenario();
+  auto& imu = scenario.sensors.of<ImuSample>();
+  imu.enabled = true;
+  imu.rate_hz = 100.0;
+  for (const std::string_view protocol : SimulatedDevice<ImuSample>::kProtocols) {
+    SCOPED_TRACE(protocol);
+    imu.protocol = protocol;
+    Simulation::Options options;
+    options.epoch_ns = kEpoch;
+    Simulation simulation(scenario, options);
+    DeviceEncoder encoder(scenario, kEpoch - 5 * kNsPerSecond);
+    std::vector<Measurement> all;
+    while (simulation.time_s() < 1.0) simulation.advance(all);
+    const auto codec = codec::find_protocol(protocol)->make({});
+    Collected sink;
+    std::vector<ImuSample> sent;
+    for (const auto& m : all) {
+      if (!std::holds_alternative<ImuSample>(m)) continue;
+      sent.push_back(std::get<ImuSample>(m));
+      codec->feed(encoder.encode(m), sink);
+    }
+    EXPECT_EQ(sink.rejected, 0);
+    ASSERT_EQ(sink.samples.size(), sent.size());
+    ASSERT_GT(sent.size(), 90U);
+    for (std::size_t k = 0; k < sent.size(); ++k) {
+      const auto& got = std::get<ImuSample>(sink.samples[k].sample);
+      EXPECT_NEAR(got.specific_force_B_m_s2[2], sent[k].specific_force_B_m_s2[2], 1e-5) << k;
+      EXPECT_NEAR(got.angular_rate_B_rad_s[1], sent[k].angular_rate_B_rad_s[1], 1e-6) << k;
+      if (k == 0) continue;  // the interval before is not in every message
+      EXPECT_NEAR(got.delta_time_s, sent[k].delta_time_s, 1e-6) << k;
+      EXPECT_NEAR(got.delta_velocity_B_m_s[2], sent[k].delta_velocity_B_m_s[2], 1e-7) << k;
+    }
+  }
+}
+
 TEST(DeviceEncoder, KnowsWhatItCanSay) {
   EXPECT_TRUE(can_encode("gps", "nmea"));
   EXPECT_TRUE(can_encode("gps", "u-blox"));

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "codec/registry.hpp"
+
+namespace fathom::codec {
+
+/// MicroStrain (LORD, Parker, HBK) 3DM units: MIP packets of descriptor set 0x80, sensor data (3DM-CV7 and
+/// 3DM-GX5-25 Data Communications Protocol: MIP packet; Sensor Data, set 0x80; Shared Data, set 0xFF).
+/// Packets of other sets are ignored, and so are those without both an angular rate and a force, or their
+/// increments, and those that an event sent beside the scheduled ones (field 0xD0).
+///
+/// Axes: those of the unit's vehicle frame, forward, right, down. It is the frame printed on the unit unless
+/// somebody has told the unit another one. Level and at rest z of the accelerometer is -1 g.
+///
+/// Rates and forces: scaled gyro (0x05, rad/s) and scaled accelerometer (0x04, g). Increments: delta theta
+/// (0x07, rad) and delta velocity (0x08, g s). The maker's g is 9.80665 m/s^2. Where there is nothing else,
+/// rates and forces are increments over their interval. An axis that the overrange status (0x18) names is
+/// unknown.
+///
+/// Interval of the increments: what they are summed over is the time since the last packet with them. The
+/// reference time delta (0xD6) says it, as long as no packet without increments has had that field as well,
+/// which the first packet with increments cannot know. Else it is the delta time (0xD4) of the clock that is
+/// synchronized, or the difference of the unit's clock to the packet with increments before, where it is
+/// within a tenth of the shortest of the last eight: packets have no numbers, and a longer difference is one
+/// in which packets were lost or the clock was set. Increments of unknown interval are unknown.
+///
+/// Time: the reference time (0xD5, ns) as free-running clock. Units that do not have it send a GPS timestamp
+/// (0xD3 or 0x12), which is their own clock where nobody has set it. UTC from the GPS timestamp where its
+/// flags say so: of 0xD3 time of week and week; of 0x12 pulse per second present and time set, and, of newer
+/// units, which say that as well, week and time of week valid.
+[[nodiscard]] std::unique_ptr<Codec> make_microstrain(const CodecOptions& options);
+
+namespace microstrain {
+
+inline constexpr std::array<std::uint8_t, 2> kSync{0x75, 0x65};
+inline constexpr std::uint8_t kSensorData = 0x80;  ///< descriptor set
+
+/// Descriptors of fields in that set. Those from 0xD0 on are the same in every set of data.
+enum Field : std::uint8_t {
+  scaled_accel = 0x04,
+  scaled_gyro = 0x05,
+  delta_theta = 0x07,
+  delta_velocity = 0x08,
+  gps_timestamp = 0x12,
+  overrange_status = 0x18,
+  event_source = 0xD0,
+  shared_gps_timestamp = 0xD3,
+  delta_time = 0xD4,
+  reference_time = 0xD5,
+  reference_time_delta = 0xD6,
+};
+
+/// The last two bytes of a packet, after Fletcher: the sum of all before them, and the sum of those sums.
+[[nodiscard]] std::array<std::uint8_t, 2> checksum(std::span<const std::uint8_t> before);
+
+}  // namespace microstrain
+}  // namespace fathom::codec
