@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "geo/so3.hpp"
-#include "sim/encode/nortek.hpp"
-#include "sim/encode/pd0.hpp"
-#include "sim/encode/pd6.hpp"
-#include "sim/encode/waterlinked.hpp"
+#include "sim/encode/dvl/nortek.hpp"
+#include "sim/encode/dvl/pd0.hpp"
+#include "sim/encode/dvl/pd6.hpp"
+#include "sim/encode/dvl/waterlinked.hpp"
 #include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "geo/so3.hpp"
-#include "sim/encode/microstrain.hpp"
-#include "sim/encode/stim300.hpp"
-#include "sim/encode/vectornav.hpp"
-#include "sim/encode/xsens.hpp"
+#include "sim/encode/imu/microstrain.hpp"
+#include "sim/encode/imu/stim300.hpp"
+#include "sim/encode/imu/vectornav.hpp"
+#include "sim/encode/imu/xsens.hpp"
 #include "sim/truth_generator.hpp"
 
 namespace fathom::sim {

@@ -20,9 +20,9 @@
 #include "samples/usbl.hpp"
 #include "sim/encode/air_data.hpp"
 #include "sim/encode/depth.hpp"
+#include "sim/encode/dvl/pd0.hpp"
+#include "sim/encode/imu/vectornav.hpp"
 #include "sim/encode/nmea.hpp"
-#include "sim/encode/pd0.hpp"
-#include "sim/encode/vectornav.hpp"
 #include "support.hpp"
 
 namespace fathom::test {

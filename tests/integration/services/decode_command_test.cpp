@@ -11,8 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "sim/encode/pd0.hpp"
-#include "sim/encode/vectornav.hpp"
+#include "sim/encode/dvl/pd0.hpp"
+#include "sim/encode/imu/vectornav.hpp"
 
 namespace fathom {
 namespace {

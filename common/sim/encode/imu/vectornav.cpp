@@ -1,4 +1,4 @@
-#include "sim/encode/vectornav.hpp"
+#include "sim/encode/imu/vectornav.hpp"
 
 #include <array>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "sim/encode/pd6.hpp"
+#include "sim/encode/dvl/pd6.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "sim/encode/waterlinked.hpp"
+#include "sim/encode/dvl/waterlinked.hpp"
 
 #include <array>
 #include <charconv>

@@ -1,4 +1,4 @@
-#include "sim/encode/nortek.hpp"
+#include "sim/encode/dvl/nortek.hpp"
 
 #include <array>
 #include <cassert>

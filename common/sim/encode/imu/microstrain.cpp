@@ -1,4 +1,4 @@
-#include "sim/encode/microstrain.hpp"
+#include "sim/encode/imu/microstrain.hpp"
 
 #include <array>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "sim/encode/stim300.hpp"
+#include "sim/encode/imu/stim300.hpp"
 
 #include <algorithm>
 #include <array>

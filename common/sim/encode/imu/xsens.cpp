@@ -1,4 +1,4 @@
-#include "sim/encode/xsens.hpp"
+#include "sim/encode/imu/xsens.hpp"
 
 #include <array>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "sim/encode/pd0.hpp"
+#include "sim/encode/dvl/pd0.hpp"
 
 #include <algorithm>
 #include <array>
