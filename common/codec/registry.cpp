@@ -12,6 +12,8 @@
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
+#include "codec/imu/microstrain.hpp"
+#include "codec/imu/sbg.hpp"
 #include "codec/imu/stim300.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
@@ -47,11 +49,13 @@ constexpr std::array<std::string_view, 5> kPd6Aliases{"teledyne_pd6", "rdi_pd6",
                                                       "navquest"};
 constexpr std::array<std::string_view, 5> kWaterlinkedAliases{"waterlinked_json", "water_linked", "a50",
                                                               "a125", "water_linked_json"};
-constexpr std::array<std::string_view, 5> kNortekAliases{"nortek_dvl", "nortek_dvl500", "nortek_dvl1000",
-                                                         "df21", "ad2cp_dvl"};
+constexpr std::array<std::string_view, 3> kNortekAliases{"nortek_dvl", "df21", "ad2cp_dvl"};
 constexpr std::array<std::string_view, 4> kVectornavAliases{"vn", "vnbin", "vectornav_binary",
                                                             "imu_vectornav"};
 constexpr std::array<std::string_view, 4> kXsensAliases{"xsens_mti", "mti", "mtdata2", "xbus"};
+constexpr std::array<std::string_view, 3> kSbgAliases{"sbgecom", "sbg_ecom", "sbg_ellipse"};
+constexpr std::array<std::string_view, 4> kMicroStrainAliases{"mip", "microstrain_mip", "lord_microstrain",
+                                                              "3dm"};
 constexpr std::array<std::string_view, 2> kStim300Aliases{"stim", "sensonor_stim300"};
 constexpr std::array<std::string_view, 4> kParoscientificAliases{"pressure", "digiquartz", "paros",
                                                                  "pressure_paroscientific"};
@@ -87,6 +91,8 @@ const auto kProtocols = std::to_array<Protocol>({
     {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data", make_vectornav,
      DeviceClock::counter},
     {"xsens", kXsensAliases, kXsensDescription, make_xsens, DeviceClock::counter, kNoGreeting, kTurnsAxes},
+    {"microstrain", kMicroStrainAliases, kMicroStrainDescription, make_microstrain, DeviceClock::counter},
+    {"sbg", kSbgAliases, "SBG Systems sbgECom with IMU_SHORT or IMU_DATA", make_sbg, DeviceClock::counter},
     {"stim300", kStim300Aliases, "Safran Sensonor STIM300, rate and acceleration or increments", make_stim300,
      DeviceClock::none},
     {"paroscientific", kParoscientificAliases, "Paroscientific Digiquartz pressure", make_paroscientific,

@@ -10,7 +10,7 @@
 namespace fathom::codec {
 
 /// MicroStrain (LORD, Parker, HBK) 3DM units: MIP packets of descriptor set 0x80, sensor data (3DM-CV7 and
-/// 3DM-GX5-25 Data Communications Protocol: MIP packet; Sensor Data, set 0x80; Shared Data, set 0xFF).
+/// 3DM-GX5 Data Communications Protocol: MIP packet; Sensor Data, set 0x80; Shared Data, set 0xFF).
 /// Packets of other sets are ignored, and so are those without both an angular rate and a force, or their
 /// increments, and those that an event sent beside the scheduled ones (field 0xD0).
 ///
@@ -31,8 +31,9 @@ namespace fathom::codec {
 ///
 /// Time: the reference time (0xD5, ns) as free-running clock. Units that do not have it send a GPS timestamp
 /// (0xD3 or 0x12), which is their own clock where nobody has set it. UTC from the GPS timestamp where its
-/// flags say so: of 0xD3 time of week and week; of 0x12 pulse per second present and time set, and, of newer
-/// units, which say that as well, week and time of week valid.
+/// flags say so: of 0xD3 time of week and week; of 0x12 pulse per second present and time set (3DM-GX5-35,
+/// section 5.1.12, GPS Correlation Timestamp), and, of newer units, which say that as well, week and time of
+/// week valid.
 [[nodiscard]] std::unique_ptr<Codec> make_microstrain(const CodecOptions& options);
 
 namespace microstrain {

@@ -5,6 +5,7 @@
 
 #include "geo/so3.hpp"
 #include "sim/encode/imu/microstrain.hpp"
+#include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/imu/stim300.hpp"
 #include "sim/encode/imu/vectornav.hpp"
 #include "sim/encode/imu/xsens.hpp"
@@ -95,6 +96,7 @@ Bytes SimulatedDevice<ImuSample>::encode(const ImuSample& imu, const DeviceCall&
   const DurationNs since_power_on_ns = imu.header.stamp_ns - device.power_on_ns;
   if (device.protocol == "xsens") return encode::xsens(imu, counter_++, since_power_on_ns);
   if (device.protocol == "microstrain") return encode::microstrain(imu, since_power_on_ns);
+  if (device.protocol == "sbg") return encode::sbg_imu_short(imu, since_power_on_ns);
   if (device.protocol == "stim300") {
     encode::Stim300Frame frame;
     frame.counter = static_cast<std::uint8_t>(since_power_on_ns / kStimSample_ns);

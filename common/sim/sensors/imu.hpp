@@ -87,7 +87,8 @@ struct ModelOf<ImuSample> {
 template <>
 class SimulatedDevice<ImuSample> {
  public:
-  static constexpr std::array<std::string_view, 4> kProtocols{"vectornav", "xsens", "microstrain", "stim300"};
+  static constexpr std::array<std::string_view, 5> kProtocols{"vectornav", "xsens", "microstrain", "sbg",
+                                                              "stim300"};
   [[nodiscard]] Bytes encode(const ImuSample& imu, const DeviceCall& device);
 
  private:

@@ -6,11 +6,13 @@
 
 #include "base/units.hpp"
 #include "codec/imu/microstrain.hpp"
+#include "codec/imu/sbg.hpp"
 #include "codec/imu/stim300.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
 #include "round_trip.hpp"
 #include "sim/encode/imu/microstrain.hpp"
+#include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/imu/stim300.hpp"
 #include "sim/encode/imu/vectornav.hpp"
 #include "sim/encode/imu/xsens.hpp"
@@ -150,6 +152,43 @@ TEST_F(ImuRoundTrip, Stim300KeepsHalfACount) {
       EXPECT_NEAR(push_read[i], push[i], 0.501 * push_unit);
     }
     EXPECT_EQ(known(r.delta_time_s), increments);
+  }
+}
+
+TEST_F(ImuRoundTrip, SbgKeepsMicrosecondsAndCounts) {
+  for (int run = 0; run < kRuns; ++run) {
+    ImuSample s;
+    const bool fast = chance(0.3);
+    s.angular_rate_B_rad_s = draw3(fast ? 90.0 : 6.0);
+    s.specific_force_B_m_s2 = draw3(390.0);
+    s.temperature_degC = draw(-40.0, 85.0);
+    const std::size_t lost =
+        static_cast<std::size_t>(run) % 5;  // an axis of the accelerometers; from 3 on none
+    if (lost < 3) s.specific_force_B_m_s2[lost] = kUnknown;
+    const DurationNs since_startup_ns = static_cast<DurationNs>(draw(0.0, 4e12));
+    const TimeNs utc_ns = kSomeTime_ns + run * 10'000'001LL;
+    const bool utc = chance(0.5);
+    const bool in_short = chance(0.5);
+
+    std::vector<std::uint8_t> stream;
+    if (utc) stream = sim::encode::sbg_utc_time(utc_ns, since_startup_ns);
+    const auto frame = in_short ? sim::encode::sbg_imu_short(s, since_startup_ns)
+                                : sim::encode::sbg_imu_data(s, since_startup_ns);
+    stream.insert(stream.end(), frame.begin(), frame.end());
+    const auto got = read(codec::make_sbg({}), stream);
+    ASSERT_EQ(got.size(), 1U);
+    const auto& r = std::get<ImuSample>(got[0].sample);
+    EXPECT_EQ(got[0].time.clock_ns, since_startup_ns / 1'000 * 1'000);
+    EXPECT_EQ(got[0].time.utc_ns, utc ? std::optional(utc_ns) : std::nullopt);
+    const double rate_unit = 1.0 / (fast ? codec::sbg::kHighRateCounts : codec::sbg::kRateCounts);
+    expect_same3(s.angular_rate_B_rad_s, r.angular_rate_B_rad_s, 6e-8, in_short ? 0.501 * rate_unit : 0.0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(known(r.specific_force_B_m_s2[i]), i != lost);
+      if (i == lost) continue;
+      EXPECT_NEAR(r.specific_force_B_m_s2[i], s.specific_force_B_m_s2[i],
+                  in_short ? 0.501 / codec::sbg::kForceCounts : 6e-8 * 390.0);
+    }
+    EXPECT_NEAR(r.temperature_degC, s.temperature_degC, in_short ? 0.51 / 256.0 : 6e-6);
   }
 }
 

@@ -14,6 +14,7 @@
 #include "sim/encode/dvl/pd6.hpp"
 #include "sim/encode/dvl/waterlinked.hpp"
 #include "sim/encode/imu/microstrain.hpp"
+#include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/imu/stim300.hpp"
 #include "sim/encode/imu/vectornav.hpp"
 #include "sim/encode/imu/xsens.hpp"
@@ -130,6 +131,17 @@ DurationNs since_power_on(int frame) {
 }
 std::optional<TimeNs> some_utc(int frame) {
   return frame % 4 == 3 ? std::optional<TimeNs>(instant(frame)) : std::nullopt;
+}
+
+/// IMU_SHORT, across the return of the clock's bits to 0, and later IMU_DATA.
+void sbg_logs(ByteVector& stream, int frame) {
+  const bool later = frame >= kFrames / 2;
+  const DurationNs clock_ns = 4'294'927'296'000 + since_power_on(frame) + (later ? 2 * kNsPerSecond : 0);
+  if (const auto utc = some_utc(frame)) append(stream, sim::encode::sbg_utc_time(*utc, clock_ns));
+  append(stream, later ? sim::encode::sbg_imu_data(imu(frame), clock_ns)
+                       : sim::encode::sbg_imu_short(imu(frame), clock_ns));
+  append(stream, sim::encode::sbg_frame(6, 0, ByteVector(40, static_cast<std::uint8_t>(frame))));
+  append(stream, sim::encode::sbg_frame(4, 0x90, {0x5A, 0xFF}));
 }
 
 /// Rates at 10 g, then increments at 5 g, as the configuration between them says.
@@ -252,6 +264,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
                                       since_power_on(frame), some_utc(frame)));
     append(stream, sim::encode::xsens_message(0x42, {0x28}));                 // an error code
     append(stream, sim::encode::xsens_message(0x0D, ByteVector(300, 0x03)));  // of extended length
+  } else if (protocol == "sbg") {
+    sbg_logs(stream, frame);
   } else if (protocol == "stim300") {
     stim300_datagrams(stream, frame);
   } else if (protocol == "microstrain") {

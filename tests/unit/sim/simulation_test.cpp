@@ -293,8 +293,32 @@ TEST(DeviceEncoder, AnInertialUnitSaysTheSameInEveryProtocol) {
       EXPECT_NEAR(got.specific_force_B_m_s2[2], sent[k].specific_force_B_m_s2[2], 1e-5) << k;
       EXPECT_NEAR(got.angular_rate_B_rad_s[1], sent[k].angular_rate_B_rad_s[1], 1e-6) << k;
       if (k == 0) continue;  // the interval before is not in every message
+      const bool increments = protocol != "stim300" && protocol != "sbg";  // as they are set here
+      EXPECT_EQ(known(got.delta_time_s), increments) << k;
+      if (!increments) continue;
       EXPECT_NEAR(got.delta_time_s, sent[k].delta_time_s, 1e-6) << k;
       EXPECT_NEAR(got.delta_velocity_B_m_s[2], sent[k].delta_velocity_B_m_s[2], 1e-7) << k;
+    }
+  }
+}
+
+TEST(DeviceEncoder, AnInertialUnitIsUnderstoodInEachOfItsProtocols) {
+  const Scenario scenario = instrumented();
+  ImuSample imu;
+  imu.header.stamp_ns = kEpoch + kNsPerSecond;
+  imu.angular_rate_B_rad_s = {0.1, -0.2, 0.3};
+  imu.specific_force_B_m_s2 = {1.0, -2.0, -9.8};
+  for (const std::string_view protocol : SimulatedDevice<ImuSample>::kProtocols) {
+    SimulatedDevice<ImuSample> device;
+    const auto codec = codec::find_protocol(protocol)->make({});
+    Collected sink;
+    codec->feed(device.encode(imu, {protocol, scenario, kEpoch}), sink);
+    codec->finish(sink);
+    ASSERT_EQ(sink.samples.size(), 1U) << protocol;
+    const auto& read = std::get<ImuSample>(sink.samples[0].sample);
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(read.angular_rate_B_rad_s[i], imu.angular_rate_B_rad_s[i], 1e-6) << protocol;
+      EXPECT_NEAR(read.specific_force_B_m_s2[i], imu.specific_force_B_m_s2[i], 1e-4) << protocol;
     }
   }
 }

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "codec/registry.hpp"
+
+namespace fathom::codec {
+
+/// SBG Systems (Ellipse, Pulse, Quanta, Ekinox, Apogee): sbgECom frames with the logs IMU_SHORT (44) or
+/// IMU_DATA (03), both of class 0 (sbgECom, doc/binaryMessages.md of release 5: IMU measurements, status and
+/// time). While IMU_SHORT comes, IMU_DATA is ignored: both say the same. UTC_TIME (02) gives UTC. All other
+/// logs and classes are ignored, and so are the pages of large transfers.
+///
+/// Axes: the unit's body frame, forward, right, down in its factory alignment. Forces are specific forces:
+/// level and at rest z reads -1 g. What the unit's own alignment turns is turned already.
+///
+/// What the logs call delta velocity and delta angle are means over the output interval in m/s^2 and rad/s.
+/// They are rates here; no increments, whose interval no log says.
+///
+/// Status: while the link to the inertial sensors or their built-in test fails, all axes are unknown; an axis
+/// is that whose own test fails, and a triad of which any axis leaves its range.
+///
+/// Time: microseconds since the unit was switched on, carried on where their 32 bits begin again after 71
+/// minutes. UTC where the last UTC_TIME is at most 10 s away, its clock has converged to the pulse per
+/// second, and it knows the leap seconds.
+[[nodiscard]] std::unique_ptr<Codec> make_sbg(const CodecOptions& options);
+
+namespace sbg {
+
+inline constexpr std::uint8_t kSync1 = 0xFF;
+inline constexpr std::uint8_t kSync2 = 0x5A;
+inline constexpr std::uint8_t kEnd = 0x33;
+inline constexpr std::size_t kMostData = 4086;
+
+/// Of class 0.
+enum Log : std::uint8_t { utc_time = 2, imu_data = 3, imu_short = 44 };
+
+/// Of both inertial logs. All but the last are set while all is well.
+enum Status : std::uint16_t {
+  link = 1U << 0U,
+  self_test = 1U << 1U,
+  accelerometer_x = 1U << 2U,  ///< then y, z
+  gyro_x = 1U << 5U,           ///< then y, z
+  accelerometers_in_range = 1U << 8U,
+  gyros_in_range = 1U << 9U,
+  high_rate_scale = 1U << 10U,  ///< IMU_SHORT: rates in the coarser of its two units
+};
+inline constexpr unsigned kAllWell = 0x3FF;
+
+/// Counts of IMU_SHORT.
+inline constexpr double kForceCounts = 1'048'576.0;      ///< for 1 m/s^2
+inline constexpr double kRateCounts = 67'108'864.0;      ///< for 1 rad/s
+inline constexpr double kHighRateCounts = 12'304'174.0;  ///< for 1 rad/s
+inline constexpr double kTemperatureCounts = 256.0;      ///< for 1 degC
+
+/// Of UTC_TIME: what the two fields of its status have to be.
+inline constexpr unsigned kClockValid = 3;      ///< bits 1 to 4
+inline constexpr unsigned kUtcInitialized = 2;  ///< bits 6 to 9
+
+/// CRC-16 (polynomial 0x8408, reflected, initially 0), sent low byte first, over all between the two
+/// synchronisation bytes and it.
+[[nodiscard]] std::uint16_t crc16(std::span<const std::uint8_t> bytes);
+
+}  // namespace sbg
+}  // namespace fathom::codec

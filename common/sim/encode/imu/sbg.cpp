@@ -1,0 +1,112 @@
+#include "sim/encode/imu/sbg.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "base/bytes/little_endian.hpp"
+#include "base/unknown.hpp"
+#include "codec/imu/sbg.hpp"
+
+namespace fathom::sim::encode {
+namespace {
+
+namespace ecom = codec::sbg;
+using Frame = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kLogs = 0;
+
+void put_stamp(Frame& data, DurationNs since_startup_ns) {
+  assert(since_startup_ns >= 0);
+  append_le<std::uint32_t>(data, static_cast<std::uint32_t>(since_startup_ns / 1'000));
+}
+
+/// Of a triad's axes those that are known.
+unsigned known_axes(const std::array<double, 3>& values, unsigned first_axis) {
+  unsigned bits = 0;
+  for (unsigned i = 0; i < 3; ++i) {
+    if (known(values[i])) bits |= first_axis << i;
+  }
+  return bits;
+}
+
+unsigned status_of(const ImuSample& s) {
+  return ecom::link | ecom::self_test | ecom::accelerometers_in_range | ecom::gyros_in_range |
+         known_axes(s.specific_force_B_m_s2, ecom::accelerometer_x) |
+         known_axes(s.angular_rate_B_rad_s, ecom::gyro_x);
+}
+
+double or_zero(double value) {
+  return known(value) ? value : 0.0;
+}
+
+template <class Count>
+void put_counts(Frame& data, double counts) {
+  constexpr double kLow = std::numeric_limits<Count>::min();
+  constexpr double kHigh = std::numeric_limits<Count>::max();
+  append_le<Count>(data, static_cast<Count>(std::clamp(std::round(or_zero(counts)), kLow, kHigh)));
+}
+
+}  // namespace
+
+Frame sbg_frame(std::uint8_t message, std::uint8_t message_class, const Frame& data) {
+  assert(data.size() <= ecom::kMostData);
+  Frame out{ecom::kSync1, ecom::kSync2, message, message_class};
+  append_le<std::uint16_t>(out, static_cast<std::uint16_t>(data.size()));
+  out.insert(out.end(), data.begin(), data.end());
+  append_le<std::uint16_t>(out, ecom::crc16(std::span(out).subspan(2)));
+  out.push_back(ecom::kEnd);
+  return out;
+}
+
+Frame sbg_imu_short(const ImuSample& s, DurationNs since_startup_ns) {
+  constexpr double kMostFine_rad_s = 31.9;
+  const bool fast = std::any_of(s.angular_rate_B_rad_s.begin(), s.angular_rate_B_rad_s.end(),
+                                [](double rate) { return std::abs(rate) > kMostFine_rad_s; });
+  Frame data;
+  put_stamp(data, since_startup_ns);
+  unsigned status = status_of(s);
+  if (fast) status |= ecom::high_rate_scale;
+  append_le<std::uint16_t>(data, static_cast<std::uint16_t>(status));
+  for (const double force : s.specific_force_B_m_s2)
+    put_counts<std::int32_t>(data, force * ecom::kForceCounts);
+  for (const double rate : s.angular_rate_B_rad_s)
+    put_counts<std::int32_t>(data, rate * (fast ? ecom::kHighRateCounts : ecom::kRateCounts));
+  put_counts<std::int16_t>(data, s.temperature_degC * ecom::kTemperatureCounts);
+  return sbg_frame(ecom::imu_short, kLogs, data);
+}
+
+Frame sbg_imu_data(const ImuSample& s, DurationNs since_startup_ns) {
+  Frame data;
+  put_stamp(data, since_startup_ns);
+  append_le<std::uint16_t>(data, static_cast<std::uint16_t>(status_of(s)));
+  const auto put3 = [&](const std::array<double, 3>& values) {
+    for (const double value : values) append_le<float>(data, static_cast<float>(or_zero(value)));
+  };
+  put3(s.specific_force_B_m_s2);
+  put3(s.angular_rate_B_rad_s);
+  append_le<float>(data, static_cast<float>(or_zero(s.temperature_degC)));
+  put3(s.specific_force_B_m_s2);
+  put3(s.angular_rate_B_rad_s);
+  return sbg_frame(ecom::imu_data, kLogs, data);
+}
+
+Frame sbg_utc_time(TimeNs utc_ns, DurationNs since_startup_ns) {
+  const CivilTime civil = to_civil(utc_ns);
+  Frame data;
+  put_stamp(data, since_startup_ns);
+  append_le<std::uint16_t>(data, static_cast<std::uint16_t>(1U | ecom::kClockValid << 1U | 1U << 5U |
+                                                            ecom::kUtcInitialized << 6U));
+  append_le<std::uint16_t>(data, static_cast<std::uint16_t>(civil.year));
+  for (const int part : {civil.month, civil.day, civil.hour, civil.minute, civil.second})
+    data.push_back(static_cast<std::uint8_t>(part));
+  append_le<std::int32_t>(data, civil.nanosecond);
+  append_le<std::uint32_t>(data, 0);  // time of the GPS week, which nobody reads
+  for (int i = 0; i < 3; ++i) append_le<float>(data, 0.0F);
+  return sbg_frame(ecom::utc_time, kLogs, data);
+}
+
+}  // namespace fathom::sim::encode

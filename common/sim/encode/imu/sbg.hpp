@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/time.hpp"
+#include "samples/imu.hpp"
+
+namespace fathom::sim::encode {
+
+/// IMU_SHORT as an Ellipse sends it: whole microseconds, forces and rates in counts. An axis that is unknown
+/// has failed its test; a temperature that is unknown is sent as 0 degC. Rates beyond 32 rad/s go in the
+/// coarse unit.
+[[nodiscard]] std::vector<std::uint8_t> sbg_imu_short(const ImuSample& sample, DurationNs since_startup_ns);
+
+/// IMU_DATA, in single precision.
+[[nodiscard]] std::vector<std::uint8_t> sbg_imu_data(const ImuSample& sample, DurationNs since_startup_ns);
+
+/// UTC_TIME of a unit whose clock has converged.
+[[nodiscard]] std::vector<std::uint8_t> sbg_utc_time(TimeNs utc_ns, DurationNs since_startup_ns);
+
+/// A frame of any kind.
+[[nodiscard]] std::vector<std::uint8_t> sbg_frame(std::uint8_t message, std::uint8_t message_class,
+                                                  const std::vector<std::uint8_t>& data);
+
+}  // namespace fathom::sim::encode
