@@ -284,8 +284,8 @@ class MicroStrain : public Framer {
   }
 
   bool has_reference_ = false;
-  bool others_have_deltas_ =
-      false;  ///< packets without increments, so that a delta is not all of the interval
+  /// Packets without increments have them as well: a delta is not all of the interval.
+  bool others_have_deltas_ = false;
   bool had_increments_ = false;
   std::optional<TimeNs> increments_until_ns_;  ///< on the unit's clock
   SteadyInterval steady_;

@@ -51,8 +51,7 @@ std::optional<Triads> triads_of(std::uint8_t identifier) {
   const bool more = out.accelerometers || out.inclinometers;
   const std::size_t each = 1U + (out.accelerometers ? 1U : 0U) + (out.inclinometers ? 1U : 0U);
   switch (identifier & 0xF0U) {
-    case 0x90U:  // with accelerometers or inclinometers those of old units, which know the gyros'
-                 // temperatures
+    case 0x90U:  // of old units, where they hold more than gyros: they know the gyros' temperatures
       out.temperatures = temperature ? 1 : 0;
       return out;
     case 0xA0U:
