@@ -5,6 +5,16 @@
 
 namespace fathom::codec {
 
+std::optional<Probe> seek_sync(Bytes front, std::uint8_t first, std::uint8_t second) {
+  if (front[0] != first) {
+    const auto next = std::find(front.begin(), front.end(), first);
+    return Probe::skip(static_cast<std::size_t>(next - front.begin()));
+  }
+  if (front.size() < 2) return Probe::maybe();
+  if (front[1] != second) return Probe::skip(1);
+  return std::nullopt;
+}
+
 Framer::Framer(std::size_t max_frame, LineEnds line_ends) : max_frame_(max_frame), line_ends_(line_ends) {
   assert(max_frame > 0);
   buffer_.reserve(2 * max_frame);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,10 @@ struct Probe {
     return {Kind::bad, bytes, reason, advance};
   }
 };
+
+/// Looks for the two bytes that begin every frame of a protocol; nothing when they stand at the front, which
+/// is not empty.
+[[nodiscard]] std::optional<Probe> seek_sync(Bytes front, std::uint8_t first, std::uint8_t second);
 
 /// What became of a complete frame.
 struct Outcome {

@@ -6,20 +6,11 @@
 
 #include "base/bytes/big_endian.hpp"
 #include "base/units.hpp"
+#include "codec/fletcher.hpp"
 #include "codec/framer.hpp"
 #include "codec/gps_time.hpp"
 
 namespace fathom::codec {
-
-std::array<std::uint8_t, 2> microstrain::checksum(std::span<const std::uint8_t> before) {
-  std::uint8_t sum = 0;
-  std::uint8_t sum_of_sums = 0;
-  for (const std::uint8_t byte : before) {
-    sum = static_cast<std::uint8_t>(sum + byte);
-    sum_of_sums = static_cast<std::uint8_t>(sum_of_sums + sum);
-  }
-  return {sum, sum_of_sums};
-}
 
 namespace {
 
@@ -197,17 +188,12 @@ class MicroStrain : public Framer {
  private:
   [[nodiscard]] Probe probe(Bytes front) const override {
     constexpr auto kSync = microstrain::kSync;
-    if (front[0] != kSync[0]) {
-      const auto next = std::find(front.begin(), front.end(), kSync[0]);
-      return Probe::skip(static_cast<std::size_t>(next - front.begin()));
-    }
-    if (front.size() < 2) return Probe::maybe();
-    if (front[1] != kSync[1]) return Probe::skip(1);
+    if (const auto other = seek_sync(front, kSync[0], kSync[1])) return *other;
     if (front.size() < kMipHeader) return Probe::need(kMipHeader);
     const std::size_t summed = kMipHeader + front[3];
     const std::size_t length = summed + kMipChecksum;
     if (front.size() < length) return Probe::need(length);
-    const auto sum = microstrain::checksum(front.first(summed));
+    const auto sum = fletcher8(front.first(summed));
     if (!std::equal(sum.begin(), sum.end(), front.begin() + static_cast<std::ptrdiff_t>(summed))) {
       return Probe::bad(RejectReason::checksum, length);
     }

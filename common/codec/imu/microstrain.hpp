@@ -56,8 +56,5 @@ enum Field : std::uint8_t {
   reference_time_delta = 0xD6,
 };
 
-/// The last two bytes of a packet, after Fletcher: the sum of all before them, and the sum of those sums.
-[[nodiscard]] std::array<std::uint8_t, 2> checksum(std::span<const std::uint8_t> before);
-
 }  // namespace microstrain
 }  // namespace fathom::codec

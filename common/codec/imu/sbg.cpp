@@ -1,6 +1,5 @@
 #include "codec/imu/sbg.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -8,6 +7,7 @@
 #include "base/bytes/little_endian.hpp"
 #include "base/unknown.hpp"
 #include "codec/framer.hpp"
+#include "codec/wrapping_clock.hpp"
 
 namespace fathom::codec {
 
@@ -104,12 +104,7 @@ class Sbg : public Framer {
 
  private:
   [[nodiscard]] Probe probe(Bytes front) const override {
-    if (front[0] != sbg::kSync1) {
-      const auto next = std::find(front.begin(), front.end(), sbg::kSync1);
-      return Probe::skip(static_cast<std::size_t>(next - front.begin()));
-    }
-    if (front.size() < 2) return Probe::maybe();
-    if (front[1] != sbg::kSync2) return Probe::skip(1);
+    if (const auto other = seek_sync(front, sbg::kSync1, sbg::kSync2)) return *other;
     if (front.size() < kSbgHeader) return Probe::need(kSbgHeader);
     const std::size_t data = load_le<std::uint16_t>(front, 4);
     if (data > sbg::kMostData) return Probe::bad(RejectReason::length, kSbgHeader);
@@ -180,20 +175,13 @@ class Sbg : public Framer {
     return Outcome::ignored();
   }
 
-  /// Without the return of its 32 bits to 0.
-  TimeNs clock_of(std::uint32_t stamp_us) {
-    const std::uint32_t passed = stamp_us - static_cast<std::uint32_t>(clock_us_);
-    clock_us_ = clock_known_ ? clock_us_ + static_cast<std::int32_t>(passed) : stamp_us;
-    clock_known_ = true;
-    return clock_us_ * kSbgTick_ns;
-  }
+  TimeNs clock_of(std::uint32_t stamp_us) { return clock_us_.follow(stamp_us) * kSbgTick_ns; }
 
   static bool is_near(const std::optional<TimeNs>& one, TimeNs other, DurationNs most) {
     return one && std::abs(other - *one) <= most;
   }
 
-  std::int64_t clock_us_ = 0;
-  bool clock_known_ = false;
+  WrappingClock clock_us_;
   std::optional<TimeNs> short_at_ns_;  ///< of the last IMU_SHORT, on the unit's clock
   std::optional<TimeNs> utc_at_ns_;    ///< of the last UTC_TIME that was valid, on the unit's clock
   DurationNs utc_less_clock_ns_ = 0;

@@ -1,12 +1,12 @@
 #include "codec/imu/xsens.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include "base/bytes/big_endian.hpp"
 #include "codec/framer.hpp"
+#include "codec/wrapping_clock.hpp"
 
 namespace fathom::codec {
 
@@ -205,12 +205,7 @@ class Xsens : public Framer {
 
  private:
   [[nodiscard]] Probe probe(Bytes front) const override {
-    if (front[0] != xsens::kPreamble) {
-      const auto next = std::find(front.begin(), front.end(), xsens::kPreamble);
-      return Probe::skip(static_cast<std::size_t>(next - front.begin()));
-    }
-    if (front.size() < 2) return Probe::maybe();
-    if (front[1] != xsens::kMaster) return Probe::skip(1);
+    if (const auto other = seek_sync(front, xsens::kPreamble, xsens::kMaster)) return *other;
     if (front.size() < kHeader) return Probe::need(kHeader);
     std::size_t header = kHeader;
     std::size_t data = front[3];
@@ -245,7 +240,7 @@ class Xsens : public Framer {
     if (!sample) return Outcome::ignored();
     DeviceTime time;
     time.utc_ns = got.utc_ns;
-    if (got.fine_ticks) time.clock_ns = clock_ticks_ * static_cast<TimeNs>(xsens::kTick_ns);
+    if (got.fine_ticks) time.clock_ns = clock_ticks_.last() * static_cast<TimeNs>(xsens::kTick_ns);
     emit(sink, *sample, time, offset, message.size());
     return Outcome::used();
   }
@@ -255,16 +250,12 @@ class Xsens : public Framer {
     const bool follows = got.counter && counter_ && *got.counter == static_cast<std::uint16_t>(*counter_ + 1);
     counter_ = got.counter;
     if (!follows) increments_until_.reset();
-    if (got.fine_ticks) {
-      const std::uint32_t passed = *got.fine_ticks - static_cast<std::uint32_t>(clock_ticks_);
-      clock_ticks_ = clock_known_ ? clock_ticks_ + static_cast<std::int32_t>(passed) : *got.fine_ticks;
-      clock_known_ = true;
-    }
+    if (got.fine_ticks) clock_ticks_.follow(*got.fine_ticks);
     if (!got.has_increments()) return std::nullopt;
     const std::optional<std::int64_t> since = increments_until_;
-    increments_until_ = got.fine_ticks ? std::optional(clock_ticks_) : std::nullopt;
+    increments_until_ = got.fine_ticks ? std::optional(clock_ticks_.last()) : std::nullopt;
     if (!since || !increments_until_) return std::nullopt;
-    const double interval_s = static_cast<double>(clock_ticks_ - *since) * (1e-9 * xsens::kTick_ns);
+    const double interval_s = static_cast<double>(clock_ticks_.last() - *since) * (1e-9 * xsens::kTick_ns);
     return interval_s > 0.0 && interval_s <= kMaxInterval_s ? std::optional(interval_s) : std::nullopt;
   }
 
@@ -291,9 +282,8 @@ class Xsens : public Framer {
   }
 
   std::optional<std::uint16_t> counter_;          ///< of the message before
-  std::optional<std::int64_t> increments_until_;  ///< on clock_ticks_; nothing after a message was lost
-  std::int64_t clock_ticks_ = 0;                  ///< SampleTimeFine, without the return of its 32 bits to 0
-  bool clock_known_ = false;
+  std::optional<std::int64_t> increments_until_;  ///< on its clock; nothing after a message was lost
+  WrappingClock clock_ticks_;                     ///< SampleTimeFine
 };
 
 }  // namespace

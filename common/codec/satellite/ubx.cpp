@@ -6,6 +6,7 @@
 
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
+#include "codec/fletcher.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 
 namespace fathom::codec {
@@ -20,19 +21,13 @@ constexpr std::size_t kPvtLengthGeneration7 = 84;
 constexpr double kMilli = 1e-3;
 
 Probe probe_ubx(Bytes front) {
-  if (front[0] != kUbxSync1) {
-    std::size_t count = 1;
-    while (count < front.size() && front[count] != kUbxSync1) ++count;
-    return Probe::skip(count);
-  }
-  if (front.size() < 2) return Probe::maybe();
-  if (front[1] != kUbxSync2) return Probe::skip(1);
+  if (const auto other = seek_sync(front, kUbxSync1, kUbxSync2)) return *other;
   if (front.size() < kHeader) return Probe::need(kHeader);
   const std::size_t payload = load_le<std::uint16_t>(front, 4);
   if (payload > kUbxMaxPayload) return Probe::bad(RejectReason::length, kHeader);
   const std::size_t total = payload + kOverhead;
   if (front.size() < total) return Probe::need(total);
-  const auto [a, b] = ubx_checksum(front.subspan(2, payload + 4));
+  const auto [a, b] = fletcher8(front.subspan(2, payload + 4));
   if (front[total - 2] != a || front[total - 1] != b) return Probe::bad(RejectReason::checksum, total);
   return Probe::frame(total);
 }
@@ -159,16 +154,6 @@ class Ubx final : public Framer {
 };
 
 }  // namespace
-
-std::pair<std::uint8_t, std::uint8_t> ubx_checksum(Bytes class_to_payload) {
-  std::uint8_t a = 0;
-  std::uint8_t b = 0;
-  for (const std::uint8_t byte : class_to_payload) {
-    a = static_cast<std::uint8_t>(a + byte);
-    b = static_cast<std::uint8_t>(b + a);
-  }
-  return {a, b};
-}
 
 std::unique_ptr<Codec> make_ubx(const CodecOptions& /*options*/) {
   return std::make_unique<Ubx>();

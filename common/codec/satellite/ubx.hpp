@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <utility>
 
 #include "codec/codec.hpp"
 #include "codec/framer.hpp"
@@ -15,12 +14,9 @@ inline constexpr std::uint8_t kUbxSync2 = 0x62;
 /// Longest payload believed; raw measurements of a hundred satellites stay below.
 inline constexpr std::size_t kUbxMaxPayload = 4096;
 
-/// Fletcher-8 over class, id, length and payload; the two bytes in the order they are sent.
-[[nodiscard]] std::pair<std::uint8_t, std::uint8_t> ubx_checksum(Bytes class_to_payload);
-
-/// u-blox UBX: NAV-PVT (92 bytes, 84 on generation 7) to GpsSample; other messages are good frames without
-/// sample. What the receiver says of jamming and spoofing (ubx_interference.hpp) goes into the fixes that
-/// follow. NMEA and RTCM between them are skipped.
+/// u-blox UBX, fletcher8 over class, id, length and payload: NAV-PVT (92 bytes, 84 on generation 7) to
+/// GpsSample; other messages are good frames without sample. What the receiver says of jamming and spoofing
+/// (ubx_interference.hpp) goes into the fixes that follow. NMEA and RTCM between them are skipped.
 ///
 /// Position and velocity are unknown unless the receiver declares the fix within its limits (gnssFixOK) and
 /// the position valid. hAcc is a radius: one axis has hAcc / sqrt(2). UTC is given only when fully resolved.

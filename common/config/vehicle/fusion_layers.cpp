@@ -33,13 +33,12 @@ void add_own_keys(Layers& out, const std::string& at, const Known& known) {
 /// holds.
 void add_model_states(Layers& out, const Known& known) {
   if (!known.model.contains("states")) return;
-  const json& so_far = out.value().at("engine");
-  for (const auto& [key, value] : known.model.at("states").items()) {
-    if (key == "$comment") continue;
-    const json::json_pointer at("/states/" + key);
-    if (so_far.contains(at) && so_far.at(at) >= value) continue;
-    out.overlay("engine.states." + key, value, known.model_at.child("states").child(key));
+  const json so_far = out.value().at("engine").value("states", json::object());
+  json states = known.model.at("states");
+  for (const auto& [key, value] : so_far.items()) {
+    if (states.contains(key) && states.at(key) <= value) states.erase(key);
   }
+  out.overlay("engine.states", states, known.model_at.child("states"));
 }
 
 /// What an inertial unit is taken for where nobody says better: the engine's own default is that of a

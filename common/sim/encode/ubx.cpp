@@ -6,6 +6,7 @@
 
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
+#include "codec/fletcher.hpp"
 #include "codec/gps_time.hpp"
 #include "codec/satellite/ubx.hpp"
 
@@ -70,7 +71,7 @@ std::vector<std::uint8_t> ubx_frame(std::uint8_t message_class, std::uint8_t mes
   }
   append_le<std::uint16_t>(frame, static_cast<std::uint16_t>(payload.size()));
   frame.insert(frame.end(), payload.begin(), payload.end());
-  const auto [a, b] = codec::ubx_checksum(std::span<const std::uint8_t>(frame).subspan(2));
+  const auto [a, b] = codec::fletcher8(std::span<const std::uint8_t>(frame).subspan(2));
   frame.push_back(a);
   frame.push_back(b);
   return frame;

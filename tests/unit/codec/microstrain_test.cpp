@@ -8,6 +8,7 @@
 
 #include "base/bytes/big_endian.hpp"
 #include "capture.hpp"
+#include "codec/fletcher.hpp"
 
 namespace fathom::codec::microstrain_test {
 namespace {
@@ -52,7 +53,7 @@ ByteVector number(std::uint8_t descriptor, T value) {
 
 ByteVector packet(const ByteVector& fields, std::uint8_t set = microstrain::kSensorData) {
   ByteVector bytes = ByteVector{0x75, 0x65, set, static_cast<std::uint8_t>(fields.size())} + fields;
-  const auto sum = microstrain::checksum(bytes);
+  const auto sum = fletcher8(bytes);
   return bytes + ByteVector{sum[0], sum[1]};
 }
 

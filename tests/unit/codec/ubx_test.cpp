@@ -11,6 +11,7 @@
 
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
+#include "codec/fletcher.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 #include "support/codec/decode_run.hpp"
 
@@ -32,7 +33,7 @@ ByteVector frame(std::uint8_t message_class, std::uint8_t id, const ByteVector& 
   for (const std::uint8_t byte : {kUbxSync1, kUbxSync2, message_class, id}) bytes.push_back(byte);
   append_le<std::uint16_t>(bytes, static_cast<std::uint16_t>(payload.size()));
   bytes.insert(bytes.end(), payload.begin(), payload.end());
-  const auto [a, b] = ubx_checksum(Bytes(bytes).subspan(2));
+  const auto [a, b] = fletcher8(Bytes(bytes).subspan(2));
   bytes.push_back(a);
   bytes.push_back(b);
   return bytes;

@@ -5,6 +5,7 @@
 
 #include "base/bytes/big_endian.hpp"
 #include "base/units.hpp"
+#include "codec/fletcher.hpp"
 #include "codec/gps_time.hpp"
 #include "codec/imu/known3.hpp"
 #include "codec/imu/microstrain.hpp"
@@ -43,7 +44,7 @@ Packet microstrain_packet(std::uint8_t descriptor_set, const Packet& fields) {
   out.push_back(descriptor_set);
   out.push_back(static_cast<std::uint8_t>(fields.size()));
   out.insert(out.end(), fields.begin(), fields.end());
-  for (const std::uint8_t byte : mip::checksum(out)) out.push_back(byte);
+  for (const std::uint8_t byte : codec::fletcher8(out)) out.push_back(byte);
   return out;
 }
 
