@@ -4,10 +4,15 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include <arpa/inet.h>
+#include <asio/buffer.hpp>
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
+#include <asio/redirect_error.hpp>
 #include <asio/use_awaitable.hpp>
 
 #include "runtime/byte_source_impl.hpp"
@@ -42,8 +47,14 @@ std::string describe_source(const ByteSourceConfig& config) {
   return "file " + config.path;
 }
 
+bool same_port(const ByteSourceConfig& one, const ByteSourceConfig& other) {
+  return one.type == other.type && one.type != SourceType::file &&
+         describe_source(one) == describe_source(other) &&
+         (one.type != SourceType::serial || (one.baud == other.baud && one.framing == other.framing));
+}
+
 bool collide(const ByteSourceConfig& one, const ByteSourceConfig& other) {
-  if (one.type != other.type) return false;
+  if (one.type != other.type || (one.shared && other.shared && same_port(one, other))) return false;
   if (one.type == SourceType::serial) return !one.path.empty() && one.path == other.path;
   if (one.type != SourceType::udp && one.type != SourceType::tcp_server) return false;
   if (one.port == 0 || one.port != other.port) return false;
@@ -78,7 +89,11 @@ ByteSource::Impl::Impl(ByteSourceConfig config_in, const Clock& clock_in, BytesH
       backoff(config.backoff_first_s, config.backoff_most_s) {}
 
 void ByteSource::Impl::deliver(std::span<const std::uint8_t> bytes) {
-  const Arrival arrival{clock.utc_ns(), clock.monotonic_ns()};
+  if (share) share->tell({ShareMessage::Kind::bytes, SystemClock().monotonic_ns(), bytes});
+  deliver(bytes, {clock.utc_ns(), clock.monotonic_ns()});
+}
+
+void ByteSource::Impl::deliver(std::span<const std::uint8_t> bytes, const Arrival& arrival) {
   last_byte_ns = arrival.monotonic_ns;
   backoff.reset();
   bool was_silent = false;
@@ -92,6 +107,10 @@ void ByteSource::Impl::deliver(std::span<const std::uint8_t> bytes) {
 }
 
 void ByteSource::Impl::change(SourceState state, std::string detail) {
+  if (share && (state == SourceState::connected || state == SourceState::lost)) {
+    const auto kind = state == SourceState::lost ? ShareMessage::Kind::lost : ShareMessage::Kind::connected;
+    share->tell({kind, 0, std::span(reinterpret_cast<const std::uint8_t*>(detail.data()), detail.size())});
+  }
   {
     const std::lock_guard lock(mutex);
     const bool fresh = !reported || status.state != state;
@@ -118,27 +137,87 @@ asio::awaitable<void> ByteSource::Impl::wait(double vehicle_s) {
   co_await timer.async_wait(asio::use_awaitable);
 }
 
+asio::awaitable<void> ByteSource::Impl::serve() {
+  switch (config.type) {
+    case SourceType::serial:
+      return serve_serial();
+    case SourceType::tcp_client:
+      return serve_tcp_client();
+    case SourceType::tcp_server:
+      return serve_tcp_server();
+    case SourceType::udp:
+      return serve_udp();
+    case SourceType::file:
+      break;
+  }
+  return serve_file();
+}
+
+asio::awaitable<void> ByteSource::Impl::serve_shared() {
+  constexpr int kAttempts = 20;  // while the process that has the port begins or ends
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    share = PortShare::claim(io, config);
+    if (share) {
+      share->start();
+      co_await serve();
+      co_return;
+    }
+    if (const auto link = PortShare::join(io, config)) {
+      co_await follow(*link);
+      co_return;
+    }
+    co_await wait(0.05 * clock.rate());
+  }
+  throw std::runtime_error("another process has it and lets nobody read");
+}
+
+asio::awaitable<void> ByteSource::Impl::follow(asio::posix::stream_descriptor& link) {
+  constexpr DurationNs kOldest = 10 * kNsPerSecond;
+  std::vector<std::uint8_t> buffer(kLongestSharePacket);
+  last_byte_ns = clock.monotonic_ns();
+  std::string why = "the process that read it for others is gone";
+  for (;;) {
+    asio::error_code ended;
+    const std::size_t size =
+        co_await link.async_read_some(asio::buffer(buffer), asio::redirect_error(asio::use_awaitable, ended));
+    if (ended || size == 0) throw std::runtime_error(why);
+    const auto message = unpack(std::span(buffer).first(size));
+    if (!message) throw std::runtime_error("the process that reads it speaks otherwise");
+    const std::string detail(message->payload.begin(), message->payload.end());
+    switch (message->kind) {
+      case ShareMessage::Kind::connected:
+        last_byte_ns = clock.monotonic_ns();
+        change(SourceState::connected, detail + ", read by another process");
+        break;
+      case ShareMessage::Kind::lost:
+        if (const std::string own = describe_source(config) + ": "; detail.starts_with(own))
+          why = detail.substr(own.size());
+        change(SourceState::lost, detail);
+        break;
+      case ShareMessage::Kind::bytes: {
+        const DurationNs host_ns =
+            std::clamp(SystemClock().monotonic_ns() - message->host_monotonic_ns, DurationNs{0}, kOldest);
+        const auto age_ns = static_cast<DurationNs>(static_cast<double>(host_ns) * clock.rate());
+        deliver(message->payload, {clock.utc_ns() - age_ns, clock.monotonic_ns() - age_ns});
+        break;
+      }
+    }
+  }
+}
+
 asio::awaitable<void> ByteSource::Impl::run() {
   for (;;) {
     std::string reason = "closed by the other side";
     try {
-      switch (config.type) {
-        case SourceType::serial:
-          co_await serve_serial();
-          break;
-        case SourceType::tcp_client:
-          co_await serve_tcp_client();
-          break;
-        case SourceType::tcp_server:
-          co_await serve_tcp_server();
-          break;
-        case SourceType::udp:
-          co_await serve_udp();
-          break;
-        case SourceType::file:
-          co_await serve_file();
-          change(SourceState::finished, describe_source(config) + ": end of file");
-          co_return;
+      if (config.type == SourceType::file) {
+        co_await serve_file();
+        change(SourceState::finished, describe_source(config) + ": end of file");
+        co_return;
+      }
+      if (config.shared) {
+        co_await serve_shared();
+      } else {
+        co_await serve();
       }
     } catch (const asio::system_error& error) {
       reason = error.code().message();
@@ -148,6 +227,7 @@ asio::awaitable<void> ByteSource::Impl::run() {
     still_there = nullptr;
     break_connection = nullptr;
     fail(reason);
+    if (share) std::exchange(share, nullptr)->close();
     co_await wait(backoff.next_s());
   }
 }

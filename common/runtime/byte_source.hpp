@@ -37,6 +37,7 @@ struct ByteSourceConfig {
   Pace pace = Pace::original;     ///< file
   double bytes_per_s = 11'520.0;  ///< file, pace rate
   std::string greeting;           ///< tcp_client: said once connected; of the protocol, not of a file
+  bool shared = false;            ///< all but file: others of this host read the same port
   double silence_s = 0.0;         ///< connected without a byte for this long is worth saying; 0: never
   double backoff_first_s = 0.1;
   double backoff_most_s = 5.0;
@@ -74,6 +75,10 @@ struct SourceStatus {
 ///              how a device that was restarted gets back in.
 /// udp          every datagram to the bound address and port.
 /// file         once from beginning to end.
+///
+/// A shared port is opened by whoever comes first and read by all who say that it is shared, in as many
+/// processes as there are: each gets every byte with the instant at which it arrived. When the process that
+/// reads the line ends, another one opens it.
 class ByteSource {
  public:
   /// Bytes as they came, on the source's thread. What it throws counts as a broken connection.
@@ -104,6 +109,9 @@ class ByteSource {
 
 /// "serial /dev/ttyUSB0", "tcp 10.0.0.7:5000": the source as people name it.
 [[nodiscard]] std::string describe_source(const ByteSourceConfig& config);
+
+/// Whether two sources are one port with the same settings, so that it can be shared.
+[[nodiscard]] bool same_port(const ByteSourceConfig& one, const ByteSourceConfig& other);
 
 /// Whether two sources, open at once, would take bytes from each other or keep each other from opening.
 [[nodiscard]] bool collide(const ByteSourceConfig& one, const ByteSourceConfig& other);

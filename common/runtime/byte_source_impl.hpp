@@ -17,6 +17,7 @@
 #include <asio/steady_timer.hpp>
 
 #include "runtime/backoff.hpp"
+#include "runtime/byte_share.hpp"
 #include "runtime/byte_source.hpp"
 
 namespace fathom::runtime {
@@ -31,6 +32,11 @@ struct ByteSource::Impl {
   asio::awaitable<void> serve_udp();
   asio::awaitable<void> serve_file();
 
+  asio::awaitable<void> serve();  ///< by the transport that is configured
+  asio::awaitable<void>
+  serve_shared();  ///< opens the port for others as well, or reads what another hands on
+  asio::awaitable<void> follow(asio::posix::stream_descriptor& link);
+
   asio::awaitable<void> run();    ///< serves and reconnects for ever
   asio::awaitable<void> watch();  ///< notices silence
   asio::awaitable<void> wait(double vehicle_s);
@@ -39,6 +45,7 @@ struct ByteSource::Impl {
   asio::awaitable<void> read_all(Stream& stream);
 
   void deliver(std::span<const std::uint8_t> bytes);
+  void deliver(std::span<const std::uint8_t> bytes, const Arrival& arrival);
   void change(SourceState state, std::string detail);
   void fail(const std::string& reason);
 
@@ -48,6 +55,7 @@ struct ByteSource::Impl {
   const EventHandler on_event;
 
   asio::io_context io{1};
+  std::shared_ptr<PortShare> share;  ///< while this process reads a port for others
   std::thread thread;
   Backoff backoff;
   TimeNs last_byte_ns = 0;  ///< monotonic

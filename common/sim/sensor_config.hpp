@@ -25,6 +25,7 @@ struct LinkConfig {
   std::string path;                   ///< pty: name of the link below the simulator's link_dir
   std::string address = "127.0.0.1";  ///< tcp_server: bound; udp: sent to
   int port = 0;
+  bool operator==(const LinkConfig&) const = default;
 };
 
 /// What every sensor has.

@@ -53,7 +53,7 @@ json vehicle_of(json common, const sim::Scenario& scenario, const config::Wiring
     one["latency_s"] = config::latency_of(*sensor, word == KindOf<GpsSample>::kWord);
     one["watched"] = always_heard;
     if (ports.insert(bridge).second)
-      one["port"] = config::port_of(*sensor, wiring);
+      one["port"] = config::port_of(*sensor, scenario, wiring);
     else
       one.erase("port");
     instruments.push_back(std::move(one));

@@ -13,9 +13,11 @@
 
 namespace fathom::config {
 
-/// What the port of an instrument should be where another has it.
+/// What the port of an instrument should be where another has it and not both say that it is shared, or not
+/// with the same settings.
 [[nodiscard]] inline std::string port_of_its_own(const std::string& other) {
-  return "a port of its own: " + other + " reads from it as well";
+  return "a port of its own: " + other +
+         " reads from it as well; where one line carries both, the same port with shared: true in each";
 }
 
 template <class Sensor>

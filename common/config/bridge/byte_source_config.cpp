@@ -40,6 +40,9 @@ void describe_source(Schema<Source>& s) {
       .only_for({"tcp_client", "tcp_server", "udp"});
   s.field("multicast", &ByteSourceConfig::multicast, "group to join on the address; empty: none")
       .only_for({"udp"});
+  s.field("shared", &ByteSourceConfig::shared,
+          "true: other bridges of this host that say so as well read the same port")
+      .only_for({"serial", "tcp_client", "tcp_server", "udp"});
   s.field("pace", &ByteSourceConfig::pace, "played as its frames' times say, at bytes_per_s, or at once")
       .words({{"original", Pace::original}, {"rate", Pace::rate}, {"fastest", Pace::fastest}})
       .only_for({"file"});

@@ -1,12 +1,15 @@
 #include "config/scenario/scenario_wiring.hpp"
 
 #include <numbers>
+#include <set>
+#include <string_view>
 #include <type_traits>
 
 #include <nlohmann/json.hpp>
 
 #include "codec/registry.hpp"
 #include "samples/kinds.hpp"
+#include "sim/device_encoder.hpp"
 
 namespace fathom::config {
 namespace {
@@ -24,6 +27,15 @@ json source_of(const sim::LinkConfig& link, const Wiring& wiring) {
       break;
   }
   return {{"type", "udp"}, {"address", link.address}, {"port", link.port + wiring.port_offset}};
+}
+
+// Whether bridges of several roles read what comes over the link.
+bool is_shared(const sim::LinkConfig& link, const sim::Scenario& scenario) {
+  std::set<std::string_view> roles;
+  for (const auto& [kind, sensor] : sim::sensors_of(scenario.sensors)) {
+    if (sensor->enabled && !sensor->protocol.empty() && sensor->link == link) roles.insert(role_of(kind));
+  }
+  return roles.size() > 1;
 }
 
 // Devices with UTC are trusted, counters are tracked, the rest is known by its latency.
@@ -47,8 +59,10 @@ json time_of(const sim::SensorCommon& sensor) {
 
 }  // namespace
 
-json port_of(const sim::SensorCommon& sensor, const Wiring& wiring) {
-  return source_of(sensor.link, wiring);
+json port_of(const sim::SensorCommon& sensor, const sim::Scenario& scenario, const Wiring& wiring) {
+  json out = source_of(sensor.link, wiring);
+  if (is_shared(sensor.link, scenario)) out["shared"] = true;
+  return out;
 }
 
 double latency_of(const sim::SensorCommon& sensor, bool says_utc) {
@@ -69,7 +83,7 @@ std::map<std::string, std::vector<std::string>> service_overrides(const sim::Sce
     json time = time_of(sensor);
     // NMEA receivers say the time of day of their fix.
     if constexpr (std::is_same_v<Sample, GpsSample>) time = {{"mode", "device_utc"}};
-    sets.push_back("sensors.0.source=" + source_of(sensor.link, wiring).dump());
+    sets.push_back("sensors.0.source=" + port_of(sensor, scenario, wiring).dump());
     sets.push_back("sensors.0.protocol=" + sensor.protocol);
     sets.push_back("sensors.0.rate_hz=" + json(sensor.rate_hz).dump());
     sets.push_back("sensors.0.time=" + time.dump());

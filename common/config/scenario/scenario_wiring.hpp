@@ -15,8 +15,9 @@ struct Wiring {
   int port_offset = 0;                           ///< as the simulator's
 };
 
-/// The bridge's end of a simulated device's link.
-[[nodiscard]] nlohmann::json port_of(const sim::SensorCommon& sensor, const Wiring& wiring);
+/// The bridge's end of a simulated device's link, shared where bridges of other instruments read it as well.
+[[nodiscard]] nlohmann::json port_of(const sim::SensorCommon& sensor, const sim::Scenario& scenario,
+                                     const Wiring& wiring);
 /// From validity to arrival, as a bridge of this instrument counts it: of the quickest frame where the device
 /// has a counter, of the mean one where nothing but the arrival is known, 0 where the frame says its UTC.
 [[nodiscard]] double latency_of(const sim::SensorCommon& sensor, bool says_utc);

@@ -10,7 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "base/clock.hpp"
+#include "byte_listener.hpp"
 #include "support.hpp"
 
 namespace fathom::runtime {
@@ -18,59 +18,8 @@ namespace {
 
 using test::bytes_of;
 using test::eventually;
-
-// A source and what it delivered.
-class Listener {
- public:
-  explicit Listener(ByteSourceConfig config)
-      : source_(std::make_unique<ByteSource>(
-            std::move(config), clock_,
-            [this](std::span<const std::uint8_t> bytes, const Arrival&) {
-              const std::lock_guard lock(mutex_);
-              text_.append(bytes.begin(), bytes.end());
-            },
-            [this](const SourceEvent& event) {
-              const std::lock_guard lock(mutex_);
-              events_.push_back(event.state);
-            })) {
-    source_->start();
-  }
-  bool heard(const std::string& text) const {
-    const std::lock_guard lock(mutex_);
-    return text_.find(text) != std::string::npos;
-  }
-  std::size_t size() const {
-    const std::lock_guard lock(mutex_);
-    return text_.size();
-  }
-  std::vector<SourceState> events() const {
-    const std::lock_guard lock(mutex_);
-    return events_;
-  }
-  SourceState state() const { return source_->status().state; }
-  SourceStatus status() const { return source_->status(); }
-  double stop_s() {
-    const auto before = std::chrono::steady_clock::now();
-    source_.reset();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  }
-
- private:
-  SystemClock clock_;
-  mutable std::mutex mutex_;
-  std::string text_;
-  std::vector<SourceState> events_;
-  std::unique_ptr<ByteSource> source_;
-};
-
-ByteSourceConfig quick(SourceType type) {
-  ByteSourceConfig out;
-  out.type = type;
-  out.backoff_first_s = 0.02;
-  out.backoff_most_s = 0.1;
-  out.silence_s = 0.3;
-  return out;
-}
+using test::Listener;
+using test::quick;
 
 TEST(ByteSource, SerialDeviceThatVanishesAndReturns) {
   const test::TemporaryFolder folder;

@@ -310,8 +310,17 @@ TEST_F(Vehicle, PortsThatCollideAreRefused) {
   EXPECT_EQ(said("imu", serial), "");
   EXPECT_THAT(said("gps", serial), HasSubstr("expected a port of its own: imu reads from it as well"));
   EXPECT_THAT(complaint(), HasSubstr("instruments.1.port"));
+  EXPECT_THAT(complaint(), HasSubstr("the same port with shared: true in each"));
   instrument("gps")["enabled"] = false;
   EXPECT_EQ(complaint(), "") << "what is left out reads nothing";
+  file = good;
+  json shared = serial;
+  shared["shared"] = true;
+  EXPECT_EQ(said("imu", shared), "");
+  EXPECT_THAT(said("gps", serial), HasSubstr("a port of its own")) << "only one of them shares it";
+  EXPECT_EQ(said("gps", shared), "");
+  shared["baud"] = 19200;
+  EXPECT_THAT(said("gps", shared), HasSubstr("a port of its own")) << "a line has one rate";
   file = good;
   EXPECT_EQ(said("imu", udp("127.0.0.1", 5000, "")), "");
   EXPECT_EQ(said("gps", udp("127.0.0.2", 5000, "")), "");
