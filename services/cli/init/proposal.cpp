@@ -20,7 +20,12 @@ std::string role_name(SourceKind kind) {
   return role.substr(0, role.rfind("_bridge"));
 }
 
-Json port_json(const runtime::ByteSourceConfig& port) {
+Json port_json(const runtime::ByteSourceConfig& port, bool shared) {
+  if (shared) {
+    Json out = port_json(port, false);
+    out["shared"] = true;
+    return out;
+  }
   switch (port.type) {
     case runtime::SourceType::serial: {
       Json out = {{"type", "serial"}, {"path", port.path}, {"baud", port.baud}};
@@ -50,8 +55,8 @@ KeyOfKind key_of(const std::string& key, SourceKind kind) {
   return {};
 }
 
-/// What a vehicle has a port for, where a port says several things and one bridge reads it: what has a place,
-/// as a receiver that says a heading as well, and of those what says most.
+/// What a vehicle has a port for, where a port says several things: what has a place, as a receiver that says
+/// a heading as well, and of those what says most.
 const SeenKind& leading(const std::vector<SeenKind>& kinds) {
   return *std::max_element(kinds.begin(), kinds.end(), [](const SeenKind& a, const SeenKind& b) {
     return std::pair(key_of("position_m", a.kind).known, a.samples) <
@@ -118,6 +123,29 @@ void add_mounting(const Recognition& seen, Proposal& out) {
     out.notes.push_back("which way round it is cannot be told");
 }
 
+/// An instrument but for its port.
+Proposal proposal_of(const Heard& heard, const SeenKind& kind, const std::string& name) {
+  const Recognition& seen = *heard.recognition;
+  Proposal made;
+  made.instrument = {{"name", name}, {"kind", to_string(kind.kind)}, {"protocol", seen.protocol}};
+  const double rate_hz = tidy_rate_hz(kind.rate_hz, kind.samples);
+  made.instrument["rate_hz"] = rate_hz > 0.0 ? rate_hz : 1.0;
+  add_model(kind.kind, seen.protocol, made);
+  made.what = name + ": " + runtime::describe_source(heard.port) + ", " + seen.protocol + ", " +
+              number_text(kind.rate_hz, "%.4g Hz") +
+              number_text(100.0 * seen.share, ", %.0f % % of its bytes understood");
+  if (rate_hz == 0.0) made.notes.push_back("too few samples to count its rate; 1 Hz is written");
+  made.has_place = key_of("position_m", kind.kind).known;
+  if (made.has_place) made.instrument["position_m"] = {0.0, 0.0, 0.0};
+  if (key_of("mounting_rpy_deg", kind.kind).required) add_mounting(seen, made);
+  if (kind.kind == SourceKind::depth) add_depth(seen, made);
+  if (kind.kind == SourceKind::propulsion || kind.kind == SourceKind::fins) {
+    made.instrument["fusion"] = {{"enabled", false}};
+    made.notes.push_back("navigation does without it until fusion.enabled and what it means are said");
+  }
+  return made;
+}
+
 }  // namespace
 
 double tidy_rate_hz(double rate_hz, std::uint64_t samples) {
@@ -166,36 +194,30 @@ std::vector<Proposal> propose(const std::vector<Heard>& heard) {
     if (!one.recognition || one.recognition->kinds.empty()) continue;
     const Recognition& seen = *one.recognition;
     const SeenKind& lead = leading(seen.kinds);
-    const std::string base = name_of(seen.kinds, lead.kind);
-    const int count = ++names[base];
-    const std::string name = base + (count == 1 ? "" : std::to_string(count));
+    // What an autopilot says of the same vehicle is not for navigation unasked (deploy/DOORS.md).
+    const bool all = seen.protocol != "mavlink";
+    std::vector<SourceKind> bridges{lead.kind};  // a kind of each, the leading one's first
     std::string elsewhere;
-    bool first = true;
     for (const SeenKind& kind : seen.kinds) {
-      if (role_of(kind.kind) != role_of(lead.kind)) {
+      const auto is_here = [&kind](SourceKind of) { return role_of(of) == role_of(kind.kind); };
+      if (std::any_of(bridges.begin(), bridges.end(), is_here)) continue;
+      if (all) {
+        bridges.push_back(kind.kind);
+      } else {
         elsewhere += (elsewhere.empty() ? "" : ", ") + std::string(to_string(kind.kind));
-        continue;
       }
-      Proposal made;
-      made.instrument = {{"name", name}, {"kind", to_string(kind.kind)}, {"protocol", seen.protocol}};
-      const double rate_hz = tidy_rate_hz(kind.rate_hz, kind.samples);
-      made.instrument["rate_hz"] = rate_hz > 0.0 ? rate_hz : 1.0;
-      if (first) made.instrument["port"] = port_json(one.port);
-      add_model(kind.kind, seen.protocol, made);
-      first = false;
-      made.what = name + ": " + runtime::describe_source(one.port) + ", " + seen.protocol + ", " +
-                  number_text(kind.rate_hz, "%.4g Hz") +
-                  number_text(100.0 * seen.share, ", %.0f % % of its bytes understood");
-      if (rate_hz == 0.0) made.notes.push_back("too few samples to count its rate; 1 Hz is written");
-      made.has_place = key_of("position_m", kind.kind).known;
-      if (made.has_place) made.instrument["position_m"] = {0.0, 0.0, 0.0};
-      if (key_of("mounting_rpy_deg", kind.kind).required) add_mounting(seen, made);
-      if (kind.kind == SourceKind::depth) add_depth(seen, made);
-      if (kind.kind == SourceKind::propulsion || kind.kind == SourceKind::fins) {
-        made.instrument["fusion"] = {{"enabled", false}};
-        made.notes.push_back("navigation does without it until fusion.enabled and what it means are said");
+    }
+    for (const SourceKind bridge : bridges) {
+      const std::string base = name_of(seen.kinds, bridge);
+      const int count = ++names[base];
+      const std::string name = base + (count == 1 ? "" : std::to_string(count));
+      bool first = true;
+      for (const SeenKind& kind : seen.kinds) {
+        if (role_of(kind.kind) != role_of(bridge)) continue;
+        out.push_back(proposal_of(one, kind, name));
+        if (first) out.back().instrument["port"] = port_json(one.port, bridges.size() > 1);
+        first = false;
       }
-      out.push_back(std::move(made));
     }
     if (!elsewhere.empty())
       out.back().notes.push_back("the port says " + elsewhere +

@@ -29,8 +29,9 @@ struct Proposal {
   bool has_mounting = false;       ///< "mounting_rpy_deg" means something
 };
 
-/// One instrument for each port that was recognised; of one port with several quantities those of one bridge.
-/// Names are those of the kinds, numbered where there are several.
+/// The instruments behind each port that was recognised. Where bridges of several kinds read one, it is
+/// shared; of an autopilot's telemetry one bridge's are taken. Names are those of the kinds, numbered where
+/// there are several.
 [[nodiscard]] std::vector<Proposal> propose(const std::vector<Heard>& heard);
 
 /// The rate that an instrument was set to, of the one that was counted: a round number where it is within 3

@@ -124,15 +124,29 @@ TEST(Proposal, EachPortIsAnInstrumentWithAName) {
   auto silent = heard(SourceKind::dvl, 0.0, "pd0", "/dev/c");
   silent.recognition.reset();
   const auto made = propose({receiver, heard(SourceKind::gps, 1.0, "ubx", "/dev/b"), silent});
-  ASSERT_EQ(made.size(), 2U);
+  ASSERT_EQ(made.size(), 3U);
   EXPECT_EQ(made[0].instrument["name"], "gps");
-  EXPECT_EQ(made[0].instrument["kind"], "gps") << "a receiver with a heading is a receiver";
+  EXPECT_EQ(made[0].instrument["kind"], "gps") << "a receiver with a heading is a receiver first";
   EXPECT_EQ(made[0].instrument["rate_hz"], 5.0);
   EXPECT_EQ(made[0].instrument["port"]["path"], "/dev/a");
-  EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("heading as well")));
-  EXPECT_EQ(made[1].instrument["name"], "gps2");
-  EXPECT_TRUE(made[1].has_place);
-  EXPECT_FALSE(made[1].has_mounting);
+  EXPECT_EQ(made[0].instrument["port"]["shared"], true) << "the heading comes over the same line";
+  EXPECT_EQ(made[1].instrument["name"], "heading");
+  EXPECT_EQ(made[1].instrument["rate_hz"], 20.0);
+  EXPECT_EQ(made[1].instrument["port"], made[0].instrument["port"]);
+  EXPECT_EQ(made[2].instrument["name"], "gps2");
+  EXPECT_FALSE(made[2].instrument["port"].contains("shared"));
+  EXPECT_TRUE(made[2].has_place);
+  EXPECT_FALSE(made[2].has_mounting);
+}
+
+TEST(Proposal, OfAnAutopilotOneBridgeIsTaken) {
+  auto autopilot = heard(SourceKind::imu, 50.0, "mavlink", "/dev/a");
+  autopilot.recognition->kinds.push_back({SourceKind::gps, 100, 5.0});
+  const auto made = propose({autopilot});
+  ASSERT_EQ(made.size(), 1U);
+  EXPECT_EQ(made[0].instrument["kind"], "gps");
+  EXPECT_FALSE(made[0].instrument["port"].contains("shared"));
+  EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("imu as well")));
 }
 
 TEST(Proposal, NamesTheModelsThatSpeakSo) {
