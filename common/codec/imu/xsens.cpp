@@ -1,11 +1,13 @@
 #include "codec/imu/xsens.hpp"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <optional>
 
 #include "base/bytes/big_endian.hpp"
 #include "codec/framer.hpp"
+#include "codec/satellite/pvt.hpp"
 #include "codec/wrapping_clock.hpp"
 
 namespace fathom::codec {
@@ -39,7 +41,31 @@ constexpr unsigned kClipAccelBit = 8;  // of StatusWord: x, y, z of the accelero
 constexpr unsigned kClipGyroBit = 11;
 constexpr std::uint8_t kUtcValid = 0x04;
 
+constexpr double kDopUnit = 0.01;
+constexpr std::uint16_t kNoDop = 9999;  // and beyond
+
 using Vector3 = std::array<double, 3>;
+
+/// What the receiver in the unit found.
+struct XsensFix {
+  std::optional<RejectReason> refused;
+  GpsSample sample;
+  DeviceTime time;
+};
+
+XsensFix read_gnss_pvt(Bytes data) {
+  XsensFix fix;
+  if (data.size() != xsens::kGnssPvtBytes) {
+    fix.refused = RejectReason::structure;
+    return fix;
+  }
+  Pvt pvt(data, std::endian::big);
+  pvt.satellites = data[22];
+  const auto dop = load_be<std::uint16_t>(data, 88);
+  if (dop > 0 && dop < kNoDop) pvt.hdop = dop * kDopUnit;
+  fix.refused = read_pvt(pvt, fix.sample, fix.time);
+  return fix;
+}
 
 /// Numbers as the lowest two bits of an identifier say.
 class Numbers {
@@ -83,6 +109,8 @@ struct Contents {
   std::optional<std::uint32_t> fine_ticks;
   std::optional<std::uint16_t> counter;
   std::optional<TimeNs> utc_ns;
+  std::optional<XsensFix> fix;
+  std::optional<RejectReason> refused;  ///< why the inertial part is, the first reason
   std::uint32_t status = 0;
   bool coarse_turn = false;  ///< in steps of 2^-20, which are 40 deg/h at 100 Hz
 
@@ -96,10 +124,11 @@ struct Contents {
     return turn_S_rad && delta_v_S_m_s && !(coarse_turn && rate());
   }
 
-  /// Why the item is refused; nothing when it is good or one that nobody reads.
-  [[nodiscard]] std::optional<RejectReason> take(std::uint16_t identifier, Bytes data);
+  void take(std::uint16_t identifier, Bytes data);
 
  private:
+  /// Why the item is refused; nothing when it is good or one that nobody reads.
+  [[nodiscard]] std::optional<RejectReason> take_inertial(std::uint16_t identifier, Bytes data);
   static std::optional<RejectReason> take3(const Numbers& numbers, double most, std::optional<Vector3>& into);
   std::optional<RejectReason> take_turn(const Numbers& numbers);
   std::optional<RejectReason> take_utc(Bytes data);
@@ -150,7 +179,15 @@ std::optional<RejectReason> Contents::take_utc(Bytes data) {
   return utc_ns ? std::nullopt : std::optional(RejectReason::out_of_range);
 }
 
-std::optional<RejectReason> Contents::take(std::uint16_t identifier, Bytes data) {
+void Contents::take(std::uint16_t identifier, Bytes data) {
+  if ((identifier & 0xFFF0U) == Item::gnss_pvt) {
+    fix = read_gnss_pvt(data);
+  } else if (const auto reason = take_inertial(identifier, data); reason && !refused) {
+    refused = reason;
+  }
+}
+
+std::optional<RejectReason> Contents::take_inertial(std::uint16_t identifier, Bytes data) {
   const Numbers numbers(identifier, data);
   switch (static_cast<Item>(identifier & 0xFFF0U)) {
     case Item::rate_of_turn:
@@ -186,6 +223,8 @@ std::optional<RejectReason> Contents::take(std::uint16_t identifier, Bytes data)
       if (data.size() != 4) return RejectReason::structure;
       status = load_be<std::uint32_t>(data, 0);
       return std::nullopt;
+    case Item::gnss_pvt:
+      break;  // is no inertial one
   }
   return std::nullopt;
 }
@@ -231,18 +270,29 @@ class Xsens : public Framer {
     while (!items.empty()) {
       if (items.size() < 3 || items.size() - 3 < items[2]) return Outcome::refused(RejectReason::structure);
       const std::size_t size = items[2];
-      if (const auto reason = got.take(load_be<std::uint16_t>(items, 0), items.subspan(3, size)))
-        return Outcome::refused(*reason);
+      got.take(load_be<std::uint16_t>(items, 0), items.subspan(3, size));
       items = items.subspan(3 + size);
     }
+    const bool inertial = !got.refused && emit_inertial(got, message, offset, sink);
+    if (got.fix && !got.fix->refused) {
+      emit(sink, got.fix->sample, got.fix->time, offset, message.size());
+      return Outcome::used();
+    }
+    if (inertial) return Outcome::used();
+    if (got.refused) return Outcome::refused(*got.refused);
+    return got.fix ? Outcome::refused(*got.fix->refused) : Outcome::ignored();
+  }
+
+  /// Whether there was a sample.
+  bool emit_inertial(const Contents& got, Bytes message, std::uint64_t offset, Sink& sink) {
     const std::optional<double> interval_s = count(got);
     const std::optional<ImuSample> sample = sample_of(got, interval_s);
-    if (!sample) return Outcome::ignored();
+    if (!sample) return false;
     DeviceTime time;
     time.utc_ns = got.utc_ns;
     if (got.fine_ticks) time.clock_ns = clock_ticks_.last() * static_cast<TimeNs>(xsens::kTick_ns);
     emit(sink, *sample, time, offset, message.size());
-    return Outcome::used();
+    return true;
   }
 
   /// Follows counter and clock. The interval of the message's increments, where it is known.

@@ -194,6 +194,59 @@ TEST(XsensCaptures, AgreeWithAnotherDriversDecoding) {
   }
 }
 
+TEST(XsensCaptures, FixesAgreeWithAnotherDriversDecoding) {
+  for (const char* name : {"einride_1", "einride_2"}) {
+    const auto file = root() / "xsens" / name / "output.bin";
+    if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
+    const Harvest run = decode("xsens", load(file));
+    const auto fixes = of_kind<GpsSample>(run);
+    std::size_t compared = 0;
+    std::size_t mismatches = 0;
+    for (auto& message : golden_messages(file.parent_path() / "output.golden")) {
+      // In the order of the fields, without their names.
+      const auto& pvt = message["GNSSPVTData"];
+      if (pvt.empty()) continue;
+      ASSERT_EQ(pvt.size(), 35U);
+      ASSERT_LT(compared, fixes.size());
+      const auto& [decoded, s] = fixes[compared++];
+      const auto whole = [&](std::size_t i) { return static_cast<int>(pvt[i]); };
+      const auto utc = from_civil({.year = whole(1),
+                                   .month = whole(2),
+                                   .day = whole(3),
+                                   .hour = whole(4),
+                                   .minute = whole(5),
+                                   .second = whole(6),
+                                   .nanosecond = whole(9)});
+      bool agrees = decoded->time.utc_ns == utc && s.fix == GpsFix::fix_3d && s.satellites == whole(12);
+      const std::vector<std::pair<double, double>> pairs{
+          {pvt[14] * 1e-7, s.longitude_rad * kDegPerRad},
+          {pvt[15] * 1e-7, s.latitude_rad * kDegPerRad},
+          {pvt[16] * 1e-3, s.altitude_m},
+          {pvt[17] * 1e-3, s.altitude_msl_m},
+          {pvt[18] * 1e-3, std::hypot(s.position_sigma_N_m[0], s.position_sigma_N_m[1])},
+          {pvt[19] * 1e-3, s.position_sigma_N_m[2]},
+          {pvt[20] * 1e-3, s.velocity_N_m_s[0]},
+          {pvt[21] * 1e-3, s.velocity_N_m_s[1]},
+          {pvt[22] * 1e-3, s.velocity_N_m_s[2]},
+          {pvt[25] * 1e-3, s.velocity_sigma_N_m_s[0]},
+          {pvt[32] * 1e-2, s.hdop}};
+      EXPECT_TRUE(agrees) << name << ", fix " << compared;
+      for (const auto& [expected, got] : pairs) agrees = agrees && std::abs(expected - got) < 1e-9;
+      EXPECT_TRUE(agrees) << name << ", fix " << compared;
+      mismatches += !agrees;
+      if (compared == 1) continue;
+      // Four a second, and as far from each other as its velocity says, within what that knows.
+      const auto& [before, last] = fixes[compared - 2];
+      EXPECT_NEAR(to_seconds(*decoded->time.utc_ns - *before->time.utc_ns), 0.25, 1e-5);
+      constexpr double kEarth_m = 6.37e6;
+      EXPECT_NEAR(kEarth_m * (s.latitude_rad - last.latitude_rad), 0.25 * s.velocity_N_m_s[0], 0.1);
+    }
+    EXPECT_EQ(compared, 4U);
+    EXPECT_EQ(compared, fixes.size());
+    report(file, run, compared, mismatches);
+  }
+}
+
 TEST(VectorNavCaptures, AsciiLines) {
   const auto file = root() / "vectornav/vnymr_samples.txt";
   if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <span>
 
 #include <gtest/gtest.h>
@@ -261,6 +262,105 @@ TEST(Xsens, AnExtendedMessageIsReadLikeAShortOne) {
   const Harvest run = decode("xsens", data2(filler + kForce + kRate));
   EXPECT_EQ(run.totals.samples, 1U);
   EXPECT_EQ(run.totals.skipped_bytes, 0U);
+}
+
+/// The first item GNSS PVT Data of a recording (einride, xsens-go, testdata 1).
+ByteVector pvt() {
+  return {0x02, 0xF5, 0xC9, 0x2A, 0x07, 0xE3, 0x01, 0x14, 0x0D, 0x2F, 0x18, 0x37, 0x00, 0x00, 0x00, 0x05,
+          0x0E, 0xE3, 0x2A, 0x24, 0x03, 0x01, 0x0B, 0x00, 0x07, 0x15, 0x22, 0xE8, 0x22, 0x61, 0x2F, 0x55,
+          0x00, 0x01, 0x3F, 0x71, 0x00, 0x00, 0xA9, 0x2A, 0x00, 0x00, 0x08, 0xD3, 0x00, 0x00, 0x08, 0x18,
+          0xFF, 0xFF, 0xFF, 0xE5, 0x00, 0x00, 0x00, 0x0A, 0xFF, 0xFF, 0xFF, 0xFE, 0x00, 0x00, 0x00, 0x1D,
+          0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x01, 0x5E, 0x00, 0xE5, 0x51, 0x9A, 0x00, 0x02, 0x00, 0x00,
+          0x00, 0x9A, 0x00, 0x8B, 0x00, 0x44, 0x00, 0x70, 0x00, 0x53, 0x00, 0x37, 0x00, 0x3E};
+}
+ByteVector changed(ByteVector bytes, std::size_t at, std::uint8_t value) {
+  bytes.at(at) = value;
+  return bytes;
+}
+ByteVector fix_of(const ByteVector& fields) {
+  return item(Item::gnss_pvt, fields);
+}
+constexpr std::size_t kMonthAt = 6;
+constexpr std::size_t kValidAt = 11;
+constexpr std::size_t kFlagsAt = 21;
+constexpr std::size_t kLatitudeAt = 28;  // its highest byte; 0x22 of it are 57.7 degrees
+
+TEST(XsensFix, ReadsTheFieldsOfTheReceiver) {
+  const Harvest run = decode("xsens", data2(fix_of(pvt()) + fine(51'704'404)));
+  ASSERT_EQ(run.samples.size(), 1U);
+  EXPECT_EQ(to_iso8601(*run.samples[0].time.utc_ns, 9), "2019-01-20T13:47:24.249768484Z");
+  EXPECT_FALSE(run.samples[0].time.clock_ns.has_value());
+  const auto& s = std::get<GpsSample>(run.samples[0].sample);
+  constexpr double kRad = std::numbers::pi / 180.0;
+  EXPECT_EQ(s.fix, GpsFix::fix_3d);
+  EXPECT_EQ(s.satellites, 11);
+  EXPECT_NEAR(s.latitude_rad, 57.6794453 * kRad, 1e-14);
+  EXPECT_NEAR(s.longitude_rad, 11.8825704 * kRad, 1e-14);
+  EXPECT_NEAR(s.altitude_m, 81.777, 1e-9);
+  EXPECT_NEAR(s.altitude_msl_m, 43.306, 1e-9);
+  EXPECT_NEAR(s.position_sigma_N_m[0], 2.259 / std::numbers::sqrt2, 1e-9);
+  EXPECT_NEAR(s.position_sigma_N_m[1], 2.259 / std::numbers::sqrt2, 1e-9);
+  EXPECT_NEAR(s.position_sigma_N_m[2], 2.072, 1e-9);
+  EXPECT_NEAR(s.velocity_N_m_s[0], -0.027, 1e-9);
+  EXPECT_NEAR(s.velocity_N_m_s[1], 0.010, 1e-9);
+  EXPECT_NEAR(s.velocity_N_m_s[2], -0.002, 1e-9);
+  EXPECT_NEAR(s.velocity_sigma_N_m_s[2], 0.350, 1e-9);
+  EXPECT_NEAR(s.hdop, 0.83, 1e-9);
+}
+
+TEST(XsensFix, ComesAfterTheInertialDataOfItsMessage) {
+  const Harvest run = decode("xsens", data2(fix_of(pvt()) + kForce + kRate));
+  ASSERT_EQ(run.samples.size(), 2U);
+  EXPECT_TRUE(std::holds_alternative<ImuSample>(run.samples[0].sample));
+  EXPECT_TRUE(std::holds_alternative<GpsSample>(run.samples[1].sample));
+}
+
+TEST(XsensFix, HasNoPositionOutsideOfItsLimits) {
+  const Harvest run = decode("xsens", data2(fix_of(changed(pvt(), kFlagsAt, 0))));
+  ASSERT_EQ(run.samples.size(), 1U);
+  const auto& s = std::get<GpsSample>(run.samples[0].sample);
+  EXPECT_EQ(s.fix, GpsFix::none);
+  EXPECT_EQ(s.satellites, 11);
+  EXPECT_FALSE(known(s.latitude_rad));
+  EXPECT_FALSE(known(s.velocity_N_m_s[0]));
+  EXPECT_FALSE(known(s.hdop));
+}
+
+TEST(XsensFix, TimeOnlyWhenFullyResolved) {
+  for (const std::uint8_t valid : {0x00, 0x03, 0x37}) {
+    const Harvest run = decode("xsens", data2(fix_of(changed(pvt(), kValidAt, valid))));
+    ASSERT_EQ(run.samples.size(), 1U);
+    EXPECT_EQ(run.samples[0].time.utc_ns.has_value(), valid == 0x37);
+  }
+}
+
+TEST(XsensFix, AnImpossibleOneIsRefusedAndInertialDataAreKept) {
+  ByteVector cut = pvt();
+  cut.pop_back();
+  const std::vector<std::pair<ByteVector, RejectReason>> faults{
+      {changed(pvt(), kLatitudeAt, 0x7F), RejectReason::out_of_range},
+      {changed(pvt(), kMonthAt, 13), RejectReason::out_of_range},
+      {changed(pvt(), kFlagsAt, 0xC1), RejectReason::field},
+      {cut, RejectReason::structure}};
+  for (const auto& [fields, reason] : faults) {
+    const Harvest alone = decode("xsens", data2(fix_of(fields)));
+    EXPECT_EQ(alone.totals.samples, 0U);
+    ASSERT_EQ(alone.rejected.size(), 1U);
+    EXPECT_EQ(alone.rejected[0].reason, reason);
+
+    const Harvest kept = decode("xsens", data2(fix_of(fields) + kForce + kRate));
+    EXPECT_EQ(of_kind<ImuSample>(kept).size(), 1U);
+    EXPECT_EQ(kept.totals.samples, 1U);
+    EXPECT_EQ(kept.totals.rejected, 0U);
+  }
+}
+
+TEST(XsensFix, IsKeptWhereTheInertialDataCannotBe) {
+  const Harvest run =
+      decode("xsens", data2(item(Item::acceleration, floats({0, 500, 0})) + kRate + fix_of(pvt())));
+  EXPECT_EQ(of_kind<GpsSample>(run).size(), 1U);
+  EXPECT_EQ(run.totals.samples, 1U);
+  EXPECT_EQ(run.totals.rejected, 0U);
 }
 
 struct XsensFault {
