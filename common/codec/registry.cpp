@@ -72,7 +72,7 @@ constexpr std::array<std::string_view, 1> kGpsdAliases{"gpsd_json"};
 constexpr std::array<std::string_view, 3> kMicromodemAliases{"whoi", "whoi_micromodem", "micro_modem"};
 
 constexpr std::string_view kXsensDescription =
-    "Xsens MTi, MTData2 with rate of turn and acceleration or increments";
+    "Xsens MTi, MTData2 with rate of turn and acceleration or increments, GNSS PVT";
 constexpr std::string_view kMicroStrainDescription =
     "MicroStrain 3DM, MIP packets with angular rate and acceleration or increments";
 constexpr std::string_view kNoGreeting;
@@ -88,8 +88,8 @@ const auto kProtocols = std::to_array<Protocol>({
      DeviceClock::counter},
     {"nortek", kNortekAliases, "Nortek DVL, binary bottom and water track (DF21, DF22)", make_nortek,
      DeviceClock::counter},
-    {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data", make_vectornav,
-     DeviceClock::counter},
+    {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data or GNSS fixes",
+     make_vectornav, DeviceClock::counter},
     {"xsens", kXsensAliases, kXsensDescription, make_xsens, DeviceClock::counter, kNoGreeting, kTurnsAxes},
     {"microstrain", kMicroStrainAliases, kMicroStrainDescription, make_microstrain, DeviceClock::counter},
     {"sbg", kSbgAliases, "SBG Systems sbgECom with IMU_SHORT or IMU_DATA", make_sbg, DeviceClock::counter},

@@ -11,6 +11,7 @@
 #include "codec/framer.hpp"
 #include "codec/gps_time.hpp"
 #include "codec/imu/known3.hpp"
+#include "codec/imu/vectornav_fix.hpp"
 #include "codec/imu/vectornav_layout.hpp"
 #include "codec/text/numbers.hpp"
 
@@ -89,25 +90,76 @@ DeviceTime device_time(Bytes frame, const Layout& layout) {
   }
   if (!clock[time_field::status]) return time;
   const std::uint8_t status = frame[clock[time_field::status]];
-  constexpr std::uint8_t kTimeOk = 1;
-  constexpr std::uint8_t kDateOk = 2;
-  constexpr std::uint8_t kUtcOk = 4;
+  using enum vectornav::TimeStatus;
   const std::size_t gps = clock[time_field::gps] ? clock[time_field::gps] : common[common_field::time_gps];
-  if (gps && (status & kTimeOk) && (status & kDateOk)) {
+  if (gps && (status & time_ok) && (status & date_ok)) {
     const auto ns = load_le<std::uint64_t>(frame, gps);
     if (ns < 1ULL << 62) time.utc_ns = utc_of_gps(static_cast<DurationNs>(ns));
-  } else if (const std::size_t utc = clock[time_field::utc]; utc && (status & kUtcOk)) {
-    CivilTime civil;
-    civil.year = 2000 + load_le<std::int8_t>(frame, utc);
-    civil.month = frame[utc + 1];
-    civil.day = frame[utc + 2];
-    civil.hour = frame[utc + 3];
-    civil.minute = frame[utc + 4];
-    civil.second = frame[utc + 5];
-    civil.nanosecond = load_le<std::uint16_t>(frame, utc + 6) * kNsPerMillisecond;
-    time.utc_ns = from_civil(civil);
+  } else if (const std::size_t utc = clock[time_field::utc]; utc && (status & utc_ok)) {
+    time.utc_ns = vectornav::utc_of_civil(frame, utc);
   }
   return time;
+}
+
+/// What a frame says of rates and forces.
+struct Inertial {
+  bool sent = false;
+  std::optional<RejectReason> refused;
+  ImuSample sample;
+};
+
+Inertial read_inertial(Bytes frame, const Layout& layout) {
+  const auto& common = layout.at[Group::common];
+  const auto& imu = layout.at[Group::imu];
+  Inertial out;
+  ImuSample& s = out.sample;
+  bool finite = true;
+  const auto take = [&](std::array<double, 3>& into, std::size_t at, double factor = 1.0) {
+    out.sent = true;
+    finite = finite && finite3(frame, at);
+    into = vector3(frame, at, factor);
+  };
+
+  if (const auto at = imu[imu_field::uncomp_gyro]) {
+    take(s.angular_rate_B_rad_s, at);
+  } else if (const auto both = common[common_field::imu]) {
+    take(s.angular_rate_B_rad_s, both + 12);
+  } else if (const auto compensated = imu[imu_field::angular_rate]) {
+    take(s.angular_rate_B_rad_s, compensated);
+  } else if (const auto in_common = common[common_field::angular_rate]) {
+    take(s.angular_rate_B_rad_s, in_common);
+  }
+  if (const auto at = imu[imu_field::uncomp_accel]) {
+    take(s.specific_force_B_m_s2, at);
+  } else if (const auto both = common[common_field::imu]) {
+    take(s.specific_force_B_m_s2, both);
+  } else if (const auto compensated = imu[imu_field::accel]) {
+    take(s.specific_force_B_m_s2, compensated);
+  } else if (const auto in_common = common[common_field::accel]) {
+    take(s.specific_force_B_m_s2, in_common);
+  }
+  if (const auto at = common[common_field::deltas]) {
+    s.delta_time_s = load_le<float>(frame, at);
+    take(s.delta_angle_B_rad, at + 4, kRadPerDeg);
+    take(s.delta_velocity_B_m_s, at + 16);
+  }
+  if (const auto at = imu[imu_field::delta_theta]) {
+    s.delta_time_s = load_le<float>(frame, at);
+    take(s.delta_angle_B_rad, at + 4, kRadPerDeg);
+  }
+  if (const auto at = imu[imu_field::delta_velocity]) take(s.delta_velocity_B_m_s, at);
+  if (!finite || std::isinf(s.delta_time_s)) {
+    out.refused = RejectReason::field;
+    return out;
+  }
+  set_from_increments(s);
+  if (const auto at = imu[imu_field::temperature]) {
+    s.temperature_degC = load_le<float>(frame, at);
+  } else if (const auto mag_pres = common[common_field::mag_pres]) {
+    s.temperature_degC = load_le<float>(frame, mag_pres + 12);
+  }
+  out.refused = refusal(s);
+  return out;
 }
 
 class VectorNav : public Framer {
@@ -183,56 +235,17 @@ class VectorNav : public Framer {
 
   Outcome decode_binary(Bytes frame, std::uint64_t offset, Sink& sink) {
     const Layout layout = read_layout(frame);
-    const auto& common = layout.at[Group::common];
-    const auto& imu = layout.at[Group::imu];
-    ImuSample s;
-    bool inertial = false;
-    bool finite = true;
-    const auto take = [&](std::array<double, 3>& into, std::size_t at, double factor = 1.0) {
-      inertial = true;
-      finite = finite && finite3(frame, at);
-      into = vector3(frame, at, factor);
-    };
-
-    if (const auto at = imu[imu_field::uncomp_gyro]) {
-      take(s.angular_rate_B_rad_s, at);
-    } else if (const auto both = common[common_field::imu]) {
-      take(s.angular_rate_B_rad_s, both + 12);
-    } else if (const auto compensated = imu[imu_field::angular_rate]) {
-      take(s.angular_rate_B_rad_s, compensated);
-    } else if (const auto in_common = common[common_field::angular_rate]) {
-      take(s.angular_rate_B_rad_s, in_common);
+    const Inertial inertial = read_inertial(frame, layout);
+    const auto fix = fixes_.take(frame, layout);
+    const bool has_sample = inertial.sent && !inertial.refused;
+    if (has_sample) emit(sink, inertial.sample, device_time(frame, layout), offset, frame.size());
+    if (fix && !fix->refused) {
+      emit(sink, fix->sample, fix->time, offset, frame.size());
+      return Outcome::used();
     }
-    if (const auto at = imu[imu_field::uncomp_accel]) {
-      take(s.specific_force_B_m_s2, at);
-    } else if (const auto both = common[common_field::imu]) {
-      take(s.specific_force_B_m_s2, both);
-    } else if (const auto compensated = imu[imu_field::accel]) {
-      take(s.specific_force_B_m_s2, compensated);
-    } else if (const auto in_common = common[common_field::accel]) {
-      take(s.specific_force_B_m_s2, in_common);
-    }
-    if (const auto at = common[common_field::deltas]) {
-      s.delta_time_s = load_le<float>(frame, at);
-      take(s.delta_angle_B_rad, at + 4, kRadPerDeg);
-      take(s.delta_velocity_B_m_s, at + 16);
-    }
-    if (const auto at = imu[imu_field::delta_theta]) {
-      s.delta_time_s = load_le<float>(frame, at);
-      take(s.delta_angle_B_rad, at + 4, kRadPerDeg);
-    }
-    if (const auto at = imu[imu_field::delta_velocity]) take(s.delta_velocity_B_m_s, at);
-    if (!inertial) return Outcome::ignored();
-    if (!finite || std::isinf(s.delta_time_s)) return Outcome::refused(RejectReason::field);
-    set_from_increments(s);
-    if (const auto at = imu[imu_field::temperature]) {
-      s.temperature_degC = load_le<float>(frame, at);
-    } else if (const auto mag_pres = common[common_field::mag_pres]) {
-      s.temperature_degC = load_le<float>(frame, mag_pres + 12);
-    }
-    if (const auto reason = refusal(s)) return Outcome::refused(*reason);
-    emit(sink, s, device_time(frame, layout), offset, frame.size());
-    return Outcome::used();
+    if (has_sample) return Outcome::used();
+    if (inertial.refused) return Outcome::refused(*inertial.refused);
+    return fix ? Outcome::refused(*fix->refused) : Outcome::ignored();
   }
 
   Outcome decode_text(Bytes frame, std::uint64_t offset, Sink& sink) {
@@ -264,6 +277,8 @@ class VectorNav : public Framer {
     emit(sink, s, DeviceTime{}, offset, frame.size());
     return Outcome::used();
   }
+
+  vectornav::Fixes fixes_;
 };
 
 }  // namespace

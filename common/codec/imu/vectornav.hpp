@@ -16,8 +16,16 @@ namespace fathom::codec {
 /// two estimators must not chase the same bias. Increments are used where the frame has them; when it has
 /// nothing else, rates are increments over their interval.
 ///
+/// Fix: of the receiver in the unit (VN-200, VN-300), from Fix with PosLla or VelNed of the group GNSS1, or
+/// GNSS2 in a stream without them; each fix once, however often frames repeat it (vectornav_fix.hpp).
+/// Position and velocity are unknown where Fix says so; PosU and VelU are taken for one sigma of an axis. The
+/// satellites are those that the receiver tracks. The group INS, the unit's own filter, is not read. Of a
+/// frame with an inertial part and a fix, one of which cannot be, the other one is kept; the frame is refused
+/// where nothing is left of it.
+///
 /// Time: TimeStartup as free-running clock (ns); UTC from TimeUtc or TimeGps where TimeStatus says that they
-/// are valid.
+/// are valid. That of a fix is the receiver's, from Tow and Week, else TimeUtc, of its group, unless its
+/// TimeInfo says that they are not valid.
 [[nodiscard]] std::unique_ptr<Codec> make_vectornav(const CodecOptions& options);
 
 /// CRC-16 of a binary frame (polynomial 0x1021, initially 0, not reflected) over the bytes after 0xFA. Over

@@ -38,13 +38,29 @@ enum Field : std::size_t {
   angular_rate = 10
 };
 }
+namespace gnss_field {
+enum Field : std::size_t {
+  utc = 0,
+  tow = 1,
+  week = 2,
+  num_sats = 3,
+  fix = 4,
+  pos_lla = 5,
+  vel_ned = 7,
+  pos_u = 9,
+  vel_u = 10,
+  time_info = 12,
+  dop = 13
+};
+}
 
 /// Where each field of a frame lies, from the sync byte; 0 for a field that is absent.
 struct Layout {
   enum class State : std::uint8_t { complete, more_needed, unknown_field };
   State state = State::more_needed;
   std::size_t length = 2;  ///< of the whole frame with CRC; bytes wanted while more_needed
-  std::array<std::array<std::size_t, 16>, kGroups> at{};
+  using Fields = std::array<std::size_t, 16>;
+  std::array<Fields, kGroups> at{};
 };
 
 /// Reads masks (and the counts of the fields of variable length) of the frame that starts at front[0].

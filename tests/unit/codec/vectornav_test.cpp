@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -202,6 +203,202 @@ TEST(VectorNav, OtherTextIsSkipped) {
       decode("vectornav", text("$GPRMC,,V,,,,,,,,,,N*53\r\n") + good_frame() + text("M,4240\r\n"));
   EXPECT_EQ(run.totals.samples, 1U);
   EXPECT_EQ(run.totals.rejected, 0U);
+}
+
+/// Fields of a GNSS group: a good fix off the Korean coast at 2024-06-30 23:59:59.5, which is 86417.5 s of
+/// week 2321.
+struct Gnss {
+  std::uint64_t tow_ns = 86'417'500'000'000;
+  std::uint16_t week = 2321;
+  std::uint8_t satellites = 11;
+  std::uint8_t fix = 3;
+  double latitude_deg = -36.4;
+  double longitude_deg = 127.4;
+  double altitude_m = 18.5;
+  std::vector<float> velocity_N_m_s{1.25F, -0.25F, 0.5F};
+  std::uint8_t status = 0x07;
+
+  /// In this order the fields 1 to 5, 7, 9, 10, 12 and 13.
+  static constexpr std::uint16_t kMask = 0x36BE;
+  [[nodiscard]] ByteVector bytes() const {
+    ByteVector b;
+    append_le<std::uint64_t>(b, tow_ns);
+    append_le<std::uint16_t>(b, week);
+    b.push_back(satellites);
+    b.push_back(fix);
+    for (const double v : {latitude_deg, longitude_deg, altitude_m}) append_le<double>(b, v);
+    b = b + floats(velocity_N_m_s) + floats({1.5F, 2.0F, 3.0F}) + floats({0.25F}) + ByteVector{status, 18};
+    return b + floats({9, 8, 7, 6, 0.75F, 5, 4});
+  }
+  [[nodiscard]] ByteVector frame() const { return vectornav_frame(0x08, {kMask}, bytes()); }
+  [[nodiscard]] ByteVector with_inertial() const {
+    return vectornav_frame(0x0C, {0x000C, kMask}, kRateAndForce + bytes());
+  }
+};
+
+ByteVector infinite_rate_and_fix(const Gnss& gnss) {
+  const ByteVector rate = floats({0, 0, std::numeric_limits<float>::infinity()});
+  return vectornav_frame(0x0C, {0x0008, Gnss::kMask}, rate + gnss.bytes());
+}
+
+TEST(VectorNavFix, ReadsTheGroupOfTheReceiver) {
+  const Harvest run = decode("vectornav", Gnss{}.frame());
+  ASSERT_EQ(run.samples.size(), 1U);
+  EXPECT_EQ(to_iso8601(*run.samples[0].time.utc_ns), "2024-06-30T23:59:59.500Z");
+  EXPECT_FALSE(run.samples[0].time.clock_ns.has_value());
+  const auto& s = std::get<GpsSample>(run.samples[0].sample);
+  EXPECT_EQ(s.fix, GpsFix::fix_3d);
+  EXPECT_EQ(s.satellites, 11);
+  EXPECT_DOUBLE_EQ(s.latitude_rad, -36.4 * std::numbers::pi / 180.0);
+  EXPECT_DOUBLE_EQ(s.longitude_rad, 127.4 * std::numbers::pi / 180.0);
+  EXPECT_EQ(s.altitude_m, 18.5);
+  EXPECT_FALSE(known(s.altitude_msl_m));
+  EXPECT_EQ(s.velocity_N_m_s, (std::array<double, 3>{1.25, -0.25, 0.5}));
+  EXPECT_EQ(s.position_sigma_N_m, (std::array<double, 3>{1.5, 2.0, 3.0}));
+  EXPECT_EQ(s.velocity_sigma_N_m_s, (std::array<double, 3>{0.25, 0.25, 0.25}));
+  EXPECT_EQ(s.hdop, 0.75);
+}
+
+TEST(VectorNavFix, FixKinds) {
+  const std::map<std::uint8_t, GpsFix> kinds{
+      {0, GpsFix::none},         {1, GpsFix::time_only}, {2, GpsFix::fix_2d},   {3, GpsFix::fix_3d},
+      {4, GpsFix::differential}, {7, GpsFix::rtk_float}, {8, GpsFix::rtk_fixed}};
+  for (const auto& [code, kind] : kinds) {
+    const auto fixes = of_kind<GpsSample>(decode("vectornav", Gnss{.fix = code}.frame()));
+    ASSERT_EQ(fixes.size(), 1U) << int{code};
+    EXPECT_EQ(fixes[0].second.fix, kind) << int{code};
+    EXPECT_EQ(known(fixes[0].second.latitude_rad), code >= 2) << int{code};
+    EXPECT_EQ(known(fixes[0].second.velocity_N_m_s[0]), code >= 2) << int{code};
+    EXPECT_EQ(fixes[0].second.satellites, 11) << int{code};
+  }
+}
+
+TEST(VectorNavFix, InertialDataComesFirstAndARepeatedFixOnce) {
+  Gnss gnss;
+  ByteVector stream = gnss.with_inertial() + gnss.with_inertial() + gnss.frame();
+  gnss.tow_ns += 200'000'000;
+  stream = stream + gnss.with_inertial();
+  const Harvest run = decode("vectornav", stream);
+  std::vector<std::size_t> kinds;
+  for (const Decoded& decoded : run.samples) kinds.push_back(decoded.sample.index());
+  const std::size_t imu = AnySample(ImuSample{}).index();
+  const std::size_t gps = AnySample(GpsSample{}).index();
+  EXPECT_EQ(kinds, (std::vector<std::size_t>{imu, gps, imu, imu, gps}));
+  EXPECT_EQ(run.totals.frames_ignored, 1U);
+  EXPECT_EQ(run.totals.rejected, 0U);
+  EXPECT_EQ(run.totals.skipped_bytes, 0U);
+}
+
+TEST(VectorNavFix, ALostFixIsSaidThoughItsTimeStandsStill) {
+  const Harvest run = decode("vectornav", Gnss{}.frame() + Gnss{.fix = 0}.frame() + Gnss{.fix = 0}.frame());
+  const auto fixes = of_kind<GpsSample>(run);
+  ASSERT_EQ(fixes.size(), 2U);
+  EXPECT_EQ(fixes[1].second.fix, GpsFix::none);
+}
+
+/// Fields 3 to 5 and 7: nothing that says when.
+ByteVector timeless(double latitude_deg) {
+  ByteVector b{11, 3};
+  for (const double v : {latitude_deg, 127.4, 18.5}) append_le<double>(b, v);
+  return vectornav_frame(0x08, {0x00B8}, b + floats({1, 2, 3}));
+}
+
+TEST(VectorNavFix, WithoutTowTimeUtcOrTheValuesTellANewOne) {
+  const Harvest run = decode("vectornav", timeless(36.4) + timeless(36.4) + timeless(36.5));
+  EXPECT_EQ(of_kind<GpsSample>(run).size(), 2U);
+  EXPECT_EQ(run.totals.frames_ignored, 1U);
+
+  const auto with_utc = [](std::uint8_t second) {  // fields 0, 4 and 7; half a second less by its fraction
+    const ByteVector utc{24, 6, 30, 23, 59, second, 0x0C, 0xFE};
+    return vectornav_frame(0x08, {0x0091}, utc + ByteVector{3} + floats({1, 2, 3}));
+  };
+  const Harvest dated = decode("vectornav", with_utc(58) + with_utc(58) + with_utc(59));
+  ASSERT_EQ(dated.samples.size(), 2U);
+  EXPECT_EQ(to_iso8601(*dated.samples[1].time.utc_ns), "2024-06-30T23:59:58.500Z");
+  EXPECT_FALSE(known(std::get<GpsSample>(dated.samples[1].sample).latitude_rad));
+}
+
+TEST(VectorNavFix, FramesThatTellLessOfItAddNone) {
+  Gnss gnss;
+  ByteVector stream;
+  for (int i = 0; i < 3; ++i) {
+    stream = stream + gnss.frame() + timeless(-36.4);
+    gnss.tow_ns += 200'000'000;
+  }
+  EXPECT_EQ(decode("vectornav", stream).totals.samples, 3U);
+}
+
+TEST(VectorNavFix, TheSecondAntennaCountsOnlyWithoutTheFirst) {
+  const Gnss first;
+  const Gnss second{.latitude_deg = -36.5};
+  const ByteVector alone = vectornav_frame(0x40, {Gnss::kMask}, second.bytes());
+  const ByteVector both = vectornav_frame(0x48, {Gnss::kMask, Gnss::kMask}, first.bytes() + second.bytes());
+  EXPECT_EQ(of_kind<GpsSample>(decode("vectornav", alone)).size(), 1U);
+  const auto fixes = of_kind<GpsSample>(decode("vectornav", alone + both + alone));
+  ASSERT_EQ(fixes.size(), 2U);
+  EXPECT_DOUBLE_EQ(fixes[1].second.latitude_rad, -36.4 * std::numbers::pi / 180.0);
+}
+
+TEST(VectorNavFix, TimeOnlyWhereTimeInfoVouchesForIt) {
+  for (const std::uint8_t status : {0, 1, 2, 3, 4, 7}) {
+    const Harvest run = decode("vectornav", Gnss{.status = status}.frame());
+    ASSERT_EQ(run.samples.size(), 1U);
+    EXPECT_EQ(run.samples[0].time.utc_ns.has_value(), (status & 3) == 3) << int{status};
+  }
+}
+
+TEST(VectorNavFix, GroupsWithoutFixOrWithNeitherPositionNorVelocityAreIgnored) {
+  ByteVector position;
+  for (const double v : {36.4, 127.4, 18.5}) append_le<double>(position, v);
+  const Harvest run = decode(
+      "vectornav", vectornav_frame(0x08, {0x0020}, position) + vectornav_frame(0x08, {0x0018}, {11, 3}));
+  EXPECT_EQ(run.totals.samples, 0U);
+  EXPECT_EQ(run.totals.frames_ignored, 2U);
+}
+
+TEST(VectorNavFix, AnImpossibleOneIsRefusedOnceAndInertialDataAreKept) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::pair<Gnss, RejectReason>> faults{
+      {{.latitude_deg = 90.5}, RejectReason::out_of_range},
+      {{.longitude_deg = -180.5}, RejectReason::out_of_range},
+      {{.altitude_m = nan}, RejectReason::field},
+      {{.velocity_N_m_s = {0, std::numeric_limits<float>::infinity(), 0}}, RejectReason::field},
+      {{.fix = 5}, RejectReason::field},
+      {{.tow_ns = 604'800'000'000'001}, RejectReason::out_of_range}};
+  for (const auto& [gnss, reason] : faults) {
+    const Harvest alone = decode("vectornav", gnss.frame() + gnss.frame());
+    EXPECT_EQ(alone.totals.samples, 0U);
+    ASSERT_EQ(alone.rejected.size(), 1U);
+    EXPECT_EQ(alone.rejected[0].reason, reason);
+    EXPECT_EQ(alone.totals.frames_ignored, 1U);
+
+    const Harvest kept = decode("vectornav", gnss.with_inertial());
+    EXPECT_EQ(of_kind<ImuSample>(kept).size(), 1U);
+    EXPECT_EQ(kept.totals.samples, 1U);
+    EXPECT_EQ(kept.totals.rejected, 0U);
+  }
+}
+
+TEST(VectorNavFix, IsKeptWhereTheInertialDataCannotBe) {
+  const Harvest run = decode("vectornav", infinite_rate_and_fix({}) + infinite_rate_and_fix({}));
+  EXPECT_EQ(of_kind<GpsSample>(run).size(), 1U);
+  EXPECT_EQ(run.totals.samples, 1U);
+  ASSERT_EQ(run.rejected.size(), 1U);  // the second one, which has no new fix
+  EXPECT_EQ(run.rejected[0].reason, RejectReason::field);
+}
+
+TEST(VectorNavFix, AnAccuracyThatIsNoneIsUnknown) {
+  ByteVector b{3};
+  for (const double v : {36.4, 127.4, 18.5}) append_le<double>(b, v);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto fixes =
+      of_kind<GpsSample>(decode("vectornav", vectornav_frame(0x08, {0x0230}, b + floats({0.0F, nan, 2.0F}))));
+  ASSERT_EQ(fixes.size(), 1U);
+  EXPECT_FALSE(known(fixes[0].second.position_sigma_N_m[0]));
+  EXPECT_FALSE(known(fixes[0].second.position_sigma_N_m[1]));
+  EXPECT_EQ(fixes[0].second.position_sigma_N_m[2], 2.0);
+  EXPECT_FALSE(known(fixes[0].second.velocity_N_m_s[0]));
+  EXPECT_EQ(fixes[0].second.satellites, -1);
 }
 
 TEST(VectorNav, CutFrameAtTheEndIsTruncated) {
