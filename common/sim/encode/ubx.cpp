@@ -1,67 +1,13 @@
 #include "sim/encode/ubx.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <bit>
 
 #include "base/bytes/little_endian.hpp"
-#include "base/units.hpp"
 #include "codec/fletcher.hpp"
-#include "codec/gps_time.hpp"
 #include "codec/satellite/ubx.hpp"
+#include "sim/encode/pvt.hpp"
 
 namespace fathom::sim::encode {
-namespace {
-
-std::int32_t scaled(double value, double scale) {
-  if (!known(value)) return 0;
-  constexpr double kLimit = std::numeric_limits<std::int32_t>::max();
-  return static_cast<std::int32_t>(std::llround(std::clamp(value * scale, -kLimit, kLimit)));
-}
-
-/// An accuracy in thousandths; unknown is the largest number.
-std::uint32_t accuracy(double value) {
-  constexpr double kLimit = std::numeric_limits<std::uint32_t>::max();
-  const double milli = known(value) ? std::clamp(value * 1e3, 0.0, kLimit) : kLimit;
-  return static_cast<std::uint32_t>(std::llround(milli));
-}
-
-std::uint8_t fix_type(GpsFix fix) {
-  switch (fix) {
-    case GpsFix::none:
-      return 0;
-    case GpsFix::time_only:
-      return 5;
-    case GpsFix::dead_reckoning:
-      return 1;
-    case GpsFix::fix_2d:
-      return 2;
-    default:
-      return 3;
-  }
-}
-
-std::uint8_t fix_flags(GpsFix fix) {
-  constexpr std::uint8_t kFixOk = 0x01;
-  constexpr std::uint8_t kCorrected = 0x02;
-  constexpr std::uint8_t kCarrierFloat = 0x40;
-  constexpr std::uint8_t kCarrierFixed = 0x80;
-  switch (fix) {
-    case GpsFix::none:
-      return 0;
-    case GpsFix::differential:
-      return kFixOk | kCorrected;
-    case GpsFix::rtk_float:
-      return kFixOk | kCorrected | kCarrierFloat;
-    case GpsFix::rtk_fixed:
-      return kFixOk | kCorrected | kCarrierFixed;
-    default:
-      return kFixOk;
-  }
-}
-
-}  // namespace
-
 std::vector<std::uint8_t> ubx_frame(std::uint8_t message_class, std::uint8_t message_id,
                                     std::span<const std::uint8_t> payload) {
   std::vector<std::uint8_t> frame;
@@ -78,43 +24,11 @@ std::vector<std::uint8_t> ubx_frame(std::uint8_t message_class, std::uint8_t mes
 }
 
 std::vector<std::uint8_t> ubx_nav_pvt(const GpsSample& sample, TimeNs utc_ns) {
-  const CivilTime civil = to_civil(utc_ns);
+  constexpr std::size_t kSatellitesAt = 23;
+  std::vector<std::uint8_t> p = pvt_fields(sample, utc_ns, std::endian::little, kSatellitesAt);
+  append_le<std::uint32_t>(p, 0);  // accuracy of the heading
+  append_le<std::uint16_t>(p, pvt_dilution(sample.hdop));
   const bool located = sample.fix >= GpsFix::dead_reckoning;
-  const auto& v = sample.velocity_N_m_s;
-  const auto& sigma = sample.position_sigma_N_m;
-  const auto& speed_sigma = sample.velocity_sigma_N_m_s;
-  const double speed_m_s = std::hypot(v[0], v[1]);
-  double course_deg = std::atan2(v[1], v[0]) * kDegPerRad;
-  if (course_deg < 0.0) course_deg += 360.0;
-
-  std::vector<std::uint8_t> p;
-  p.reserve(92);
-  append_le<std::uint32_t>(
-      p, static_cast<std::uint32_t>(codec::gps_of_utc(utc_ns) % codec::kGpsWeek_ns / kNsPerMillisecond));
-  append_le<std::uint16_t>(p, static_cast<std::uint16_t>(civil.year));
-  for (const int field : {civil.month, civil.day, civil.hour, civil.minute, civil.second}) {
-    p.push_back(static_cast<std::uint8_t>(field));
-  }
-  p.push_back(0x07);  // date and time valid, fully resolved
-  append_le<std::uint32_t>(p, 30);
-  append_le<std::int32_t>(p, static_cast<std::int32_t>(civil.nanosecond));
-  p.push_back(fix_type(sample.fix));
-  p.push_back(fix_flags(sample.fix));
-  p.push_back(0);
-  p.push_back(static_cast<std::uint8_t>(std::clamp(sample.satellites, 0, 255)));
-  append_le<std::int32_t>(p, scaled(sample.longitude_rad * kDegPerRad, 1e7));
-  append_le<std::int32_t>(p, scaled(sample.latitude_rad * kDegPerRad, 1e7));
-  append_le<std::int32_t>(p, scaled(sample.altitude_m, 1e3));
-  append_le<std::int32_t>(p, scaled(sample.altitude_msl_m, 1e3));
-  append_le<std::uint32_t>(p, accuracy(std::hypot(sigma[0], sigma[1])));
-  append_le<std::uint32_t>(p, accuracy(sigma[2]));
-  for (const double component : v) append_le<std::int32_t>(p, scaled(component, 1e3));
-  append_le<std::int32_t>(p, scaled(speed_m_s, 1e3));
-  append_le<std::int32_t>(p, scaled(course_deg, 1e5));
-  append_le<std::uint32_t>(p, accuracy(std::max({speed_sigma[0], speed_sigma[1], speed_sigma[2]})));
-  append_le<std::uint32_t>(p, 0);
-  const double dilution = known(sample.hdop) ? std::clamp(sample.hdop * 100.0, 0.0, 9999.0) : 9999.0;
-  append_le<std::uint16_t>(p, static_cast<std::uint16_t>(dilution));
   p.push_back(located ? 0 : 1);  // invalidLlh
   p.resize(92, 0);
   return ubx_frame(0x01, 0x07, p);

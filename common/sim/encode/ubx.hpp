@@ -13,9 +13,8 @@ namespace fathom::sim::encode {
 [[nodiscard]] std::vector<std::uint8_t> ubx_frame(std::uint8_t message_class, std::uint8_t message_id,
                                                   std::span<const std::uint8_t> payload);
 
-/// UBX NAV-PVT (92 bytes), time fully resolved. hAcc is the radius of the two horizontal sigmas, sAcc the
-/// largest velocity sigma; unknown accuracies are sent as the largest number. Without fix gnssFixOK is 0 and
-/// the position is marked invalid. Resolution: 1e-7 degree, 1 mm, 1 mm/s.
+/// UBX NAV-PVT (92 bytes), with the accuracies and the resolution of pvt_fields() (pvt.hpp). Without fix the
+/// position is marked invalid.
 [[nodiscard]] std::vector<std::uint8_t> ubx_nav_pvt(const GpsSample& sample, TimeNs utc_ns);
 
 }  // namespace fathom::sim::encode

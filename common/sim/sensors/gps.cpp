@@ -4,6 +4,8 @@
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "sim/encode/imu/vectornav.hpp"
+#include "sim/encode/imu/xsens.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/ubx.hpp"
 #include "sim/truth_generator.hpp"
@@ -71,6 +73,8 @@ GpsSample GpsModel::sample(const TruthPoint& point) {
 
 Bytes SimulatedDevice<GpsSample>::encode(const GpsSample& gps, const DeviceCall& device) {
   if (device.protocol == "ubx") return encode::ubx_nav_pvt(gps, gps.header.stamp_ns);
+  if (device.protocol == "vectornav") return encode::vectornav_fix({gps, gps.header.stamp_ns});
+  if (device.protocol == "xsens") return encode::xsens_fix(gps, gps.header.stamp_ns);
   return bytes_of(encode::nmea_gps(gps, gps.header.stamp_ns));
 }
 

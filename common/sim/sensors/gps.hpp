@@ -59,7 +59,7 @@ struct ModelOf<GpsSample> {
 template <>
 class SimulatedDevice<GpsSample> {
  public:
-  static constexpr std::array<std::string_view, 2> kProtocols{"nmea0183", "ubx"};
+  static constexpr std::array<std::string_view, 4> kProtocols{"nmea0183", "ubx", "vectornav", "xsens"};
   [[nodiscard]] Bytes encode(const GpsSample& gps, const DeviceCall& device);
 };
 

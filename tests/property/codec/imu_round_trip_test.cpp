@@ -101,6 +101,94 @@ TEST_F(ImuRoundTrip, XsensKeepsTicksAndSinglePrecision) {
   }
 }
 
+/// A fix of any kind that a satellite receiver knows, but dead reckoning.
+class ImuFixRoundTrip : public test::RoundTrip {
+ protected:
+  GpsSample draw_fix() {
+    constexpr std::array kKinds{GpsFix::none,         GpsFix::time_only, GpsFix::fix_2d,   GpsFix::fix_3d,
+                                GpsFix::differential, GpsFix::rtk_float, GpsFix::rtk_fixed};
+    GpsSample s;
+    s.fix = kKinds[static_cast<std::size_t>(draw(0.0, 7.0))];
+    s.satellites = static_cast<std::int32_t>(draw(0.0, 40.0));
+    s.latitude_rad = draw(-90.0, 90.0) * kRadPerDeg;
+    s.longitude_rad = draw(-180.0, 180.0) * kRadPerDeg;
+    s.altitude_m = draw(-400.0, 9'000.0);
+    s.altitude_msl_m = s.altitude_m + draw(-90.0, 90.0);
+    s.velocity_N_m_s = draw3(300.0);
+    s.position_sigma_N_m = {draw(0.01, 20.0), draw(0.01, 20.0), draw(0.01, 20.0)};
+    s.velocity_sigma_N_m_s.fill(draw(0.01, 2.0));
+    s.hdop = draw(0.5, 20.0);
+    return s;
+  }
+};
+
+TEST_F(ImuFixRoundTrip, VectorNavKeepsDegreesAndSinglePrecision) {
+  for (int run = 0; run < kRuns; ++run) {
+    const sim::encode::VectornavFix sent{draw_fix(), kSomeTime_ns + run * 10'000'001LL};
+    const bool inertial = chance(0.5);
+    ImuSample imu;
+    imu.angular_rate_B_rad_s = draw3(3.0);
+    imu.specific_force_B_m_s2 = draw3(30.0);
+    const auto frame = inertial ? sim::encode::vectornav(imu, 1'000'000, std::nullopt, &sent)
+                                : sim::encode::vectornav_fix(sent);
+    const auto got = read(codec::make_vectornav({}), frame);
+    ASSERT_EQ(got.size(), inertial ? 2U : 1U);
+    if (inertial) {
+      EXPECT_TRUE(std::holds_alternative<ImuSample>(got[0].sample));
+    }
+    const auto& r = std::get<GpsSample>(got.back().sample);
+    const GpsSample& s = sent.sample;
+    EXPECT_EQ(got.back().time.utc_ns, sent.utc_ns);
+    EXPECT_EQ(r.fix, s.fix);
+    EXPECT_EQ(r.satellites, s.satellites);
+    ASSERT_EQ(known(r.latitude_rad), s.fix >= GpsFix::fix_2d);
+    if (!known(r.latitude_rad)) continue;
+    EXPECT_NEAR(r.latitude_rad, s.latitude_rad, 1e-15);
+    EXPECT_NEAR(r.longitude_rad, s.longitude_rad, 1e-15);
+    EXPECT_EQ(r.altitude_m, s.altitude_m);
+    expect_same3(s.velocity_N_m_s, r.velocity_N_m_s, 6e-8, 0.0);
+    expect_same3(s.position_sigma_N_m, r.position_sigma_N_m, 6e-8, 0.0);
+    expect_same3(s.velocity_sigma_N_m_s, r.velocity_sigma_N_m_s, 6e-8, 0.0);
+    EXPECT_NEAR(r.hdop, s.hdop, 6e-8 * s.hdop);
+  }
+}
+
+TEST_F(ImuFixRoundTrip, XsensKeepsHalfACount) {
+  constexpr double kHalf_m = 0.501e-3;
+  constexpr double kHalf_rad = 0.501e-7 * kRadPerDeg;
+  for (int run = 0; run < kRuns; ++run) {
+    const GpsSample s = draw_fix();
+    const TimeNs utc_ns = kSomeTime_ns + run * 10'000'001LL;
+    ImuSample imu;
+    imu.angular_rate_B_rad_s = draw3(3.0);
+    imu.specific_force_B_m_s2 = draw3(30.0);
+    const bool inertial = chance(0.5);
+    auto message = sim::encode::xsens_fix(s, utc_ns);
+    if (inertial) message = sim::encode::xsens_together(sim::encode::xsens(imu, 7, 1'000'000), message);
+    const auto got = read(codec::make_xsens({}), message);
+    ASSERT_EQ(got.size(), inertial ? 2U : 1U);
+    if (inertial) {
+      EXPECT_TRUE(std::holds_alternative<ImuSample>(got[0].sample));
+    }
+    const auto& r = std::get<GpsSample>(got.back().sample);
+    EXPECT_EQ(got.back().time.utc_ns, utc_ns);
+    EXPECT_EQ(r.fix, s.fix);
+    EXPECT_EQ(r.satellites, s.satellites);
+    ASSERT_EQ(known(r.latitude_rad), s.fix >= GpsFix::fix_2d);
+    if (!known(r.latitude_rad)) continue;
+    EXPECT_NEAR(r.latitude_rad, s.latitude_rad, kHalf_rad);
+    EXPECT_NEAR(r.longitude_rad, s.longitude_rad, kHalf_rad);
+    EXPECT_NEAR(r.altitude_m, s.altitude_m, kHalf_m);
+    EXPECT_NEAR(r.altitude_msl_m, s.altitude_msl_m, kHalf_m);
+    expect_same3(s.velocity_N_m_s, r.velocity_N_m_s, 0.0, kHalf_m);
+    EXPECT_NEAR(std::hypot(r.position_sigma_N_m[0], r.position_sigma_N_m[1]),
+                std::hypot(s.position_sigma_N_m[0], s.position_sigma_N_m[1]), kHalf_m);
+    EXPECT_NEAR(r.position_sigma_N_m[2], s.position_sigma_N_m[2], kHalf_m);
+    expect_same3(s.velocity_sigma_N_m_s, r.velocity_sigma_N_m_s, 0.0, kHalf_m);
+    EXPECT_NEAR(r.hdop, s.hdop, 0.01);
+  }
+}
+
 TEST_F(ImuRoundTrip, Stim300KeepsHalfACount) {
   constexpr std::array<double, 4> kRanges_g{5.0, 10.0, 30.0, 80.0};
   constexpr std::array<double, 3> kRates_Hz{0.0, 125.0, 2'000.0};

@@ -133,6 +133,26 @@ std::optional<TimeNs> some_utc(int frame) {
   return frame % 4 == 3 ? std::optional<TimeNs>(instant(frame)) : std::nullopt;
 }
 
+/// Inertial data, fixes, of which the frames repeat each, and both in one frame.
+void vectornav_frames(ByteVector& stream, int frame) {
+  const sim::encode::VectornavFix fix{gps(frame / 2), instant(frame / 2)};
+  append(stream, sim::encode::vectornav(imu(frame), since_power_on(frame), some_utc(frame)));
+  if (frame % 4 == 2)
+    append(stream, sim::encode::vectornav(imu(frame), since_power_on(frame), some_utc(frame), &fix));
+  append(stream, sim::encode::vectornav_fix(fix));
+}
+
+/// Inertial data, fixes, and in one message both.
+void xsens_messages(ByteVector& stream, int frame) {
+  const ByteVector inertial = sim::encode::xsens(imu(frame), static_cast<std::uint16_t>(65'533 + frame),
+                                                 since_power_on(frame), some_utc(frame));
+  const ByteVector fix = sim::encode::xsens_fix(gps(frame), instant(frame));
+  append(stream, frame % 3 == 2 ? sim::encode::xsens_together(inertial, fix) : inertial);
+  if (frame % 3 == 0) append(stream, fix);
+  append(stream, sim::encode::xsens_message(0x42, {0x28}));                 // an error code
+  append(stream, sim::encode::xsens_message(0x0D, ByteVector(300, 0x03)));  // of extended length
+}
+
 /// IMU_SHORT, across the return of the clock's bits to 0, and later IMU_DATA.
 void sbg_logs(ByteVector& stream, int frame) {
   const bool later = frame >= kFrames / 2;
@@ -258,12 +278,9 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::nortek(track, {instant(frame), instant(frame) + 190 * kNsPerMillisecond}));
     append(stream, sim::encode::nortek_record(0x16, ByteVector(77, 0xA5), frame % 2 == 0));  // currents
   } else if (protocol == "vectornav") {
-    append(stream, sim::encode::vectornav(imu(frame), since_power_on(frame), some_utc(frame)));
+    vectornav_frames(stream, frame);
   } else if (protocol == "xsens") {
-    append(stream, sim::encode::xsens(imu(frame), static_cast<std::uint16_t>(65'533 + frame),
-                                      since_power_on(frame), some_utc(frame)));
-    append(stream, sim::encode::xsens_message(0x42, {0x28}));                 // an error code
-    append(stream, sim::encode::xsens_message(0x0D, ByteVector(300, 0x03)));  // of extended length
+    xsens_messages(stream, frame);
   } else if (protocol == "sbg") {
     sbg_logs(stream, frame);
   } else if (protocol == "stim300") {

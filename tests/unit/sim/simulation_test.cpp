@@ -334,6 +334,36 @@ TEST(DeviceEncoder, KnowsWhatItCanSay) {
   EXPECT_EQ(find_sensor(SensorSuite{}, "sonar"), nullptr);
 }
 
+TEST(DeviceEncoder, AReceiverIsUnderstoodInEachOfItsProtocols) {
+  const Scenario scenario = instrumented();
+  GpsSample gps;
+  gps.header.stamp_ns = kEpoch + kNsPerSecond;
+  gps.fix = GpsFix::fix_3d;
+  gps.satellites = 9;
+  gps.latitude_rad = 0.63;
+  gps.longitude_rad = -2.1;
+  gps.altitude_m = 3.0;
+  gps.altitude_msl_m = 30.0;
+  gps.position_sigma_N_m = {1.0, 1.0, 2.0};
+  gps.velocity_N_m_s = {1.0, -2.0, 0.0};
+  gps.velocity_sigma_N_m_s = {0.1, 0.1, 0.1};
+  gps.hdop = 0.9;
+  for (const std::string_view protocol : SimulatedDevice<GpsSample>::kProtocols) {
+    SimulatedDevice<GpsSample> device;
+    const auto codec = codec::find_protocol(protocol)->make({});
+    Collected sink;
+    codec->feed(device.encode(gps, {protocol, scenario, kEpoch}), sink);
+    codec->finish(sink);
+    ASSERT_EQ(sink.samples.size(), 1U) << protocol;
+    const auto& read = std::get<GpsSample>(sink.samples[0].sample);
+    EXPECT_EQ(read.fix, GpsFix::fix_3d) << protocol;
+    EXPECT_NEAR(read.latitude_rad, gps.latitude_rad, 2e-9) << protocol;
+    EXPECT_NEAR(read.longitude_rad, gps.longitude_rad, 2e-9) << protocol;
+    EXPECT_NEAR(read.velocity_N_m_s[0], 1.0, 0.02) << protocol;
+    EXPECT_NEAR(read.velocity_N_m_s[1], -2.0, 0.02) << protocol;
+  }
+}
+
 TEST(DeviceEncoder, SpeaksOnlyProtocolsThatTheRegistryDecodes) {
   for_each_kind([](auto kind) {
     for (const std::string_view protocol : SimulatedDevice<typename decltype(kind)::Sample>::kProtocols) {

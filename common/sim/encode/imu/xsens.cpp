@@ -1,12 +1,14 @@
 #include "sim/encode/imu/xsens.hpp"
 
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
 #include "base/bytes/big_endian.hpp"
 #include "codec/imu/known3.hpp"
 #include "codec/imu/xsens.hpp"
+#include "sim/encode/pvt.hpp"
 
 namespace fathom::sim::encode {
 namespace {
@@ -88,6 +90,28 @@ Message xsens(const ImuSample& s, std::uint16_t counter, DurationNs since_startu
   if (known(s.temperature_degC)) {
     put_head(data, xbus::Item::temperature, 4);
     put_float(data, s.temperature_degC);
+  }
+  return xsens_message(xbus::kMtData2, data);
+}
+
+Message xsens_fix(const GpsSample& sample, TimeNs utc_ns) {
+  constexpr std::size_t kSatellitesAt = 22;
+  Message item = pvt_fields(sample, utc_ns, std::endian::big, kSatellitesAt);
+  append_be<std::uint32_t>(item, 0);  // accuracy of the heading
+  append_be<std::int32_t>(item, 0);   // heading of the vehicle
+  // Geometric, position, time, vertical, horizontal, northing, easting: as if all were the horizontal one.
+  while (item.size() < xbus::kGnssPvtBytes) append_be<std::uint16_t>(item, pvt_dilution(sample.hdop));
+  Message data;
+  put_head(data, xbus::Item::gnss_pvt, static_cast<std::uint8_t>(item.size()));
+  data.insert(data.end(), item.begin(), item.end());
+  return xsens_message(xbus::kMtData2, data);
+}
+
+Message xsens_together(const Message& first, const Message& second) {
+  Message data;
+  for (const Message& message : {first, second}) {
+    const bool extended = message[3] == xbus::kExtendedLength;
+    data.insert(data.end(), message.begin() + (extended ? 6 : 4), message.end() - 1);
   }
   return xsens_message(xbus::kMtData2, data);
 }
