@@ -18,10 +18,10 @@ namespace fathom::codec {
 ///
 /// Fix: of the receiver in the unit (VN-200, VN-300), from Fix with PosLla or VelNed of the group GNSS1, or
 /// GNSS2 in a stream without them; each fix once, however often frames repeat it (vectornav_fix.hpp).
-/// Position and velocity are unknown where Fix says so; PosU and VelU are taken for one sigma of an axis. The
-/// satellites are those that the receiver tracks. The group INS, the unit's own filter, is not read. Of a
-/// frame with an inertial part and a fix, one of which cannot be, the other one is kept; the frame is refused
-/// where nothing is left of it.
+/// Position and velocity are unknown where Fix says so; PosU and VelU are taken for one sigma of an axis, and
+/// NumSats, which later manuals call tracked, for those used (VN-200 manual, UM004, GPS Solution). The group
+/// INS, the unit's own filter, is not read. Of a frame with an inertial part and a fix, one of which cannot
+/// be, the other one is kept; the frame is refused where nothing is left of it.
 ///
 /// Time: TimeStartup as free-running clock (ns); UTC from TimeUtc or TimeGps where TimeStatus says that they
 /// are valid. That of a fix is the receiver's, from Tow and Week, else TimeUtc, of its group, unless its
