@@ -66,8 +66,8 @@ json port_of(const sim::SensorCommon& sensor, const sim::Scenario& scenario, con
 }
 
 double latency_of(const sim::SensorCommon& sensor, bool says_utc) {
-  if (has_counter(sensor)) return sensor.latency_s;
   if (says_utc || has_utc(sensor)) return 0.0;
+  if (has_counter(sensor)) return sensor.latency_s;
   return sensor.latency_s + 0.5 * sensor.jitter_s;
 }
 

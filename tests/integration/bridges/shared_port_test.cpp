@@ -1,9 +1,14 @@
+#include <csignal>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "byte_listener.hpp"
+#include "samples/gps.hpp"
+#include "samples/imu.hpp"
+#include "sim/encode/imu/vectornav.hpp"
 #include "support.hpp"
 
 namespace fathom::runtime {
@@ -137,6 +142,57 @@ TEST_F(SharedPort, DatagramsComeWhole) {
   const std::string longest(60'000, 'y');
   test::send_udp(udp.port, bytes_of(longest));
   EXPECT_TRUE(eventually([&] { return one.heard(longest) && two.heard(longest); }));
+}
+
+// A unit with a receiver inside, on one line, and a bridge for each.
+TEST(SharedPortOfBridges, OneOutlivesTheOtherAndBothReadAgain) {
+  constexpr int kDomain = 147;
+  const test::TemporaryFolder folder;
+  bus::Participant participant(test::test_participant(kDomain));
+  const test::Collector<ImuSample> imu(participant);
+  const test::Collector<GpsSample> gps(participant);
+  const test::SerialDevice unit(folder / "unit");
+  const std::string source = R"(sensors.0.source={"type":"serial","path":")" + (folder / "unit") +
+                             R"(","shared":true,"backoff_most_s":0.2})";
+  const auto start = [&](const std::string& kind, const std::string& log) {
+    return std::make_unique<test::Process>(
+        "fathom-" + kind + "-bridge",
+        test::bridge_arguments(kind, kDomain, {source, "sensors.0.protocol=vectornav"}), folder / log);
+  };
+  DurationNs startup_ns = 1000 * kNsPerSecond;
+  std::uint64_t sent = 0;
+  const auto talk = [&] {
+    startup_ns += 10 * kNsPerMillisecond;
+    ImuSample inertial;
+    inertial.angular_rate_B_rad_s = {0.125, -0.25, 0.5};
+    inertial.specific_force_B_m_s2 = {1.0, 2.0, -9.75};
+    sim::encode::VectornavFix fix;
+    fix.utc_ns = test::utc_now() - kNsPerMillisecond;
+    fix.sample.fix = GpsFix::fix_3d;
+    fix.sample.latitude_rad = 0.625;
+    fix.sample.longitude_rad = 2.25;
+    fix.sample.altitude_m = 12.5;
+    unit.send(sim::encode::vectornav(inertial, startup_ns, std::nullopt, ++sent % 20 == 0 ? &fix : nullptr));
+  };
+  const auto heard = [&](const auto& collector) {
+    const std::size_t before = collector.count();
+    return eventually([&] {
+      talk();
+      return collector.count() >= before + 3;
+    });
+  };
+  auto first = start("imu", "imu.log");
+  ASSERT_TRUE(heard(imu)) << first->output();
+  const auto second = start("gps", "gps.log");
+  ASSERT_TRUE(heard(gps)) << second->output();
+  ASSERT_TRUE(heard(imu)) << "the receiver's bridge takes nothing from the unit's: " << first->output();
+  EXPECT_NEAR(gps.all().back().latitude_rad, 0.625, 1e-12);
+  first->signal(SIGKILL);
+  EXPECT_EQ(first->wait(), -1);
+  ASSERT_TRUE(heard(gps)) << second->output();
+  first = start("imu", "imu_again.log");
+  EXPECT_TRUE(heard(imu)) << first->output();
+  EXPECT_TRUE(heard(gps)) << second->output();
 }
 
 }  // namespace

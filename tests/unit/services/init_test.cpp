@@ -144,9 +144,9 @@ TEST(Proposal, OfAnAutopilotOneBridgeIsTaken) {
   autopilot.recognition->kinds.push_back({SourceKind::gps, 100, 5.0});
   const auto made = propose({autopilot});
   ASSERT_EQ(made.size(), 1U);
-  EXPECT_EQ(made[0].instrument["kind"], "gps");
+  EXPECT_EQ(made[0].instrument["kind"], "imu");
   EXPECT_FALSE(made[0].instrument["port"].contains("shared"));
-  EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("imu as well")));
+  EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("gps as well")));
 }
 
 TEST(Proposal, NamesTheModelsThatSpeakSo) {
