@@ -9,12 +9,16 @@
 #include "codec/fletcher.hpp"
 #include "codec/framer.hpp"
 #include "codec/gps_time.hpp"
+#include "codec/imu/inner_receiver.hpp"
+#include "codec/imu/microstrain_gnss.hpp"
 
 namespace fathom::codec {
 
 namespace {
 
 using microstrain::Field;
+using microstrain::GnssData;
+using microstrain::GpsTime;
 
 // Sync, descriptor set and length of the fields; at the end two bytes of checksum. A field begins with its
 // length, which counts these two bytes, and its descriptor.
@@ -27,22 +31,11 @@ constexpr std::size_t kMaxMipPacket = kMipHeader + 255 + kMipChecksum;
 constexpr double kMaxMipRate_rad_s = 50.0;
 constexpr double kMaxMipForce_m_s2 = 1000.0;
 constexpr double kMaxMipInterval_s = 1.0;
-constexpr double kMaxMipClock_s = 4e9;  // more than a century, and 64 bits of nanoseconds hold it
 
 constexpr unsigned kAccelOverrangeBit = 0;  // x, y, z of the accelerometer, then of the gyro
 constexpr unsigned kGyroOverrangeBit = 4;
 
 using Triad = std::array<double, 3>;
-
-struct MipGpsTime {
-  DurationNs since_epoch_ns = 0;  ///< of its own clock where it is not valid
-  bool valid = false;
-};
-
-bool is_valid_shared(std::uint16_t flags) {
-  constexpr unsigned kTimeOfWeekAndWeek = 0x0003;
-  return (flags & kTimeOfWeekAndWeek) == kTimeOfWeekAndWeek;
-}
 
 bool is_valid_sensor(std::uint16_t flags) {
   constexpr unsigned kPulseAndTimeSet = 0x0005;
@@ -55,14 +48,14 @@ bool is_valid_sensor(std::uint16_t flags) {
 struct SensorData {
   std::optional<Triad> rate_B_rad_s, force_B_m_s2;
   std::optional<Triad> turn_B_rad, delta_v_B_m_s;
-  std::optional<MipGpsTime> sensor_gps, shared_gps;
+  std::optional<GpsTime> sensor_gps, shared_gps;
   std::optional<DurationNs> reference_ns;
   std::optional<double> reference_delta_s, delta_s;
   std::uint16_t overrange = 0;
   std::uint8_t event = 0;  ///< 0: as scheduled
 
   [[nodiscard]] bool has_increments() const { return turn_B_rad && delta_v_B_m_s; }
-  [[nodiscard]] const std::optional<MipGpsTime>& gps() const { return shared_gps ? shared_gps : sensor_gps; }
+  [[nodiscard]] const std::optional<GpsTime>& gps() const { return shared_gps ? shared_gps : sensor_gps; }
   [[nodiscard]] bool has_deltas() const { return reference_delta_s || delta_s; }
 
   /// Why the field is refused; nothing when it is good or one that nobody reads.
@@ -70,8 +63,6 @@ struct SensorData {
 
  private:
   static std::optional<RejectReason> take3(Bytes data, double unit, double most, std::optional<Triad>& into);
-  static std::optional<RejectReason> take_gps(Bytes data, bool (*is_valid)(std::uint16_t),
-                                              std::optional<MipGpsTime>& into);
   std::optional<RejectReason> take_delta(Bytes data);
 };
 
@@ -85,20 +76,6 @@ std::optional<RejectReason> SensorData::take3(Bytes data, double unit, double mo
     if (std::abs(v[i]) > most) return RejectReason::out_of_range;
   }
   into = v;
-  return std::nullopt;
-}
-
-std::optional<RejectReason> SensorData::take_gps(Bytes data, bool (*is_valid)(std::uint16_t),
-                                                 std::optional<MipGpsTime>& into) {
-  if (data.size() != 12) return RejectReason::structure;
-  const auto time_of_week_s = load_be<double>(data, 0);
-  const auto week = load_be<std::uint16_t>(data, 8);
-  const bool valid = is_valid(load_be<std::uint16_t>(data, 10));
-  const double since_epoch_s = week * to_seconds(kGpsWeek_ns) + time_of_week_s;
-  const bool possible = time_of_week_s >= 0.0 && since_epoch_s <= kMaxMipClock_s;  // a number at all
-  if (valid && !std::isfinite(time_of_week_s)) return RejectReason::field;
-  if (valid && !(possible && time_of_week_s <= to_seconds(kGpsWeek_ns))) return RejectReason::out_of_range;
-  if (possible) into = MipGpsTime{week * kGpsWeek_ns + from_seconds(time_of_week_s), valid};
   return std::nullopt;
 }
 
@@ -123,9 +100,9 @@ std::optional<RejectReason> SensorData::take(std::uint8_t descriptor, Bytes data
     case Field::delta_velocity:
       return take3(data, kG, kMaxMipForce_m_s2 * kMaxMipInterval_s, delta_v_B_m_s);
     case Field::gps_timestamp:
-      return take_gps(data, is_valid_sensor, sensor_gps);
+      return microstrain::read_gps_time(data, is_valid_sensor, sensor_gps);
     case Field::shared_gps_timestamp:
-      return take_gps(data, is_valid_shared, shared_gps);
+      return microstrain::read_gps_time(data, microstrain::week_and_time_valid, shared_gps);
     case Field::delta_time:
       return take_delta(data);
     case Field::overrange_status:
@@ -201,16 +178,43 @@ class MicroStrain : public Framer {
   }
 
   Outcome decode(Bytes packet, std::uint64_t offset, Sink& sink) override {
-    if (packet[2] != microstrain::kSensorData) return Outcome::ignored();
+    switch (packet[2]) {
+      case microstrain::kSensorData:
+        return decode_sensor(packet, offset, sink);
+      case microstrain::kGnss:
+      case microstrain::kGnss1:
+      case microstrain::kGnss2:
+        return decode_gnss(packet, offset, sink);
+      default:
+        return Outcome::ignored();
+    }
+  }
+
+  template <class Data>
+  static std::optional<RejectReason> read_fields(Bytes packet, Data& into) {
     Bytes fields = packet.subspan(kMipHeader, packet.size() - kMipHeader - kMipChecksum);
-    SensorData got;
     while (!fields.empty()) {
       const std::size_t size = fields[0];
-      if (size < kMipFieldHeader || size > fields.size()) return Outcome::refused(RejectReason::structure);
-      if (const auto reason = got.take(fields[1], fields.subspan(kMipFieldHeader, size - kMipFieldHeader)))
-        return Outcome::refused(*reason);
+      if (size < kMipFieldHeader || size > fields.size()) return RejectReason::structure;
+      if (const auto reason = into.take(fields[1], fields.subspan(kMipFieldHeader, size - kMipFieldHeader)))
+        return reason;
       fields = fields.subspan(size);
     }
+    return std::nullopt;
+  }
+
+  Outcome decode_gnss(Bytes packet, std::uint64_t offset, Sink& sink) {
+    GnssData got;
+    if (const auto reason = read_fields(packet, got)) return Outcome::refused(*reason);
+    if (!got.scheduled() || !got.has_position()) return Outcome::ignored();
+    if (!receiver_.takes(packet[2] == microstrain::kGnss2)) return Outcome::ignored();
+    emit(sink, got.sample(), got.time(), offset, packet.size());
+    return Outcome::used();
+  }
+
+  Outcome decode_sensor(Bytes packet, std::uint64_t offset, Sink& sink) {
+    SensorData got;
+    if (const auto reason = read_fields(packet, got)) return Outcome::refused(*reason);
     if (got.event != 0) return Outcome::ignored();
     DeviceTime time;
     time.clock_ns = clock_of(got);
@@ -269,6 +273,7 @@ class MicroStrain : public Framer {
     return s;
   }
 
+  FirstReceiver receiver_;
   bool has_reference_ = false;
   /// Packets without increments have them as well: a delta is not all of the interval.
   bool others_have_deltas_ = false;

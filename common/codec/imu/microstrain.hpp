@@ -9,10 +9,11 @@
 
 namespace fathom::codec {
 
-/// MicroStrain (LORD, Parker, HBK) 3DM units: MIP packets of descriptor set 0x80, sensor data (3DM-CV7 and
-/// 3DM-GX5 Data Communications Protocol: MIP packet; Sensor Data, set 0x80; Shared Data, set 0xFF).
-/// Packets of other sets are ignored, and so are those without both an angular rate and a force, or their
-/// increments, and those that an event sent beside the scheduled ones (field 0xD0).
+/// MicroStrain (LORD, Parker, HBK) 3DM units: MIP packets of descriptor set 0x80, sensor data, and of the
+/// sets of the satellite receivers (3DM-CV7 and 3DM-GX5 Data Communications Protocol: MIP packet; Sensor
+/// Data, set 0x80; GNSS Data, set 0x81; Shared Data, set 0xFF). Packets of other sets are ignored, and with
+/// them what the unit's own filter says (0x82). So are packets of sensor data without both an angular rate
+/// and a force, or their increments, and those that an event sent beside the scheduled ones (field 0xD0).
 ///
 /// Axes: those of the unit's vehicle frame, forward, right, down. It is the frame printed on the unit unless
 /// somebody has told the unit another one. Level and at rest z of the accelerometer is -1 g.
@@ -34,6 +35,15 @@ namespace fathom::codec {
 /// flags say so: of 0xD3 time of week and week; of 0x12 pulse per second present and time set (3DM-GX5-35,
 /// section 5.1.12, GPS Correlation Timestamp), and, of newer units, which say that as well, week and time of
 /// week valid.
+///
+/// Satellite fix: a packet of set 0x81 or 0x91 with a position (0x03), and of 0x92, the second antenna's,
+/// where no other is heard (FirstReceiver). Velocity (0x05), horizontal dilution (0x07) and fix info (0x0B)
+/// are those of the same packet. A number is known where its own flag says so, and position and velocity
+/// while the fix info calls the fix one; without that field the flag of the position decides. Accuracies: the
+/// maker's definitions (mip_sdk, data_gnss.h) say metres and no more; its driver for ROS takes the horizontal
+/// one for the deviation of each axis, north and east, and so does this codec: it is the cautious reading.
+/// UTC from the receiver's GPS time (0x09), else from its UTC (0x08) with known leap seconds. No clock: the
+/// reference time of such a packet need not be the instant of the fix.
 [[nodiscard]] std::unique_ptr<Codec> make_microstrain(const CodecOptions& options);
 
 namespace microstrain {
