@@ -74,7 +74,9 @@ constexpr std::array<std::string_view, 3> kMicromodemAliases{"whoi", "whoi_micro
 constexpr std::string_view kXsensDescription =
     "Xsens MTi, MTData2 with rate of turn and acceleration or increments, GNSS PVT";
 constexpr std::string_view kMicroStrainDescription =
-    "MicroStrain 3DM, MIP packets with angular rate and acceleration or increments";
+    "MicroStrain 3DM, MIP packets with angular rate and acceleration or increments, or a satellite fix";
+constexpr std::string_view kSbgDescription =
+    "SBG Systems sbgECom with IMU_SHORT or IMU_DATA, or GPS1_POS and GPS1_VEL";
 constexpr std::string_view kNoGreeting;
 constexpr bool kTurnsAxes = true;
 
@@ -92,7 +94,7 @@ const auto kProtocols = std::to_array<Protocol>({
      make_vectornav, DeviceClock::counter},
     {"xsens", kXsensAliases, kXsensDescription, make_xsens, DeviceClock::counter, kNoGreeting, kTurnsAxes},
     {"microstrain", kMicroStrainAliases, kMicroStrainDescription, make_microstrain, DeviceClock::counter},
-    {"sbg", kSbgAliases, "SBG Systems sbgECom with IMU_SHORT or IMU_DATA", make_sbg, DeviceClock::counter},
+    {"sbg", kSbgAliases, kSbgDescription, make_sbg, DeviceClock::counter},
     {"stim300", kStim300Aliases, "Safran Sensonor STIM300, rate and acceleration or increments", make_stim300,
      DeviceClock::none},
     {"paroscientific", kParoscientificAliases, "Paroscientific Digiquartz pressure", make_paroscientific,

@@ -7,6 +7,9 @@
 #include "base/bytes/little_endian.hpp"
 #include "base/unknown.hpp"
 #include "codec/framer.hpp"
+#include "codec/gps_time.hpp"
+#include "codec/imu/inner_receiver.hpp"
+#include "codec/imu/sbg_gnss.hpp"
 #include "codec/wrapping_clock.hpp"
 
 namespace fathom::codec {
@@ -42,6 +45,7 @@ constexpr double kHottestSbg_degC = 200.0;
 constexpr TimeNs kSbgTick_ns = 1'000;
 constexpr DurationNs kUtcHolds_ns = 10 * kNsPerSecond;
 constexpr DurationNs kShortHolds_ns = kNsPerSecond;
+constexpr DurationNs kStampAgrees_ns = kNsPerSecond;
 
 using SbgVector = std::array<double, 3>;
 
@@ -98,6 +102,12 @@ ImuSample sample_of_imu_short(Bytes data, unsigned status) {
   return s;
 }
 
+/// From -period/2 to period/2.
+DurationNs remainder_of(DurationNs value, DurationNs period) {
+  const DurationNs rest = ((value % period) + period) % period;
+  return rest > period / 2 ? rest - period : rest;
+}
+
 class Sbg : public Framer {
  public:
   Sbg() : Framer(kMaxSbgFrame) {}
@@ -121,16 +131,29 @@ class Sbg : public Framer {
     constexpr std::uint8_t kLogs = 0;
     if (frame[3] != kLogs) return Outcome::ignored();
     const Bytes data = frame.subspan(kSbgHeader, frame.size() - kSbgHeader - kSbgTrailer);
-    const bool is_short = frame[2] == sbg::imu_short;
     switch (frame[2]) {
       case sbg::utc_time:
         return take_utc(data);
       case sbg::imu_data:
       case sbg::imu_short:
-        break;
+        return take_imu(frame, data, offset, sink);
+      case sbg::gps1_position:
+      case sbg::gps2_position:
+        return take_position(frame, data, offset, sink);
+      case sbg::gps1_velocity:
+      case sbg::gps2_velocity:
+        return take_velocity(frame, data, sink);
       default:
         return Outcome::ignored();
     }
+  }
+
+  void flush(Sink& sink) override {
+    for (sbg::Epochs& epochs : epochs_) epochs.finish(deliver_to(sink));
+  }
+
+  Outcome take_imu(Bytes frame, Bytes data, std::uint64_t offset, Sink& sink) {
+    const bool is_short = frame[2] == sbg::imu_short;
     if (data.size() < (is_short ? kImuShortData : kImuDataData))
       return Outcome::refused(RejectReason::length);
     const unsigned status = load_le<std::uint16_t>(data, 4);
@@ -148,7 +171,47 @@ class Sbg : public Framer {
     return Outcome::used();
   }
 
-  /// What the unit's clock has to do with UTC.
+  Outcome take_position(Bytes frame, Bytes data, std::uint64_t offset, Sink& sink) {
+    const bool of_second = frame[2] == sbg::gps2_position;
+    sbg::Position got;
+    if (const auto why = sbg::read_position(data, got)) return Outcome::refused(*why);
+    if (!receiver_.takes(of_second)) return Outcome::ignored();
+    if (!of_second) epochs_[1].finish(deliver_to(sink));
+    DeviceTime time;
+    time.clock_ns = clock_of(got.stamp_us);
+    if (got.sample.fix != GpsFix::none) time.utc_ns = utc_of_week(got.time_of_week_ms, *time.clock_ns);
+    epochs_[of_second ? 1 : 0].add_position(got.time_of_week_ms, {got.sample, time, offset, frame.size()},
+                                            deliver_to(sink));
+    return Outcome::used();
+  }
+
+  /// Without a position it is no sample.
+  Outcome take_velocity(Bytes frame, Bytes data, Sink& sink) {
+    const bool of_second = frame[2] == sbg::gps2_velocity;
+    sbg::Velocity got;
+    if (const auto why = sbg::read_velocity(data, got)) return Outcome::refused(*why);
+    if (of_second && receiver_.first_heard()) return Outcome::ignored();
+    const bool completed = epochs_[of_second ? 1 : 0].add_velocity(got, deliver_to(sink));
+    return completed ? Outcome::used() : Outcome::ignored();
+  }
+
+  sbg::Epochs::Deliver deliver_to(Sink& sink) {
+    return [this, &sink](const sbg::Epochs::Fix& fix) {
+      emit(sink, fix.sample, fix.time, fix.offset, fix.length);
+    };
+  }
+
+  /// UTC of a time of the week, which UTC_TIME has told beside UTC, in the week of the unit's clock.
+  [[nodiscard]] std::optional<TimeNs> utc_of_week(std::uint32_t time_of_week_ms, TimeNs clock_ns) const {
+    if (!is_near(utc_at_ns_, clock_ns, kUtcHolds_ns)) return std::nullopt;
+    const TimeNs by_clock_ns = clock_ns + utc_less_clock_ns_;
+    const TimeNs in_its_week_ns = utc_less_week_ns_ + time_of_week_ms * kNsPerMillisecond;
+    const DurationNs apart_ns = remainder_of(in_its_week_ns - by_clock_ns, kGpsWeek_ns);
+    if (std::abs(apart_ns) > kStampAgrees_ns) return std::nullopt;
+    return by_clock_ns + apart_ns;
+  }
+
+  /// What the unit's clock and the GPS week have to do with UTC.
   Outcome take_utc(Bytes data) {
     if (data.size() < kUtcTimeData) return Outcome::refused(RejectReason::length);
     const unsigned status = load_le<std::uint16_t>(data, 4);
@@ -172,6 +235,9 @@ class Sbg : public Framer {
     if (!utc_ns) return Outcome::refused(RejectReason::out_of_range);
     utc_at_ns_ = clock_of(load_le<std::uint32_t>(data, 0));
     utc_less_clock_ns_ = *utc_ns - *utc_at_ns_;
+    // Whole milliseconds; below a second GPS time and UTC are the same.
+    const DurationNs week_ns = load_le<std::uint32_t>(data, 17) * kNsPerMillisecond;
+    utc_less_week_ns_ = *utc_ns - week_ns - remainder_of(civil.nanosecond - week_ns, kNsPerSecond);
     return Outcome::ignored();
   }
 
@@ -185,6 +251,9 @@ class Sbg : public Framer {
   std::optional<TimeNs> short_at_ns_;  ///< of the last IMU_SHORT, on the unit's clock
   std::optional<TimeNs> utc_at_ns_;    ///< of the last UTC_TIME that was valid, on the unit's clock
   DurationNs utc_less_clock_ns_ = 0;
+  DurationNs utc_less_week_ns_ = 0;  ///< UTC less the time of the GPS week
+  FirstReceiver receiver_;
+  std::array<sbg::Epochs, 2> epochs_;  ///< of the first and the second receiver
 };
 
 }  // namespace

@@ -11,8 +11,9 @@ namespace fathom::codec {
 
 /// SBG Systems (Ellipse, Pulse, Quanta, Ekinox, Apogee): sbgECom frames with the logs IMU_SHORT (44) or
 /// IMU_DATA (03), both of class 0 (sbgECom, doc/binaryMessages.md of release 5: IMU measurements, status and
-/// time). While IMU_SHORT comes, IMU_DATA is ignored: both say the same. UTC_TIME (02) gives UTC. All other
-/// logs and classes are ignored, and so are the pages of large transfers.
+/// time), and those of the satellite receivers, GPS1_VEL (13), GPS1_POS (14), GPS2_VEL (16) and GPS2_POS
+/// (17). While IMU_SHORT comes, IMU_DATA is ignored: both say the same. UTC_TIME (02) gives UTC. All other
+/// logs and classes are ignored, with them the unit's own filter, and so are the pages of large transfers.
 ///
 /// Axes: the unit's body frame, forward, right, down in its factory alignment. Forces are specific forces:
 /// level and at rest z reads -1 g. What the unit's own alignment turns is turned already.
@@ -26,6 +27,14 @@ namespace fathom::codec {
 /// Time: microseconds since the unit was switched on, carried on where their 32 bits begin again after 71
 /// minutes. UTC where the last UTC_TIME is at most 10 s away, its clock has converged to the pulse per
 /// second, and it knows the leap seconds.
+///
+/// Satellite fix (section GNSS position and velocity of the same document): position and velocity of one time
+/// of the week make one sample (sbg::Epochs); what comes of the second receiver counts where the first is not
+/// heard (FirstReceiver). Accuracies are of one sigma and by axis. A solution of unknown kind is no fix, a
+/// precise point position a differential one, and a position that somebody has set no measurement. Instant:
+/// the time stamp is that of the position data, not of the unit's loop, and so stands for the unit's clock.
+/// UTC is that of the fix's time of the week, by UTC_TIME, which says both, and within a second of the
+/// stamp's.
 [[nodiscard]] std::unique_ptr<Codec> make_sbg(const CodecOptions& options);
 
 namespace sbg {
@@ -36,7 +45,15 @@ inline constexpr std::uint8_t kEnd = 0x33;
 inline constexpr std::size_t kMostData = 4086;
 
 /// Of class 0.
-enum Log : std::uint8_t { utc_time = 2, imu_data = 3, imu_short = 44 };
+enum Log : std::uint8_t {
+  utc_time = 2,
+  imu_data = 3,
+  gps1_velocity = 13,
+  gps1_position = 14,
+  gps2_velocity = 16,
+  gps2_position = 17,
+  imu_short = 44,
+};
 
 /// Of both inertial logs. All but the last are set while all is well.
 enum Status : std::uint16_t {

@@ -8,8 +8,11 @@
 #include <span>
 
 #include "base/bytes/little_endian.hpp"
+#include "base/units.hpp"
 #include "base/unknown.hpp"
+#include "codec/gps_time.hpp"
 #include "codec/imu/sbg.hpp"
+#include "codec/imu/sbg_gnss.hpp"
 
 namespace fathom::sim::encode {
 namespace {
@@ -41,6 +44,38 @@ unsigned status_of(const ImuSample& s) {
 
 double or_zero(double value) {
   return known(value) ? value : 0.0;
+}
+
+std::uint32_t week_ms(TimeNs utc_ns) {
+  return static_cast<std::uint32_t>(codec::gps_of_utc(utc_ns) % codec::kGpsWeek_ns / kNsPerMillisecond);
+}
+
+ecom::PositionType position_type(GpsFix fix) {
+  switch (fix) {
+    case GpsFix::none:
+    case GpsFix::time_only:
+      break;
+    case GpsFix::dead_reckoning:
+      return ecom::PositionType::told;
+    case GpsFix::fix_2d:
+    case GpsFix::fix_3d:
+      return ecom::PositionType::single;
+    case GpsFix::differential:
+      return ecom::PositionType::differential;
+    case GpsFix::rtk_float:
+      return ecom::PositionType::rtk_float;
+    case GpsFix::rtk_fixed:
+      return ecom::PositionType::rtk_fixed;
+  }
+  return ecom::PositionType::none;
+}
+
+/// Stamp, status and time of the week of a receiver's log.
+void put_gps_head(Frame& data, bool solved, unsigned type, TimeNs utc_ns, DurationNs since_startup_ns) {
+  put_stamp(data, since_startup_ns);
+  append_le<std::uint32_t>(data, (solved ? ecom::kSolutionComputed : ecom::kInsufficientObservations) |
+                                     (solved ? type << 6U : 0U));
+  append_le<std::uint32_t>(data, week_ms(utc_ns));
 }
 
 template <class Count>
@@ -104,9 +139,49 @@ Frame sbg_utc_time(TimeNs utc_ns, DurationNs since_startup_ns) {
   for (const int part : {civil.month, civil.day, civil.hour, civil.minute, civil.second})
     data.push_back(static_cast<std::uint8_t>(part));
   append_le<std::int32_t>(data, civil.nanosecond);
-  append_le<std::uint32_t>(data, 0);  // time of the GPS week, which nobody reads
+  append_le<std::uint32_t>(data, week_ms(utc_ns));
   for (int i = 0; i < 3; ++i) append_le<float>(data, 0.0F);
   return sbg_frame(ecom::utc_time, kLogs, data);
+}
+
+Frame sbg_gps_position(const GpsSample& s, TimeNs utc_ns, DurationNs since_startup_ns, int receiver) {
+  const ecom::PositionType type = position_type(s.fix);
+  Frame data;
+  put_gps_head(data, type != ecom::PositionType::none, static_cast<unsigned>(type), utc_ns, since_startup_ns);
+  append_le<double>(data, or_zero(s.latitude_rad * kDegPerRad));
+  append_le<double>(data, or_zero(s.longitude_rad * kDegPerRad));
+  append_le<double>(data, or_zero(s.altitude_msl_m));
+  append_le<float>(data, static_cast<float>(or_zero(s.altitude_m - s.altitude_msl_m)));
+  for (const double sigma_m : s.position_sigma_N_m)
+    append_le<float>(data, static_cast<float>(or_zero(sigma_m)));
+  data.push_back(s.satellites < 0 ? 0xFF : static_cast<std::uint8_t>(std::min(s.satellites, 254)));
+  append_le<std::uint16_t>(data, 0xFFFF);  // no base station
+  append_le<std::uint16_t>(data, 0xFFFF);  // no age of its corrections
+  data.push_back(0xFF);                    // how many satellites are tracked is not known
+  const auto jamming = static_cast<std::uint32_t>(s.jamming) + 1U;
+  const auto spoofing = static_cast<std::uint32_t>(s.spoofing) + 1U;
+  append_le<std::uint32_t>(data, jamming | spoofing << 4U);
+  return sbg_frame(receiver == 2 ? ecom::gps2_position : ecom::gps1_position, kLogs, data);
+}
+
+Frame sbg_gps_velocity(const GpsSample& s, TimeNs utc_ns, DurationNs since_startup_ns, int receiver) {
+  Frame data;
+  put_gps_head(data, known(s.velocity_N_m_s[0]), static_cast<unsigned>(ecom::VelocityType::doppler), utc_ns,
+               since_startup_ns);
+  for (const double v_m_s : s.velocity_N_m_s) append_le<float>(data, static_cast<float>(or_zero(v_m_s)));
+  for (const double sigma_m_s : s.velocity_sigma_N_m_s)
+    append_le<float>(data, static_cast<float>(or_zero(sigma_m_s)));
+  append_le<float>(data, static_cast<float>(s.course_rad * kDegPerRad));
+  append_le<float>(data, 0.0F);
+  return sbg_frame(receiver == 2 ? ecom::gps2_velocity : ecom::gps1_velocity, kLogs, data);
+}
+
+Frame sbg_epoch(const GpsSample& s, TimeNs utc_ns, DurationNs since_startup_ns) {
+  Frame out = sbg_utc_time(utc_ns, since_startup_ns);
+  for (const Frame& frame :
+       {sbg_gps_velocity(s, utc_ns, since_startup_ns), sbg_gps_position(s, utc_ns, since_startup_ns)})
+    out.insert(out.end(), frame.begin(), frame.end());
+  return out;
 }
 
 }  // namespace fathom::sim::encode

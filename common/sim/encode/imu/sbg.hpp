@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/time.hpp"
+#include "samples/gps.hpp"
 #include "samples/imu.hpp"
 
 namespace fathom::sim::encode {
@@ -18,6 +19,19 @@ namespace fathom::sim::encode {
 
 /// UTC_TIME of a unit whose clock has converged.
 [[nodiscard]] std::vector<std::uint8_t> sbg_utc_time(TimeNs utc_ns, DurationNs since_startup_ns);
+
+/// GPS1_POS, or GPS2_POS of receiver 2: the time of the week in whole milliseconds, undulation and sigmas in
+/// single precision. A fix in two dimensions is sent as one in three, a time alone as no solution.
+[[nodiscard]] std::vector<std::uint8_t> sbg_gps_position(const GpsSample& sample, TimeNs utc_ns,
+                                                         DurationNs since_startup_ns, int receiver = 1);
+
+/// GPS1_VEL or GPS2_VEL, in single precision; an unknown velocity is no solution.
+[[nodiscard]] std::vector<std::uint8_t> sbg_gps_velocity(const GpsSample& sample, TimeNs utc_ns,
+                                                         DurationNs since_startup_ns, int receiver = 1);
+
+/// What a unit sends of an epoch of its receiver: UTC_TIME, GPS1_VEL and GPS1_POS.
+[[nodiscard]] std::vector<std::uint8_t> sbg_epoch(const GpsSample& sample, TimeNs utc_ns,
+                                                  DurationNs since_startup_ns);
 
 /// A frame of any kind.
 [[nodiscard]] std::vector<std::uint8_t> sbg_frame(std::uint8_t message, std::uint8_t message_class,
