@@ -4,6 +4,8 @@
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "sim/encode/imu/microstrain.hpp"
+#include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/imu/vectornav.hpp"
 #include "sim/encode/imu/xsens.hpp"
 #include "sim/encode/nmea.hpp"
@@ -72,6 +74,11 @@ GpsSample GpsModel::sample(const TruthPoint& point) {
 }
 
 Bytes SimulatedDevice<GpsSample>::encode(const GpsSample& gps, const DeviceCall& device) {
+  if (device.protocol == "microstrain") return encode::microstrain_gnss(gps, gps.header.stamp_ns);
+  if (device.protocol == "sbg") {
+    const DurationNs since_power_on_ns = gps.header.stamp_ns - device.power_on_ns;
+    return encode::sbg_epoch(gps, gps.header.stamp_ns, since_power_on_ns);
+  }
   if (device.protocol == "ubx") return encode::ubx_nav_pvt(gps, gps.header.stamp_ns);
   if (device.protocol == "vectornav") return encode::vectornav_fix({gps, gps.header.stamp_ns});
   if (device.protocol == "xsens") return encode::xsens_fix(gps, gps.header.stamp_ns);

@@ -153,6 +153,17 @@ void xsens_messages(ByteVector& stream, int frame) {
   append(stream, sim::encode::xsens_message(0x0D, ByteVector(300, 0x03)));  // of extended length
 }
 
+/// Velocity before position, then after it, now and then none; and what the second receiver says.
+void sbg_fixes(ByteVector& stream, int frame, DurationNs clock_ns) {
+  const auto velocity = sim::encode::sbg_gps_velocity(gps(frame), instant(frame), clock_ns);
+  if (frame % 2 == 0) append(stream, velocity);
+  append(stream, sim::encode::sbg_gps_position(gps(frame), instant(frame), clock_ns));
+  if (frame % 4 == 1) append(stream, velocity);
+  if (frame % 3 != 2) return;
+  append(stream, sim::encode::sbg_gps_velocity(gps(frame), instant(frame), clock_ns, 2));
+  append(stream, sim::encode::sbg_gps_position(gps(frame), instant(frame), clock_ns, 2));
+}
+
 /// IMU_SHORT, across the return of the clock's bits to 0, and later IMU_DATA.
 void sbg_logs(ByteVector& stream, int frame) {
   const bool later = frame >= kFrames / 2;
@@ -160,6 +171,7 @@ void sbg_logs(ByteVector& stream, int frame) {
   if (const auto utc = some_utc(frame)) append(stream, sim::encode::sbg_utc_time(*utc, clock_ns));
   append(stream, later ? sim::encode::sbg_imu_data(imu(frame), clock_ns)
                        : sim::encode::sbg_imu_short(imu(frame), clock_ns));
+  sbg_fixes(stream, frame, clock_ns);
   append(stream, sim::encode::sbg_frame(6, 0, ByteVector(40, static_cast<std::uint8_t>(frame))));
   append(stream, sim::encode::sbg_frame(4, 0x90, {0x5A, 0xFF}));
 }
@@ -287,6 +299,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     stim300_datagrams(stream, frame);
   } else if (protocol == "microstrain") {
     append(stream, sim::encode::microstrain(imu(frame), since_power_on(frame), some_utc(frame)));
+    append(stream, sim::encode::microstrain_gnss(gps(frame), instant(frame), frame % 3 == 0 ? 0x81 : 0x91));
+    if (frame % 3 == 2) append(stream, sim::encode::microstrain_gnss(gps(frame), instant(frame), 0x92));
     append(stream, sim::encode::microstrain_packet(0x82, {0x04, 0x10, 0x00, 0x01}));  // of the unit's filter
     if (frame > 4) append(stream, other_sensor_data());
   } else if (protocol == "ascii_air_data") {

@@ -323,6 +323,36 @@ TEST(DeviceEncoder, AnInertialUnitIsUnderstoodInEachOfItsProtocols) {
   }
 }
 
+TEST(DeviceEncoder, ASatelliteReceiverIsUnderstoodInEachOfItsProtocols) {
+  const Scenario scenario = instrumented();
+  GpsSample gps;
+  gps.header.stamp_ns = kEpoch + kNsPerSecond;
+  gps.fix = GpsFix::fix_3d;
+  gps.satellites = 11;
+  gps.latitude_rad = 0.635;
+  gps.longitude_rad = -2.223;
+  gps.altitude_m = 18.5;
+  gps.altitude_msl_m = -7.0;
+  gps.position_sigma_N_m = {0.5, 0.5, 0.8};
+  gps.velocity_N_m_s = {1.5, -0.5, 0.0};
+  gps.velocity_sigma_N_m_s.fill(0.05);
+  gps.hdop = 0.9;
+  for (const std::string_view protocol : SimulatedDevice<GpsSample>::kProtocols) {
+    SimulatedDevice<GpsSample> device;
+    const auto codec = codec::find_protocol(protocol)->make({});
+    Collected sink;
+    codec->feed(device.encode(gps, {protocol, scenario, kEpoch}), sink);
+    codec->finish(sink);
+    ASSERT_EQ(sink.samples.size(), 1U) << protocol;
+    EXPECT_EQ(sink.samples[0].time.utc_ns, gps.header.stamp_ns) << protocol;
+    const auto& read = std::get<GpsSample>(sink.samples[0].sample);
+    EXPECT_EQ(read.fix, gps.fix) << protocol;
+    EXPECT_NEAR(read.latitude_rad, gps.latitude_rad, 1e-9) << protocol;
+    EXPECT_NEAR(read.longitude_rad, gps.longitude_rad, 1e-9) << protocol;
+    EXPECT_NEAR(read.velocity_N_m_s[0], gps.velocity_N_m_s[0], 0.01) << protocol;
+  }
+}
+
 TEST(DeviceEncoder, KnowsWhatItCanSay) {
   EXPECT_TRUE(can_encode("gps", "nmea"));
   EXPECT_TRUE(can_encode("gps", "u-blox"));
