@@ -79,6 +79,8 @@ constexpr std::string_view kSbgDescription =
     "SBG Systems sbgECom with IMU_SHORT or IMU_DATA, or GPS1_POS and GPS1_VEL";
 constexpr std::string_view kNoGreeting;
 constexpr bool kTurnsAxes = true;
+constexpr bool kKeepsAxes = false;
+constexpr bool kFixesHaveUtc = true;
 
 const auto kProtocols = std::to_array<Protocol>({
     {"nmea0183", kNmeaAliases, kNmeaDescription, make_nmea0183, DeviceClock::none},
@@ -91,10 +93,13 @@ const auto kProtocols = std::to_array<Protocol>({
     {"nortek", kNortekAliases, "Nortek DVL, binary bottom and water track (DF21, DF22)", make_nortek,
      DeviceClock::counter},
     {"vectornav", kVectornavAliases, "VectorNav binary messages with inertial data or GNSS fixes",
-     make_vectornav, DeviceClock::counter},
-    {"xsens", kXsensAliases, kXsensDescription, make_xsens, DeviceClock::counter, kNoGreeting, kTurnsAxes},
-    {"microstrain", kMicroStrainAliases, kMicroStrainDescription, make_microstrain, DeviceClock::counter},
-    {"sbg", kSbgAliases, kSbgDescription, make_sbg, DeviceClock::counter},
+     make_vectornav, DeviceClock::counter, kNoGreeting, kKeepsAxes, kFixesHaveUtc},
+    {"xsens", kXsensAliases, kXsensDescription, make_xsens, DeviceClock::counter, kNoGreeting, kTurnsAxes,
+     kFixesHaveUtc},
+    {"microstrain", kMicroStrainAliases, kMicroStrainDescription, make_microstrain, DeviceClock::counter,
+     kNoGreeting, kKeepsAxes, kFixesHaveUtc},
+    {"sbg", kSbgAliases, kSbgDescription, make_sbg, DeviceClock::counter, kNoGreeting, kKeepsAxes,
+     kFixesHaveUtc},
     {"stim300", kStim300Aliases, "Safran Sensonor STIM300, rate and acceleration or increments", make_stim300,
      DeviceClock::none},
     {"paroscientific", kParoscientificAliases, "Paroscientific Digiquartz pressure", make_paroscientific,

@@ -74,6 +74,8 @@ struct Protocol {
   std::string_view greeting{};
   /// An inertial unit whose own axes are not forward, right, down: the codec has turned them already.
   bool turns_axes = false;
+  /// Its satellite fixes carry the receiver's UTC, whatever clock its other frames have.
+  bool fixes_have_utc = false;
 };
 
 /// Every protocol, in the order of the documentation. README.md says what a new one takes.

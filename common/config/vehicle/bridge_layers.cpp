@@ -17,6 +17,7 @@ double usual_latency_s(SourceKind kind) {
 
 /// Devices with UTC are trusted, counters are tracked, the rest is known by its latency.
 std::string time_mode(SourceKind kind, const codec::Protocol* found) {
+  if (kind == SourceKind::gps && found != nullptr && found->fixes_have_utc) return "device_utc";
   const codec::DeviceClock clock = found == nullptr ? codec::DeviceClock::none : found->clock;
   if (clock == codec::DeviceClock::counter) return "device_clock";
   if (clock == codec::DeviceClock::utc || kind == SourceKind::gps) return "device_utc";

@@ -124,9 +124,10 @@ void describe(Schema<VehicleInstrument>& s) {
       .optional_name();
   s.field("enabled", &C::enabled, "false: it is in the vehicle and is left out");
   s.field("watched", &C::watched, "false: the monitor does not miss it when it is silent");
-  s.field(
-      "port", &C::port,
-      "where its bytes come from; two instruments of one bridge and one name share the port of the first");
+  s.field("port", &C::port,
+          "where its bytes come from; two instruments of one bridge and one name share the port of the "
+          "first, those of "
+          "several bridges say the same port with shared: true");
   s.field("protocol", &C::protocol, "what its bytes mean, as in the file of its bridge");
   s.field("rate_hz", &C::rate_hz, "samples per second to expect").unit("Hz").range(0.001, 10'000);
   s.field("latency_s", &C::latency_s, "from the instant of validity to the arrival of the quickest frame")

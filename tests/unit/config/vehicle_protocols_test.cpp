@@ -28,11 +28,29 @@ class ProtocolOfAVehicle : public ::testing::Test {
                  {"rate_hz", 100},          {"port", {{"type", "serial"}, {"path", "/dev/ttyUSB0"}}},
                  {"position_m", {0, 0, 0}}, {"mounting_rpy_deg", {0, 0, 0}}};
     unit.update(more);
-    std::ofstream(path_) << json{{"name", "auv"}, {"instruments", json::array({unit})}};
+    write(json::array({unit}));
     return load_service_config<ImuBridgeConfig>(with_vehicle({}, path_, "imu_bridge")).value.sensors.at(0);
+  }
+  /// A receiver on the line of that unit, as its bridge has it.
+  SensorConfig receiver_of(std::string_view protocol) {
+    const json port = {{"type", "serial"}, {"path", "/dev/ttyUSB0"}, {"shared", true}};
+    write({{{"name", "imu"}, {"kind", "imu"}, {"port", port}, {"mounting_rpy_deg", {0, 0, 0}}},
+           {{"name", "gps"},
+            {"kind", "gps"},
+            {"protocol", protocol},
+            {"rate_hz", 5},
+            {"port", port},
+            {"position_m", {0, 0, 0}}}});
+    return load_service_config<GpsBridgeConfig>(with_vehicle({}, path_, "gps_bridge"))
+        .value.sensors.at(0)
+        .sensor;
   }
 
  private:
+  void write(const json& instruments) {
+    std::ofstream(path_) << json{{"name", "auv"}, {"instruments", instruments}};
+  }
+
   std::string path_ = ::testing::TempDir() + "protocol_of_a_vehicle.json";
 };
 
@@ -44,6 +62,15 @@ TEST_F(ProtocolOfAVehicle, ItsClockIsTheTimeOfTheBridge) {
                                                                   : runtime::TimeMode::arrival)
         << protocol.name;
   }
+}
+
+TEST_F(ProtocolOfAVehicle, AReceiverKnowsUtcWhateverTheUnitAroundItCounts) {
+  for (const char* protocol : {"vectornav", "xsens", "microstrain", "sbg", "nmea0183", "ubx"}) {
+    const SensorConfig receiver = receiver_of(protocol);
+    EXPECT_EQ(receiver.time.mode, runtime::TimeMode::device_utc) << protocol;
+    EXPECT_TRUE(receiver.source.shared);
+  }
+  EXPECT_EQ(receiver_of("mavlink").time.mode, runtime::TimeMode::device_clock);
 }
 
 TEST_F(ProtocolOfAVehicle, AxesThatItsCodecTurnsAreNotTurnedAgain) {
