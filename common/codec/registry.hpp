@@ -63,6 +63,16 @@ enum class DeviceClock : std::uint8_t {
   utc,      ///< UTC that the device knows: taken as it is
 };
 
+/// What the samples of a protocol are, whatever device sends them.
+struct Traits {
+  /// An inertial unit whose own axes are not forward, right, down: the codec has turned them already.
+  bool turns_axes = false;
+  /// Its satellite fixes carry the receiver's UTC, whatever clock its other frames have.
+  bool fixes_have_utc = false;
+  /// Its headings are those of two satellite antennas.
+  bool heading_by_antennas = false;
+};
+
 /// One protocol that this build decodes.
 struct Protocol {
   std::string_view name;                      ///< e.g. "pd0"
@@ -72,10 +82,7 @@ struct Protocol {
   DeviceClock clock;
   /// What a client has to say on connecting by TCP, before anything is told; empty for most.
   std::string_view greeting{};
-  /// An inertial unit whose own axes are not forward, right, down: the codec has turned them already.
-  bool turns_axes = false;
-  /// Its satellite fixes carry the receiver's UTC, whatever clock its other frames have.
-  bool fixes_have_utc = false;
+  Traits traits{};
 };
 
 /// Every protocol, in the order of the documentation. README.md says what a new one takes.

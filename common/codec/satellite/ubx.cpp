@@ -6,6 +6,7 @@
 #include "base/bytes/little_endian.hpp"
 #include "codec/fletcher.hpp"
 #include "codec/satellite/pvt.hpp"
+#include "codec/satellite/ubx_heading.hpp"
 #include "codec/satellite/ubx_interference.hpp"
 
 namespace fathom::codec {
@@ -50,6 +51,7 @@ class Ubx final : public Framer {
     // An empty payload asks the receiver for the message.
     if (frame.size() == kOverhead) return Outcome::ignored();
     const Bytes payload = frame.subspan(kHeader, frame.size() - kOverhead);
+    if (frame[2] == kClassNav && frame[3] == kUbxRelposned) return take_heading(frame, offset, sink);
     if (frame[2] != kClassNav || frame[3] != kIdPvt) {
       const auto reason = interference_.read(frame[2], frame[3], payload);
       return reason ? Outcome::refused(*reason) : Outcome::ignored();
@@ -57,13 +59,23 @@ class Ubx final : public Framer {
     GpsSample sample;
     DeviceTime time;
     if (const auto reason = read_nav_pvt(payload, sample, time)) return Outcome::refused(*reason);
+    heading_.note(load_le<std::uint32_t>(payload, 0), time.utc_ns);
     interference_.stamp(sample);
     emit(sink, sample, time, offset, frame.size());
     return Outcome::used();
   }
 
  private:
+  Outcome take_heading(Bytes frame, std::uint64_t offset, Sink& sink) {
+    const auto found = heading_.read(frame.subspan(kHeader, frame.size() - kOverhead));
+    if (!found) return Outcome::ignored();
+    if (found->refused) return Outcome::refused(*found->refused);
+    emit(sink, found->sample, found->time, offset, frame.size());
+    return Outcome::used();
+  }
+
   UbxInterference interference_;
+  UbxHeading heading_;
 };
 
 }  // namespace

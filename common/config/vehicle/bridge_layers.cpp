@@ -17,7 +17,10 @@ double usual_latency_s(SourceKind kind) {
 
 /// Devices with UTC are trusted, counters are tracked, the rest is known by its latency.
 std::string time_mode(SourceKind kind, const codec::Protocol* found) {
-  if (kind == SourceKind::gps && found != nullptr && found->fixes_have_utc) return "device_utc";
+  const codec::Traits traits = found == nullptr ? codec::Traits{} : found->traits;
+  if ((kind == SourceKind::gps && traits.fixes_have_utc) ||
+      (kind == SourceKind::heading && traits.heading_by_antennas))
+    return "device_utc";
   const codec::DeviceClock clock = found == nullptr ? codec::DeviceClock::none : found->clock;
   if (clock == codec::DeviceClock::counter) return "device_clock";
   if (clock == codec::DeviceClock::utc || kind == SourceKind::gps) return "device_utc";
@@ -64,7 +67,7 @@ void bridge_layers(const Sources& vehicle, std::string_view role, Layers& out) {
     put(out, at + (mode == "device_clock" ? "time.minimum_latency_s" : "time.latency_s"),
         find(known, "latency_s", usual_latency_s(one.kind)));
     if (one.kind == SourceKind::imu) {
-      if (speaks != nullptr && speaks->turns_axes) {
+      if (speaks != nullptr && speaks->traits.turns_axes) {
         out.overlay(at + "mounting.frame", "frd", kStandard);
       } else {
         put(out, at + "mounting.frame", find(known, "axes", "frd"));

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "codec/registry.hpp"
 #include "config/vehicle/sources.hpp"
 
 namespace fathom::config {
@@ -39,6 +40,15 @@ void add_model_states(Layers& out, const Known& known) {
     if (states.contains(key) && states.at(key) <= value) states.erase(key);
   }
   out.overlay("engine.states", states, known.model_at.child("states"));
+}
+
+/// What the protocol says of the instrument's samples.
+void add_traits(Layers& out, const std::string& at, const Known& known) {
+  const json protocol = find(known, "protocol").value;
+  const codec::Protocol* speaks =
+      codec::find_protocol(protocol.is_string() ? protocol.get<std::string>() : "");
+  if (known.config->kind == SourceKind::heading && speaks != nullptr && speaks->traits.heading_by_antennas)
+    out.overlay(at + "two_antenna", true, kStandard);
 }
 
 /// What an inertial unit is taken for where nobody says better: the engine's own default is that of a
@@ -102,6 +112,7 @@ void fusion_layers(const Sources& vehicle, const LoadRequest& request, Layers& o
     for_each_aiding_kind([&](auto kind) { aids = aids || kind.kSource == one.kind; });
     if (!aids) continue;
     const std::string at = append(out, "engine.sensors", count++, known.at.child("fusion"));
+    add_traits(out, at, known);
     add_model_keys(out, at.substr(0, at.size() - 1), known);
     out.overlay(at + "sensor", one.name.str(), known.at.child("name"));
     out.overlay(at + "kind", std::string(to_string(one.kind)), known.at.child("kind"));

@@ -4,6 +4,7 @@
 
 #include "geo/so3.hpp"
 #include "sim/encode/nmea.hpp"
+#include "sim/encode/ubx.hpp"
 #include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
 
@@ -34,7 +35,8 @@ HeadingSample HeadingModel::sample(const TruthPoint& point) {
   return out;
 }
 
-Bytes SimulatedDevice<HeadingSample>::encode(const HeadingSample& heading, const DeviceCall& /*device*/) {
+Bytes SimulatedDevice<HeadingSample>::encode(const HeadingSample& heading, const DeviceCall& device) {
+  if (device.protocol == "ubx") return encode::ubx_nav_relposned(heading, heading.header.stamp_ns);
   return bytes_of(encode::nmea_heading(heading));
 }
 

@@ -96,6 +96,13 @@ UsblSample usbl(int frame) {
   return sample;
 }
 
+HeadingSample by_antennas(int frame) {
+  HeadingSample sample;
+  sample.heading_rad = 0.3 * frame;
+  sample.sigma_rad = 0.01;
+  return sample;
+}
+
 void nmea_frames(ByteVector& stream, int frame) {
   HeadingSample heading;
   heading.heading_rad = 0.7 * frame;
@@ -267,6 +274,7 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::psonlld(fix, instant(frame)));
   } else if (protocol == "ubx") {
     append(stream, sim::encode::ubx_nav_pvt(gps(frame), instant(frame)));
+    append(stream, sim::encode::ubx_nav_relposned(by_antennas(frame), instant(frame)));
     append(stream, sim::encode::ubx_frame(0x01, 0x35, ByteVector(20, static_cast<std::uint8_t>(frame))));
     append(stream, sim::encode::ubx_frame(0x0A, 0x38, ByteVector(4 + 24, 1)));  // MON-RF, one block
   } else if (protocol == "paroscientific") {

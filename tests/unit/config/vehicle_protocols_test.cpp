@@ -45,6 +45,14 @@ class ProtocolOfAVehicle : public ::testing::Test {
         .value.sensors.at(0)
         .sensor;
   }
+  /// As fusion takes it.
+  bool heading_is_by_antennas(const json& more) {
+    json heading = {{"name", "heading"}, {"kind", "heading"}, {"rate_hz", 5}};
+    heading.update(more);
+    write({{{"name", "imu"}, {"kind", "imu"}, {"mounting_rpy_deg", {0, 0, 0}}}, heading});
+    const auto fusion = load_service_config<FusionConfig>(with_vehicle({}, path_, "fusion")).value;
+    return fusion.engine.sensors.at(0).two_antenna;
+  }
 
  private:
   void write(const json& instruments) {
@@ -71,6 +79,13 @@ TEST_F(ProtocolOfAVehicle, AReceiverKnowsUtcWhateverTheUnitAroundItCounts) {
     EXPECT_TRUE(receiver.source.shared);
   }
   EXPECT_EQ(receiver_of("mavlink").time.mode, runtime::TimeMode::device_clock);
+}
+
+TEST_F(ProtocolOfAVehicle, AHeadingOfTwoAntennasIsKnownByItsProtocol) {
+  EXPECT_TRUE(heading_is_by_antennas({{"protocol", "ubx"}}));
+  EXPECT_TRUE(heading_is_by_antennas({{"protocol", "sbg"}}));
+  EXPECT_FALSE(heading_is_by_antennas({{"protocol", "nmea0183"}}));
+  EXPECT_TRUE(heading_is_by_antennas({{"protocol", "nmea0183"}, {"fusion", {{"two_antenna", true}}}}));
 }
 
 TEST_F(ProtocolOfAVehicle, AxesThatItsCodecTurnsAreNotTurnedAgain) {
