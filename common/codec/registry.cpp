@@ -76,7 +76,7 @@ constexpr std::string_view kXsensDescription =
 constexpr std::string_view kMicroStrainDescription =
     "MicroStrain 3DM, MIP packets with angular rate and acceleration or increments, or a satellite fix";
 constexpr std::string_view kSbgDescription =
-    "SBG Systems sbgECom with IMU_SHORT or IMU_DATA, or GPS1_POS and GPS1_VEL";
+    "SBG Systems sbgECom with IMU_SHORT or IMU_DATA, GPS1_POS and GPS1_VEL, or GPS1_HDT";
 constexpr std::string_view kNoGreeting;
 
 const auto kProtocols = std::to_array<Protocol>({

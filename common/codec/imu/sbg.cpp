@@ -143,6 +143,9 @@ class Sbg : public Framer {
       case sbg::gps1_velocity:
       case sbg::gps2_velocity:
         return take_velocity(frame, data, sink);
+      case sbg::gps1_heading:
+      case sbg::gps2_heading:
+        return take_heading(frame, data, offset, sink);
       default:
         return Outcome::ignored();
     }
@@ -193,6 +196,17 @@ class Sbg : public Framer {
     if (of_second && receiver_.first_heard()) return Outcome::ignored();
     const bool completed = epochs_[of_second ? 1 : 0].add_velocity(got, deliver_to(sink));
     return completed ? Outcome::used() : Outcome::ignored();
+  }
+
+  Outcome take_heading(Bytes frame, Bytes data, std::uint64_t offset, Sink& sink) {
+    sbg::Heading got;
+    if (const auto why = sbg::read_heading(data, got)) return Outcome::refused(*why);
+    if (!heading_receiver_.takes(frame[2] == sbg::gps2_heading)) return Outcome::ignored();
+    DeviceTime time;
+    time.clock_ns = clock_of(got.stamp_us);
+    if (known(got.sample.heading_rad)) time.utc_ns = utc_of_week(got.time_of_week_ms, *time.clock_ns);
+    emit(sink, got.sample, time, offset, frame.size());
+    return Outcome::used();
   }
 
   sbg::Epochs::Deliver deliver_to(Sink& sink) {
@@ -253,6 +267,7 @@ class Sbg : public Framer {
   DurationNs utc_less_clock_ns_ = 0;
   DurationNs utc_less_week_ns_ = 0;  ///< UTC less the time of the GPS week
   FirstReceiver receiver_;
+  FirstReceiver heading_receiver_;
   std::array<sbg::Epochs, 2> epochs_;  ///< of the first and the second receiver
 };
 

@@ -11,9 +11,10 @@ namespace fathom::codec {
 
 /// SBG Systems (Ellipse, Pulse, Quanta, Ekinox, Apogee): sbgECom frames with the logs IMU_SHORT (44) or
 /// IMU_DATA (03), both of class 0 (sbgECom, doc/binaryMessages.md of release 5: IMU measurements, status and
-/// time), and those of the satellite receivers, GPS1_VEL (13), GPS1_POS (14), GPS2_VEL (16) and GPS2_POS
-/// (17). While IMU_SHORT comes, IMU_DATA is ignored: both say the same. UTC_TIME (02) gives UTC. All other
-/// logs and classes are ignored, with them the unit's own filter, and so are the pages of large transfers.
+/// time), and those of the satellite receivers, GPS1_VEL (13), GPS1_POS (14), GPS1_HDT (15), and GPS2_VEL,
+/// GPS2_POS and GPS2_HDT (16 to 18). While IMU_SHORT comes, IMU_DATA is ignored: both say the same. UTC_TIME
+/// (02) gives UTC. All other logs and classes are ignored, with them the unit's own filter, and so are the
+/// pages of large transfers.
 ///
 /// Axes: the unit's body frame, forward, right, down in its factory alignment. Forces are specific forces:
 /// level and at rest z reads -1 g. What the unit's own alignment turns is turned already.
@@ -35,6 +36,11 @@ namespace fathom::codec {
 /// the time stamp is that of the position data, not of the unit's loop, and so stands for the unit's clock.
 /// UTC is that of the fix's time of the week, by UTC_TIME, which says both, and within a second of the
 /// stamp's.
+///
+/// Heading by two antennas (GPS1_HDT): degrees of true north, of the line from the main antenna to the other,
+/// with an accuracy of one sigma. Without a solution, or where the accuracy is half a turn or more, it is a
+/// sample of unknown heading. Stamp and UTC are as those of a fix; the second receiver's heading counts where
+/// the first is not heard with one. Pitch and length of the line are not used.
 [[nodiscard]] std::unique_ptr<Codec> make_sbg(const CodecOptions& options);
 
 namespace sbg {
@@ -50,8 +56,10 @@ enum Log : std::uint8_t {
   imu_data = 3,
   gps1_velocity = 13,
   gps1_position = 14,
+  gps1_heading = 15,
   gps2_velocity = 16,
   gps2_position = 17,
+  gps2_heading = 18,
   imu_short = 44,
 };
 

@@ -15,6 +15,7 @@ namespace {
 // Logs only grow at their end: the number of satellites, and later the state of interference, came on.
 constexpr std::size_t kVelocityData = 44;
 constexpr std::size_t kPositionData = 52;
+constexpr std::size_t kHeadingData = 26;  // before the length of the line between the antennas
 constexpr std::size_t kSatellitesAt = 52;
 constexpr std::size_t kInterferenceAt = 58;
 constexpr std::uint8_t kNoCount = 0xFF;
@@ -115,6 +116,21 @@ std::optional<RejectReason> read_velocity(Bytes data, Velocity& into) {
   }
   const auto course_deg = load_le<float>(data, 36);  // standing still there may be none
   into.course_rad = as_course(kRadPerDeg * check.take(std::isfinite(course_deg), course_deg, -360.0, 360.0));
+  return check.reason();
+}
+
+std::optional<RejectReason> read_heading(Bytes data, Heading& into) {
+  if (data.size() < kHeadingData) return RejectReason::length;
+  into.stamp_us = load_le<std::uint32_t>(data, 0);
+  const auto status = load_le<std::uint16_t>(data, 4);
+  into.time_of_week_ms = load_le<std::uint32_t>(data, 6);
+  const double sigma_deg = load_le<float>(data, 14);
+  if (solution_of(status) != kSolutionComputed || sigma_deg >= kNoHeading_deg) return std::nullopt;
+  if (into.time_of_week_ms >= kWeek_ms) return RejectReason::out_of_range;
+  NumberCheck check;
+  const double heading_deg = check.take(true, load_le<float>(data, 10), 0.0, 360.0);
+  into.sample.heading_rad = heading_deg == 360.0 ? 0.0 : kRadPerDeg * heading_deg;
+  if (sigma_deg > 0.0) into.sample.sigma_rad = kRadPerDeg * sigma_deg;
   return check.reason();
 }
 

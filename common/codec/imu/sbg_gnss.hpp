@@ -10,6 +10,7 @@
 #include "codec/codec.hpp"
 #include "codec/framer.hpp"
 #include "samples/gps.hpp"
+#include "samples/heading.hpp"
 
 namespace fathom::codec::sbg {
 
@@ -48,6 +49,17 @@ struct Velocity {
   double course_rad = kUnknown;
 };
 [[nodiscard]] std::optional<RejectReason> read_velocity(Bytes data, Velocity& into);
+
+/// With this accuracy or a larger one there is no heading (sbgEComLogGnssHdt.c of sbgECom).
+inline constexpr double kNoHeading_deg = 180.0;
+
+/// GPS1_HDT or GPS2_HDT; unknown where there is no solution.
+struct Heading {
+  std::uint32_t stamp_us = 0;
+  std::uint32_t time_of_week_ms = 0;
+  HeadingSample sample;
+};
+[[nodiscard]] std::optional<RejectReason> read_heading(Bytes data, Heading& into);
 
 /// Joins position and velocity of one receiver, which come in two frames of the same time of the week.
 ///

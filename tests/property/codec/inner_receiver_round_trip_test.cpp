@@ -104,5 +104,40 @@ TEST_F(InnerReceiverRoundTrip, SbgKeepsMillisecondsAndDoublesOfThePosition) {
   }
 }
 
+TEST_F(InnerReceiverRoundTrip, SbgKeepsTheHeadingOfTwoAntennas) {
+  for (int run = 0; run < kRuns; ++run) {
+    HeadingSample s;
+    if (run % 5 != 0) s.heading_rad = draw(0.0, 2.0 * std::numbers::pi);
+    if (known(s.heading_rad) && chance(0.7)) s.sigma_rad = draw(0.0005, 3.0);
+    HeadingSample sent = s;
+    if (chance(0.3)) {
+      sent.north = North::magnetic;
+      sent.variation_rad = draw(-0.4, 0.4);
+      sent.heading_rad -= sent.variation_rad;
+    }
+    const TimeNs utc_ns = kSomeTime_ns + run * 10'000'001LL;
+    const auto since_startup_ns = static_cast<DurationNs>(draw(0.0, 4e12));
+    auto bytes = sim::encode::sbg_utc_time(utc_ns, since_startup_ns);
+    const auto log = sim::encode::sbg_gps_heading(sent, utc_ns, since_startup_ns);
+    bytes.insert(bytes.end(), log.begin(), log.end());
+    const auto got = read(codec::make_sbg({}), bytes);
+    ASSERT_EQ(got.size(), 1U);
+    const auto& r = std::get<HeadingSample>(got[0].sample);
+    EXPECT_EQ(r.north, North::true_north);
+    ASSERT_EQ(known(r.heading_rad), known(s.heading_rad));
+    ASSERT_EQ(known(r.sigma_rad), known(s.sigma_rad));
+    EXPECT_EQ(got[0].time.clock_ns, since_startup_ns / 1'000 * 1'000);
+    ASSERT_EQ(got[0].time.utc_ns.has_value(), known(s.heading_rad));
+    if (!known(s.heading_rad)) continue;
+    EXPECT_GE(r.heading_rad, 0.0);
+    EXPECT_LT(r.heading_rad, 2.0 * std::numbers::pi);
+    EXPECT_NEAR(std::remainder(r.heading_rad - s.heading_rad, 2.0 * std::numbers::pi), 0.0, 1e-6);
+    if (known(s.sigma_rad)) {
+      EXPECT_NEAR(r.sigma_rad, s.sigma_rad, kSingle * s.sigma_rad);
+    }
+    EXPECT_EQ(*got[0].time.utc_ns, utc_ns / 1'000'000 * 1'000'000);
+  }
+}
+
 }  // namespace
 }  // namespace fathom

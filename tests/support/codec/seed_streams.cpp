@@ -160,13 +160,25 @@ void xsens_messages(ByteVector& stream, int frame) {
   append(stream, sim::encode::xsens_message(0x0D, ByteVector(300, 0x03)));  // of extended length
 }
 
-/// Velocity before position, then after it, now and then none; and what the second receiver says.
+/// Of two antennas, once without a solution.
+HeadingSample heading_of_antennas(int frame) {
+  HeadingSample sample;
+  if (frame == 3) return sample;
+  sample.heading_rad = 6.0 + 0.01 * frame;
+  sample.sigma_rad = frame == 5 ? kUnknown : 0.004;
+  return sample;
+}
+
+/// Velocity before position, then after it, now and then none; a heading; and what the second receiver says.
 void sbg_fixes(ByteVector& stream, int frame, DurationNs clock_ns) {
   const auto velocity = sim::encode::sbg_gps_velocity(gps(frame), instant(frame), clock_ns);
   if (frame % 2 == 0) append(stream, velocity);
   append(stream, sim::encode::sbg_gps_position(gps(frame), instant(frame), clock_ns));
   if (frame % 4 == 1) append(stream, velocity);
+  const HeadingSample heading = heading_of_antennas(frame);
+  append(stream, sim::encode::sbg_gps_heading(heading, instant(frame), clock_ns));
   if (frame % 3 != 2) return;
+  append(stream, sim::encode::sbg_gps_heading(heading, instant(frame), clock_ns, 2));
   append(stream, sim::encode::sbg_gps_velocity(gps(frame), instant(frame), clock_ns, 2));
   append(stream, sim::encode::sbg_gps_position(gps(frame), instant(frame), clock_ns, 2));
 }

@@ -23,8 +23,10 @@ constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 constexpr std::uint32_t kTow_ms = 556'233'250;  // 2026-09-19 10:30:15.25, a Saturday
 constexpr std::uint8_t kVelocity1 = 13;
 constexpr std::uint8_t kPosition1 = 14;
+constexpr std::uint8_t kHeading1 = 15;
 constexpr std::uint8_t kVelocity2 = 16;
 constexpr std::uint8_t kPosition2 = 17;
+constexpr std::uint8_t kHeading2 = 18;
 
 ByteVector operator+(ByteVector a, const ByteVector& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -75,6 +77,26 @@ ByteVector velocity(std::uint32_t tow_ms = kTow_ms, std::uint32_t status = 2U <<
   return frame(message, data);
 }
 
+struct HeadingLog {
+  std::uint16_t status = 0x40;  // the length of the line is valid
+  std::uint32_t tow_ms = kTow_ms;
+  std::uint32_t stamp_us = 5'000'000;
+  float heading_deg = 271.5F;
+  float sigma_deg = 0.25F;
+  std::size_t size = 32;
+};
+
+ByteVector heading(const HeadingLog& h = {}, std::uint8_t message = kHeading1) {
+  ByteVector data;
+  append_le<std::uint32_t>(data, h.stamp_us);
+  append_le<std::uint16_t>(data, h.status);
+  append_le<std::uint32_t>(data, h.tow_ms);
+  for (const float v : {h.heading_deg, h.sigma_deg, -1.5F, 0.5F, 2.0F}) append_le<float>(data, v);
+  data = data + ByteVector{20, 18};
+  data.resize(h.size);
+  return frame(message, data);
+}
+
 /// 2026-09-19 10:30:15 and a fraction at the stamp.
 ByteVector utc_time(std::uint32_t stamp_us = 5'000'000, std::uint32_t tow_ms = kTow_ms,
                     std::int32_t nanosecond = 250'000'000, std::uint16_t status = 0x00A6) {
@@ -91,6 +113,12 @@ ByteVector utc_time(std::uint32_t stamp_us = 5'000'000, std::uint32_t tow_ms = k
 std::vector<std::pair<Decoded, GpsSample>> fixes(const ByteVector& bytes) {
   std::vector<std::pair<Decoded, GpsSample>> out;
   for (const auto& [decoded, s] : of_kind<GpsSample>(decode("sbg", bytes))) out.emplace_back(*decoded, s);
+  return out;
+}
+
+std::vector<std::pair<Decoded, HeadingSample>> headings(const ByteVector& bytes) {
+  std::vector<std::pair<Decoded, HeadingSample>> out;
+  for (const auto& [decoded, s] : of_kind<HeadingSample>(decode("sbg", bytes))) out.emplace_back(*decoded, s);
   return out;
 }
 
@@ -255,6 +283,63 @@ TEST(SbgGnss, TheSecondReceiverCountsWhereThereIsNoOther) {
   }
 }
 
+TEST(SbgGnss, TwoAntennasGiveAHeading) {
+  // 5 s, solution, 556233250 ms, 271.5 and 0.25 deg, -1.5 and 0.5 deg; no more than the first firmware said.
+  const ByteVector data{0x40, 0x4B, 0x4C, 0x00, 0x00, 0x00, 0x22, 0x72, 0x27, 0x21, 0x00, 0xC0, 0x87,
+                        0x43, 0x00, 0x00, 0x80, 0x3E, 0x00, 0x00, 0xC0, 0xBF, 0x00, 0x00, 0x00, 0x3F};
+  for (const ByteVector& log : {frame(15, data), heading(), heading({.size = 30}), heading({.size = 40})}) {
+    const Harvest run = decode("sbg", utc_time() + log);
+    ASSERT_EQ(run.samples.size(), 1U) << log.size();
+    const auto& s = std::get<HeadingSample>(run.samples[0].sample);
+    EXPECT_EQ(s.north, North::true_north);
+    EXPECT_DOUBLE_EQ(s.heading_rad, 271.5 * kRadPerDeg);
+    EXPECT_DOUBLE_EQ(s.sigma_rad, 0.25 * kRadPerDeg);
+    EXPECT_FALSE(known(s.variation_rad) || known(s.deviation_rad));
+    EXPECT_EQ(run.samples[0].time.clock_ns, 5 * kNsPerSecond);
+    EXPECT_EQ(to_iso8601(run.samples[0].time.utc_ns.value(), 3), "2026-09-19T10:30:15.250Z");
+    EXPECT_EQ(run.samples[0].length, log.size());
+    EXPECT_EQ(run.totals.rejected + run.totals.skipped_bytes, 0U);
+  }
+  EXPECT_EQ(headings(heading({.heading_deg = 0.0F})).at(0).second.heading_rad, 0.0);
+  EXPECT_EQ(headings(heading({.heading_deg = 360.0F})).at(0).second.heading_rad, 0.0);
+  const Log later{.tow_ms = kTow_ms + 200, .stamp_us = 5'203'000};
+  EXPECT_EQ(headings(utc_time() + heading({.tow_ms = later.tow_ms, .stamp_us = later.stamp_us}))
+                .at(0)
+                .first.time.utc_ns,
+            fixes(utc_time() + position(later)).at(0).first.time.utc_ns);
+  EXPECT_FALSE(headings(heading()).at(0).first.time.utc_ns.has_value());
+}
+
+TEST(SbgGnss, AHeadingWithoutSolutionIsUnknown) {
+  for (const std::uint16_t status : {1, 2, 3, 63, 0x41})
+    for (const float heading_deg : {271.5F, 999.0F, kNanF}) {
+      const auto found = headings(
+          utc_time() + heading({.status = status, .tow_ms = 0xFFFF'FFFF, .heading_deg = heading_deg}));
+      ASSERT_EQ(found.size(), 1U) << status;
+      EXPECT_FALSE(known(found[0].second.heading_rad) || known(found[0].second.sigma_rad)) << status;
+      EXPECT_EQ(found[0].first.time.clock_ns, 5 * kNsPerSecond);
+      EXPECT_FALSE(found[0].first.time.utc_ns.has_value());
+    }
+  for (const float sigma_deg : {0.0F, -1.0F, kNanF}) {
+    const auto found = headings(heading({.sigma_deg = sigma_deg}));
+    ASSERT_EQ(found.size(), 1U) << sigma_deg;
+    EXPECT_TRUE(known(found[0].second.heading_rad)) << sigma_deg;
+    EXPECT_FALSE(known(found[0].second.sigma_rad)) << sigma_deg;
+  }
+  for (const float sigma_deg : {180.0F, 360.0F, std::numeric_limits<float>::infinity()})
+    EXPECT_FALSE(known(headings(heading({.sigma_deg = sigma_deg})).at(0).second.heading_rad)) << sigma_deg;
+}
+
+TEST(SbgGnss, TheSecondReceiversHeadingCountsWhereThereIsNoOther) {
+  const ByteVector second = heading({.heading_deg = 10.0F}, kHeading2);
+  // Fixes of the first receiver do not silence it.
+  EXPECT_EQ(headings(position() + second + second + position() + second).size(), 2U);
+  const auto both = headings(second + heading() + second + heading({.status = 1}) + second);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_DOUBLE_EQ(both[0].second.heading_rad, 271.5 * kRadPerDeg);
+  EXPECT_FALSE(known(both[1].second.heading_rad));
+}
+
 struct SbgGnssFault {
   const char* name;
   ByteVector bytes;
@@ -286,6 +371,12 @@ INSTANTIATE_TEST_SUITE_P(
         SbgGnssFault{"type", position({.status = 11U << 6U}), RejectReason::field},
         SbgGnssFault{"time_of_the_week", position({.tow_ms = 604'800'000}), kOutside},
         SbgGnssFault{"position_cut", position({.size = 51}), RejectReason::length},
+        SbgGnssFault{"heading_beyond", heading({.heading_deg = 360.5F}), kOutside},
+        SbgGnssFault{"heading_negative", heading({.heading_deg = -0.5F}), kOutside},
+        SbgGnssFault{"heading_no_number", heading({.heading_deg = kNanF}), RejectReason::field},
+        SbgGnssFault{"heading_time_of_the_week", heading({.tow_ms = 604'800'000}), kOutside},
+        SbgGnssFault{"heading_cut", heading({.size = 25}), RejectReason::length},
+        SbgGnssFault{"heading_of_the_second", heading({.heading_deg = 361.0F}, kHeading2), kOutside},
         SbgGnssFault{"velocity_cut", frame(kVelocity1, ByteVector(43, 0)), RejectReason::length},
         SbgGnssFault{"velocity_type", velocity(kTow_ms, 4U << 6U), RejectReason::field},
         SbgGnssFault{"velocity_no_number", velocity(kTow_ms, 2U << 6U, kNanF), RejectReason::field},

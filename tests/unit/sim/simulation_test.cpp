@@ -394,6 +394,24 @@ TEST(DeviceEncoder, AReceiverIsUnderstoodInEachOfItsProtocols) {
   }
 }
 
+TEST(DeviceEncoder, ACompassIsUnderstoodInEachOfItsProtocols) {
+  const Scenario scenario = instrumented();
+  HeadingSample heading;
+  heading.header.stamp_ns = kEpoch + kNsPerSecond;
+  heading.heading_rad = 5.5;
+  for (const std::string_view protocol : SimulatedDevice<HeadingSample>::kProtocols) {
+    SimulatedDevice<HeadingSample> device;
+    const auto codec = codec::find_protocol(protocol)->make({});
+    Collected sink;
+    codec->feed(device.encode(heading, {protocol, scenario, kEpoch}), sink);
+    codec->finish(sink);
+    ASSERT_EQ(sink.samples.size(), 1U) << protocol;
+    const auto& read = std::get<HeadingSample>(sink.samples[0].sample);
+    EXPECT_EQ(read.north, North::true_north) << protocol;
+    EXPECT_NEAR(read.heading_rad, heading.heading_rad, 1e-5) << protocol;
+  }
+}
+
 TEST(DeviceEncoder, SpeaksOnlyProtocolsThatTheRegistryDecodes) {
   for_each_kind([](auto kind) {
     for (const std::string_view protocol : SimulatedDevice<typename decltype(kind)::Sample>::kProtocols) {

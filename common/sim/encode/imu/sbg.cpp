@@ -13,6 +13,7 @@
 #include "codec/gps_time.hpp"
 #include "codec/imu/sbg.hpp"
 #include "codec/imu/sbg_gnss.hpp"
+#include "geo/wgs84.hpp"
 
 namespace fathom::sim::encode {
 namespace {
@@ -174,6 +175,27 @@ Frame sbg_gps_velocity(const GpsSample& s, TimeNs utc_ns, DurationNs since_start
   append_le<float>(data, static_cast<float>(s.course_rad * kDegPerRad));
   append_le<float>(data, 0.0F);
   return sbg_frame(receiver == 2 ? ecom::gps2_velocity : ecom::gps1_velocity, kLogs, data);
+}
+
+Frame sbg_gps_heading(const HeadingSample& s, TimeNs utc_ns, DurationNs since_startup_ns, int receiver) {
+  constexpr float kNoPitch_deg = 90.0F;
+  const double to_true_rad = s.north == North::magnetic ? s.variation_rad : 0.0;
+  const double heading_deg = geo::wrap_two_pi(s.heading_rad + to_true_rad) * kDegPerRad;
+  const double sigma_deg = or_zero(s.sigma_rad) * kDegPerRad;
+  const bool solved = known(heading_deg);
+  Frame data;
+  put_stamp(data, since_startup_ns);
+  const unsigned status = solved ? ecom::kSolutionComputed : ecom::kInsufficientObservations;
+  append_le<std::uint16_t>(data, static_cast<std::uint16_t>(status));
+  append_le<std::uint32_t>(data, week_ms(utc_ns));
+  append_le<float>(data, static_cast<float>(or_zero(heading_deg)));
+  append_le<float>(data, static_cast<float>(solved ? sigma_deg : ecom::kNoHeading_deg));
+  append_le<float>(data, 0.0F);
+  append_le<float>(data, kNoPitch_deg);
+  append_le<float>(data, 0.0F);  // how far the antennas are apart is not said
+  data.push_back(0xFF);          // nor how many satellites are tracked,
+  data.push_back(0xFF);          // nor used
+  return sbg_frame(receiver == 2 ? ecom::gps2_heading : ecom::gps1_heading, kLogs, data);
 }
 
 Frame sbg_epoch(const GpsSample& s, TimeNs utc_ns, DurationNs since_startup_ns) {

@@ -5,6 +5,7 @@
 
 #include "base/time.hpp"
 #include "samples/gps.hpp"
+#include "samples/heading.hpp"
 #include "samples/imu.hpp"
 
 namespace fathom::sim::encode {
@@ -28,6 +29,11 @@ namespace fathom::sim::encode {
 /// GPS1_VEL or GPS2_VEL, in single precision; an unknown velocity is no solution.
 [[nodiscard]] std::vector<std::uint8_t> sbg_gps_velocity(const GpsSample& sample, TimeNs utc_ns,
                                                          DurationNs since_startup_ns, int receiver = 1);
+
+/// GPS1_HDT or GPS2_HDT, in single precision, without pitch. A magnetic heading is sent as the true one by
+/// its variation; an unknown one is no solution.
+[[nodiscard]] std::vector<std::uint8_t> sbg_gps_heading(const HeadingSample& sample, TimeNs utc_ns,
+                                                        DurationNs since_startup_ns, int receiver = 1);
 
 /// What a unit sends of an epoch of its receiver: UTC_TIME, GPS1_VEL and GPS1_POS.
 [[nodiscard]] std::vector<std::uint8_t> sbg_epoch(const GpsSample& sample, TimeNs utc_ns,
