@@ -149,7 +149,8 @@ void describe(Schema<ImuSensorConfig>& s) {
       .only_for({"stim300"});
   s.check([](const ImuSensorConfig& c) -> Violation {
     const codec::Protocol* protocol = codec::find_protocol(c.sensor.protocol);
-    if (protocol == nullptr || !protocol->traits.turns_axes || c.mounting.frame != MountingFrame::flu) return {};
+    if (protocol == nullptr || !protocol->traits.turns_axes || c.mounting.frame != MountingFrame::flu)
+      return {};
     return {"mounting.frame", "frd or matrix, because the codec of " + std::string(protocol->name) +
                                   " has turned the unit's own axes to forward-right-down already"};
   });

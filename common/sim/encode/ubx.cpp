@@ -9,6 +9,7 @@
 #include "codec/gps_time.hpp"
 #include "codec/satellite/ubx.hpp"
 #include "sim/encode/pvt.hpp"
+#include "sim/encode/true_heading.hpp"
 
 namespace fathom::sim::encode {
 
@@ -43,13 +44,14 @@ std::vector<std::uint8_t> ubx_nav_relposned(const HeadingSample& sample, TimeNs 
   constexpr std::uint32_t kHeadingValid = 1U << 8U;
   constexpr std::uint32_t kBaseline_cm = 100;
   const auto unit = [](double angle_rad) { return std::llround(angle_rad * kDegPerRad * 1e5); };
-  const bool known_heading = known(sample.heading_rad);
+  const double heading_rad = true_heading_rad(sample);
+  const bool known_heading = known(heading_rad);
   std::vector<std::uint8_t> p(64, 0);
   p[0] = 1;
   store_le<std::uint32_t>(
       p, 4, static_cast<std::uint32_t>(codec::gps_of_utc(utc_ns) % codec::kGpsWeek_ns / kNsPerMillisecond));
   store_le<std::uint32_t>(p, 20, kBaseline_cm);
-  if (known_heading) store_le<std::int32_t>(p, 24, static_cast<std::int32_t>(unit(sample.heading_rad)));
+  if (known_heading) store_le<std::int32_t>(p, 24, static_cast<std::int32_t>(unit(heading_rad)));
   if (known(sample.sigma_rad))
     store_le<std::uint32_t>(p, 52, static_cast<std::uint32_t>(unit(sample.sigma_rad)));
   store_le<std::uint32_t>(p, 60, known_heading ? kMovingBase | kHeadingValid : kMovingBase);

@@ -18,7 +18,8 @@ namespace fathom::sim::encode {
 /// position is marked invalid.
 [[nodiscard]] std::vector<std::uint8_t> ubx_nav_pvt(const GpsSample& sample, TimeNs utc_ns);
 
-/// UBX NAV-RELPOSNED (64 bytes) of a moving base with fixed carrier phase; without heading it is not valid.
+/// UBX NAV-RELPOSNED (64 bytes) of a moving base with fixed carrier phase; without a true heading it is not
+/// valid.
 [[nodiscard]] std::vector<std::uint8_t> ubx_nav_relposned(const HeadingSample& sample, TimeNs utc_ns);
 
 }  // namespace fathom::sim::encode

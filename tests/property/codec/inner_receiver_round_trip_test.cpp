@@ -7,9 +7,11 @@
 
 #include "codec/imu/microstrain.hpp"
 #include "codec/imu/sbg.hpp"
+#include "codec/satellite/ubx.hpp"
 #include "round_trip.hpp"
 #include "sim/encode/imu/microstrain.hpp"
 #include "sim/encode/imu/sbg.hpp"
+#include "sim/encode/ubx.hpp"
 
 namespace fathom {
 namespace {
@@ -136,6 +138,31 @@ TEST_F(InnerReceiverRoundTrip, SbgKeepsTheHeadingOfTwoAntennas) {
       EXPECT_NEAR(r.sigma_rad, s.sigma_rad, kSingle * s.sigma_rad);
     }
     EXPECT_EQ(*got[0].time.utc_ns, utc_ns / 1'000'000 * 1'000'000);
+  }
+}
+
+TEST_F(InnerReceiverRoundTrip, UbxKeepsTheHeadingOfAMovingBase) {
+  for (int run = 0; run < kRuns; ++run) {
+    HeadingSample sent;
+    if (run % 5 != 0) sent.heading_rad = draw(0.0, 2.0 * std::numbers::pi);
+    if (known(sent.heading_rad) && chance(0.7)) sent.sigma_rad = draw(0.0005, 3.0);
+    const TimeNs utc_ns = kSomeTime_ns + run * 10'000'001LL;
+    auto bytes = sim::encode::ubx_nav_pvt({}, utc_ns);
+    const auto message = sim::encode::ubx_nav_relposned(sent, utc_ns);
+    bytes.insert(bytes.end(), message.begin(), message.end());
+    const auto got = read(codec::make_ubx({}), bytes);
+    ASSERT_EQ(got.size(), 2U) << "the solution, and the heading";
+    const auto& r = std::get<HeadingSample>(got[1].sample);
+    ASSERT_EQ(known(r.heading_rad), known(sent.heading_rad));
+    ASSERT_EQ(known(r.sigma_rad), known(sent.sigma_rad));
+    ASSERT_TRUE(got[1].time.utc_ns);
+    EXPECT_NEAR(static_cast<double>(*got[1].time.utc_ns - utc_ns), 0.0, 1e6) << "whole milliseconds";
+    if (!known(sent.heading_rad)) continue;
+    EXPECT_LT(r.heading_rad, 2.0 * std::numbers::pi);
+    EXPECT_NEAR(std::remainder(r.heading_rad - sent.heading_rad, 2.0 * std::numbers::pi), 0.0, 1e-7);
+    if (known(sent.sigma_rad)) {
+      EXPECT_NEAR(r.sigma_rad, sent.sigma_rad, 1e-7);
+    }
   }
 }
 

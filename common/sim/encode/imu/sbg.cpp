@@ -14,6 +14,7 @@
 #include "codec/imu/sbg.hpp"
 #include "codec/imu/sbg_gnss.hpp"
 #include "geo/wgs84.hpp"
+#include "sim/encode/true_heading.hpp"
 
 namespace fathom::sim::encode {
 namespace {
@@ -179,8 +180,7 @@ Frame sbg_gps_velocity(const GpsSample& s, TimeNs utc_ns, DurationNs since_start
 
 Frame sbg_gps_heading(const HeadingSample& s, TimeNs utc_ns, DurationNs since_startup_ns, int receiver) {
   constexpr float kNoPitch_deg = 90.0F;
-  const double to_true_rad = s.north == North::magnetic ? s.variation_rad : 0.0;
-  const double heading_deg = geo::wrap_two_pi(s.heading_rad + to_true_rad) * kDegPerRad;
+  const double heading_deg = true_heading_rad(s) * kDegPerRad;
   const double sigma_deg = or_zero(s.sigma_rad) * kDegPerRad;
   const bool solved = known(heading_deg);
   Frame data;
