@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
 #include <asio/redirect_error.hpp>
+#include <asio/steady_timer.hpp>
 #include <asio/use_awaitable.hpp>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -153,7 +155,12 @@ asio::awaitable<void> PortShare::accept() {
     if (error || !listening_.is_open()) co_return;
     const int descriptor =
         accept4(listening_.native_handle(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    if (descriptor >= 0) take_in(descriptor);
+    if (descriptor >= 0) {
+      take_in(descriptor);
+    } else {  // who connects waits meanwhile, e.g. until there are descriptors again
+      asio::steady_timer pause(io_, std::chrono::milliseconds(100));
+      co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, error));
+    }
   }
 }
 
