@@ -221,6 +221,18 @@ struct Collected : codec::Sink {
   int rejected = 0;
 };
 
+/// What the codec of a protocol reads of what the device says in it.
+template <class Sample>
+std::vector<codec::Decoded> said(const Sample& sample, std::string_view protocol) {
+  const Scenario scenario = instrumented();
+  SimulatedDevice<Sample> device;
+  const auto codec = codec::find_protocol(protocol)->make({});
+  Collected sink;
+  codec->feed(device.encode(sample, {protocol, scenario, kEpoch}), sink);
+  codec->finish(sink);
+  return sink.samples;
+}
+
 TEST(DeviceEncoder, TheCodecsReadWhatTheDevicesSay) {
   const Scenario scenario = instrumented();
   Simulation::Options options;
@@ -303,19 +315,14 @@ TEST(DeviceEncoder, AnInertialUnitSaysTheSameInEveryProtocol) {
 }
 
 TEST(DeviceEncoder, AnInertialUnitIsUnderstoodInEachOfItsProtocols) {
-  const Scenario scenario = instrumented();
   ImuSample imu;
   imu.header.stamp_ns = kEpoch + kNsPerSecond;
   imu.angular_rate_B_rad_s = {0.1, -0.2, 0.3};
   imu.specific_force_B_m_s2 = {1.0, -2.0, -9.8};
   for (const std::string_view protocol : SimulatedDevice<ImuSample>::kProtocols) {
-    SimulatedDevice<ImuSample> device;
-    const auto codec = codec::find_protocol(protocol)->make({});
-    Collected sink;
-    codec->feed(device.encode(imu, {protocol, scenario, kEpoch}), sink);
-    codec->finish(sink);
-    ASSERT_EQ(sink.samples.size(), 1U) << protocol;
-    const auto& read = std::get<ImuSample>(sink.samples[0].sample);
+    const auto decoded = said(imu, protocol);
+    ASSERT_EQ(decoded.size(), 1U) << protocol;
+    const auto& read = std::get<ImuSample>(decoded[0].sample);
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(read.angular_rate_B_rad_s[i], imu.angular_rate_B_rad_s[i], 1e-6) << protocol;
       EXPECT_NEAR(read.specific_force_B_m_s2[i], imu.specific_force_B_m_s2[i], 1e-4) << protocol;
@@ -324,7 +331,6 @@ TEST(DeviceEncoder, AnInertialUnitIsUnderstoodInEachOfItsProtocols) {
 }
 
 TEST(DeviceEncoder, ASatelliteReceiverIsUnderstoodInEachOfItsProtocols) {
-  const Scenario scenario = instrumented();
   GpsSample gps;
   gps.header.stamp_ns = kEpoch + kNsPerSecond;
   gps.fix = GpsFix::fix_3d;
@@ -338,14 +344,10 @@ TEST(DeviceEncoder, ASatelliteReceiverIsUnderstoodInEachOfItsProtocols) {
   gps.velocity_sigma_N_m_s.fill(0.05);
   gps.hdop = 0.9;
   for (const std::string_view protocol : SimulatedDevice<GpsSample>::kProtocols) {
-    SimulatedDevice<GpsSample> device;
-    const auto codec = codec::find_protocol(protocol)->make({});
-    Collected sink;
-    codec->feed(device.encode(gps, {protocol, scenario, kEpoch}), sink);
-    codec->finish(sink);
-    ASSERT_EQ(sink.samples.size(), 1U) << protocol;
-    EXPECT_EQ(sink.samples[0].time.utc_ns, gps.header.stamp_ns) << protocol;
-    const auto& read = std::get<GpsSample>(sink.samples[0].sample);
+    const auto decoded = said(gps, protocol);
+    ASSERT_EQ(decoded.size(), 1U) << protocol;
+    EXPECT_EQ(decoded[0].time.utc_ns, gps.header.stamp_ns) << protocol;
+    const auto& read = std::get<GpsSample>(decoded[0].sample);
     EXPECT_EQ(read.fix, gps.fix) << protocol;
     EXPECT_NEAR(read.latitude_rad, gps.latitude_rad, 1e-9) << protocol;
     EXPECT_NEAR(read.longitude_rad, gps.longitude_rad, 1e-9) << protocol;
@@ -364,49 +366,14 @@ TEST(DeviceEncoder, KnowsWhatItCanSay) {
   EXPECT_EQ(find_sensor(SensorSuite{}, "sonar"), nullptr);
 }
 
-TEST(DeviceEncoder, AReceiverIsUnderstoodInEachOfItsProtocols) {
-  const Scenario scenario = instrumented();
-  GpsSample gps;
-  gps.header.stamp_ns = kEpoch + kNsPerSecond;
-  gps.fix = GpsFix::fix_3d;
-  gps.satellites = 9;
-  gps.latitude_rad = 0.63;
-  gps.longitude_rad = -2.1;
-  gps.altitude_m = 3.0;
-  gps.altitude_msl_m = 30.0;
-  gps.position_sigma_N_m = {1.0, 1.0, 2.0};
-  gps.velocity_N_m_s = {1.0, -2.0, 0.0};
-  gps.velocity_sigma_N_m_s = {0.1, 0.1, 0.1};
-  gps.hdop = 0.9;
-  for (const std::string_view protocol : SimulatedDevice<GpsSample>::kProtocols) {
-    SimulatedDevice<GpsSample> device;
-    const auto codec = codec::find_protocol(protocol)->make({});
-    Collected sink;
-    codec->feed(device.encode(gps, {protocol, scenario, kEpoch}), sink);
-    codec->finish(sink);
-    ASSERT_EQ(sink.samples.size(), 1U) << protocol;
-    const auto& read = std::get<GpsSample>(sink.samples[0].sample);
-    EXPECT_EQ(read.fix, GpsFix::fix_3d) << protocol;
-    EXPECT_NEAR(read.latitude_rad, gps.latitude_rad, 2e-9) << protocol;
-    EXPECT_NEAR(read.longitude_rad, gps.longitude_rad, 2e-9) << protocol;
-    EXPECT_NEAR(read.velocity_N_m_s[0], 1.0, 0.02) << protocol;
-    EXPECT_NEAR(read.velocity_N_m_s[1], -2.0, 0.02) << protocol;
-  }
-}
-
 TEST(DeviceEncoder, ACompassIsUnderstoodInEachOfItsProtocols) {
-  const Scenario scenario = instrumented();
   HeadingSample heading;
   heading.header.stamp_ns = kEpoch + kNsPerSecond;
   heading.heading_rad = 5.5;
   for (const std::string_view protocol : SimulatedDevice<HeadingSample>::kProtocols) {
-    SimulatedDevice<HeadingSample> device;
-    const auto codec = codec::find_protocol(protocol)->make({});
-    Collected sink;
-    codec->feed(device.encode(heading, {protocol, scenario, kEpoch}), sink);
-    codec->finish(sink);
-    ASSERT_EQ(sink.samples.size(), 1U) << protocol;
-    const auto& read = std::get<HeadingSample>(sink.samples[0].sample);
+    const auto decoded = said(heading, protocol);
+    ASSERT_EQ(decoded.size(), 1U) << protocol;
+    const auto& read = std::get<HeadingSample>(decoded[0].sample);
     EXPECT_EQ(read.north, North::true_north) << protocol;
     EXPECT_NEAR(read.heading_rad, heading.heading_rad, 1e-5) << protocol;
   }
