@@ -239,8 +239,9 @@ class VectorNav : public Framer {
     const auto fix = fixes_.take(frame, layout);
     const bool has_sample = inertial.sent && !inertial.refused;
     if (has_sample) emit(sink, inertial.sample, device_time(frame, layout), offset, frame.size());
-    if (fix && !fix->refused) {
-      emit(sink, fix->sample, fix->time, offset, frame.size());
+    if (fix && (!fix->refused || has_sample)) {
+      // Beside rates and forces that are good an impossible fix is none, so that it does not pass unseen.
+      emit(sink, fix->refused ? GpsSample{} : fix->sample, fix->time, offset, frame.size());
       return Outcome::used();
     }
     if (has_sample) return Outcome::used();

@@ -274,8 +274,9 @@ class Xsens : public Framer {
       items = items.subspan(3 + size);
     }
     const bool inertial = !got.refused && emit_inertial(got, message, offset, sink);
-    if (got.fix && !got.fix->refused) {
-      emit(sink, got.fix->sample, got.fix->time, offset, message.size());
+    if (got.fix && (!got.fix->refused || inertial)) {
+      // Beside rates and forces that are good an impossible fix is none, so that it does not pass unseen.
+      emit(sink, got.fix->refused ? GpsSample{} : got.fix->sample, got.fix->time, offset, message.size());
       return Outcome::used();
     }
     if (inertial) return Outcome::used();

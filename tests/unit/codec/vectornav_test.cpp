@@ -356,7 +356,7 @@ TEST(VectorNavFix, GroupsWithoutFixOrWithNeitherPositionNorVelocityAreIgnored) {
   EXPECT_EQ(run.totals.frames_ignored, 2U);
 }
 
-TEST(VectorNavFix, AnImpossibleOneIsRefusedOnceAndInertialDataAreKept) {
+TEST(VectorNavFix, AnImpossibleOneIsRefusedOnceAndIsNoneBesideGoodInertialData) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<std::pair<Gnss, RejectReason>> faults{
       {{.latitude_deg = 90.5}, RejectReason::out_of_range},
@@ -374,7 +374,10 @@ TEST(VectorNavFix, AnImpossibleOneIsRefusedOnceAndInertialDataAreKept) {
 
     const Harvest kept = decode("vectornav", gnss.with_inertial());
     EXPECT_EQ(of_kind<ImuSample>(kept).size(), 1U);
-    EXPECT_EQ(kept.totals.samples, 1U);
+    const auto fixes = of_kind<GpsSample>(kept);
+    ASSERT_EQ(fixes.size(), 1U);
+    EXPECT_EQ(fixes[0].second.fix, GpsFix::none) << "which is seen";
+    EXPECT_FALSE(known(fixes[0].second.latitude_rad));
     EXPECT_EQ(kept.totals.rejected, 0U);
   }
 }

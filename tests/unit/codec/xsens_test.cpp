@@ -258,7 +258,7 @@ TEST(Xsens, MessagesWithoutBothTriadsAreIgnored) {
 }
 
 TEST(Xsens, AnExtendedMessageIsReadLikeAShortOne) {
-  const auto filler = item(0x7010, ByteVector(200, 0)) + item(0x7020, ByteVector(200, 0));
+  const auto filler = item(0x7030, ByteVector(200, 0)) + item(0x7020, ByteVector(200, 0));
   const Harvest run = decode("xsens", data2(filler + kForce + kRate));
   EXPECT_EQ(run.totals.samples, 1U);
   EXPECT_EQ(run.totals.skipped_bytes, 0U);
@@ -334,7 +334,7 @@ TEST(XsensFix, TimeOnlyWhenFullyResolved) {
   }
 }
 
-TEST(XsensFix, AnImpossibleOneIsRefusedAndInertialDataAreKept) {
+TEST(XsensFix, AnImpossibleOneIsRefusedAndIsNoneBesideGoodInertialData) {
   ByteVector cut = pvt();
   cut.pop_back();
   const std::vector<std::pair<ByteVector, RejectReason>> faults{
@@ -350,7 +350,10 @@ TEST(XsensFix, AnImpossibleOneIsRefusedAndInertialDataAreKept) {
 
     const Harvest kept = decode("xsens", data2(fix_of(fields) + kForce + kRate));
     EXPECT_EQ(of_kind<ImuSample>(kept).size(), 1U);
-    EXPECT_EQ(kept.totals.samples, 1U);
+    const auto fixes = of_kind<GpsSample>(kept);
+    ASSERT_EQ(fixes.size(), 1U);
+    EXPECT_EQ(fixes[0].second.fix, GpsFix::none) << "which is seen";
+    EXPECT_FALSE(known(fixes[0].second.latitude_rad));
     EXPECT_EQ(kept.totals.rejected, 0U);
   }
 }
