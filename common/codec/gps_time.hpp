@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "base/time.hpp"
 
 namespace fathom::codec {
@@ -16,6 +18,17 @@ inline constexpr DurationNs kGpsWeek_ns = 7 * 86'400 * kNsPerSecond;
 }
 [[nodiscard]] constexpr DurationNs gps_of_utc(TimeNs utc_ns) {
   return utc_ns - kGpsEpoch_ns + kGpsAheadOfUtc_ns;
+}
+/// As most receivers count it.
+[[nodiscard]] constexpr std::uint32_t time_of_week_ms(TimeNs utc_ns) {
+  return static_cast<std::uint32_t>(gps_of_utc(utc_ns) % kGpsWeek_ns / kNsPerMillisecond);
+}
+
+/// What is left of a difference when whole periods are taken off, from -period/2 to period/2: between times
+/// of the week the shorter way round.
+[[nodiscard]] constexpr DurationNs remainder_of(DurationNs value, DurationNs period) {
+  const DurationNs rest = ((value % period) + period) % period;
+  return rest > period / 2 ? rest - period : rest;
 }
 
 }  // namespace fathom::codec

@@ -102,12 +102,6 @@ ImuSample sample_of_imu_short(Bytes data, unsigned status) {
   return s;
 }
 
-/// From -period/2 to period/2.
-DurationNs remainder_of(DurationNs value, DurationNs period) {
-  const DurationNs rest = ((value % period) + period) % period;
-  return rest > period / 2 ? rest - period : rest;
-}
-
 class Sbg : public Framer {
  public:
   Sbg() : Framer(kMaxSbgFrame) {}

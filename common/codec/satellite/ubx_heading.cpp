@@ -44,8 +44,8 @@ std::optional<UbxHeading::Found> UbxHeading::read(Bytes payload) const {
   if ((flags & kMoving) == 0) return std::nullopt;
   const auto time_of_week_ms = load_le<std::uint32_t>(payload, 4);
   if (utc_ns_) {
-    DurationNs later_ns = (DurationNs{time_of_week_ms} - DurationNs{time_of_week_ms_}) * kNsPerMillisecond;
-    if (later_ns < -kGpsWeek_ns / 2) later_ns += kGpsWeek_ns;
+    const DurationNs apart_ms = DurationNs{time_of_week_ms} - DurationNs{time_of_week_ms_};
+    const DurationNs later_ns = remainder_of(apart_ms * kNsPerMillisecond, kGpsWeek_ns);
     if (std::abs(later_ns) <= kSolutionHolds_ns) out.time.utc_ns = *utc_ns_ + later_ns;
   }
   if (!is_good(flags)) return out;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "codec/registry.hpp"
 #include "config/vehicle/sources.hpp"
 
 namespace fathom::config {
@@ -57,11 +56,9 @@ void bridge_layers(const Sources& vehicle, std::string_view role, Layers& out) {
       out.mark(at + key, known.at.child(in_file));
     out.overlay(at + "name", one.name.str(), known.at.child("name"));
     put_port(out, known, at);
-    const Found protocol = find(known, "protocol");
-    put(out, at + "protocol", protocol);
+    put(out, at + "protocol", find(known, "protocol"));
     put(out, at + "rate_hz", find(known, "rate_hz"));
-    const codec::Protocol* speaks =
-        codec::find_protocol(protocol.value.is_string() ? protocol.value.get<std::string>() : "");
+    const codec::Protocol* speaks = protocol_of(known);
     const std::string mode = time_mode(one.kind, speaks);
     out.overlay(at + "time.mode", mode, kStandard);
     put(out, at + (mode == "device_clock" ? "time.minimum_latency_s" : "time.latency_s"),

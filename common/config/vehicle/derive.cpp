@@ -37,6 +37,11 @@ Found find(const Known& known, const std::string& key, json standard) {
   return {std::move(standard), kStandard};
 }
 
+const codec::Protocol* protocol_of(const Known& known) {
+  const json protocol = find(known, "protocol").value;
+  return protocol.is_string() ? codec::find_protocol(protocol.get<std::string>()) : nullptr;
+}
+
 void put(Layers& out, const std::string& key, const Found& found) {
   if (!found.value.is_null()) out.overlay(key, found.value, found.origin);
 }

@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "codec/registry.hpp"
 #include "config/vehicle/sources.hpp"
 
 namespace fathom::config {
@@ -44,9 +43,7 @@ void add_model_states(Layers& out, const Known& known) {
 
 /// What the protocol says of the instrument's samples.
 void add_traits(Layers& out, const std::string& at, const Known& known) {
-  const json protocol = find(known, "protocol").value;
-  const codec::Protocol* speaks =
-      codec::find_protocol(protocol.is_string() ? protocol.get<std::string>() : "");
+  const codec::Protocol* speaks = protocol_of(known);
   if (known.config->kind == SourceKind::heading && speaks != nullptr && speaks->traits.heading_by_antennas)
     out.overlay(at + "two_antenna", true, kStandard);
 }

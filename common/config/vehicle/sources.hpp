@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "codec/registry.hpp"
 #include "config/json/layers.hpp"
 #include "config/vehicle/vehicle_config.hpp"
 
@@ -36,6 +37,8 @@ struct Found {
   Origin origin;
 };
 [[nodiscard]] Found find(const Known& known, const std::string& key, nlohmann::json standard = nullptr);
+/// What its bytes are; null where nobody says it, or says one that is none.
+[[nodiscard]] const codec::Protocol* protocol_of(const Known& known);
 /// Nothing where the value is null.
 void put(Layers& out, const std::string& key, const Found& found);
 /// Appends an element to an array and says what it goes back to. Returns its key with a dot behind it.

@@ -83,7 +83,7 @@ std::vector<std::uint8_t> pvt_fields(const GpsSample& sample, TimeNs utc_ns, std
   std::vector<std::uint8_t> p;
   p.reserve(96);
   const auto put = [&]<class T>(T value) { append_as<T>(p, value, order); };
-  put(static_cast<std::uint32_t>(codec::gps_of_utc(utc_ns) % codec::kGpsWeek_ns / kNsPerMillisecond));
+  put(codec::time_of_week_ms(utc_ns));
   put(static_cast<std::uint16_t>(civil.year));
   for (const int field : {civil.month, civil.day, civil.hour, civil.minute, civil.second}) {
     p.push_back(static_cast<std::uint8_t>(field));

@@ -48,8 +48,7 @@ std::vector<std::uint8_t> ubx_nav_relposned(const HeadingSample& sample, TimeNs 
   const bool known_heading = known(heading_rad);
   std::vector<std::uint8_t> p(64, 0);
   p[0] = 1;
-  store_le<std::uint32_t>(
-      p, 4, static_cast<std::uint32_t>(codec::gps_of_utc(utc_ns) % codec::kGpsWeek_ns / kNsPerMillisecond));
+  store_le<std::uint32_t>(p, 4, codec::time_of_week_ms(utc_ns));
   store_le<std::uint32_t>(p, 20, kBaseline_cm);
   if (known_heading) store_le<std::int32_t>(p, 24, static_cast<std::int32_t>(unit(heading_rad)));
   if (known(sample.sigma_rad))

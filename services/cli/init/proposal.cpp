@@ -20,12 +20,7 @@ std::string role_name(SourceKind kind) {
   return role.substr(0, role.rfind("_bridge"));
 }
 
-Json port_json(const runtime::ByteSourceConfig& port, bool shared) {
-  if (shared) {
-    Json out = port_json(port, false);
-    out["shared"] = true;
-    return out;
-  }
+Json port_json(const runtime::ByteSourceConfig& port) {
   switch (port.type) {
     case runtime::SourceType::serial: {
       Json out = {{"type", "serial"}, {"path", port.path}, {"baud", port.baud}};
@@ -207,6 +202,8 @@ std::vector<Proposal> propose(const std::vector<Heard>& heard) {
         elsewhere += (elsewhere.empty() ? "" : ", ") + std::string(to_string(kind.kind));
       }
     }
+    Json port = port_json(one.port);
+    if (bridges.size() > 1) port["shared"] = true;
     for (const SourceKind bridge : bridges) {
       const std::string base = name_of(seen.kinds, bridge);
       const int count = ++names[base];
@@ -215,7 +212,7 @@ std::vector<Proposal> propose(const std::vector<Heard>& heard) {
       for (const SeenKind& kind : seen.kinds) {
         if (role_of(kind.kind) != role_of(bridge)) continue;
         out.push_back(proposal_of(one, kind, name));
-        if (first) out.back().instrument["port"] = port_json(one.port, bridges.size() > 1);
+        if (first) out.back().instrument["port"] = port;
         first = false;
       }
     }

@@ -133,6 +133,7 @@ TEST(UbxRelposned, UtcComesFromTheSolutionBefore) {
   EXPECT_EQ(utc_after(solution(kTow_ms), kTow_ms), utc_ns);
   EXPECT_EQ(utc_after(solution(kTow_ms), kTow_ms + 125), utc_ns + 125 * kNsPerMillisecond);
   EXPECT_EQ(utc_after(solution(604'799'900), 25), utc_ns + 125 * kNsPerMillisecond) << "over the week's end";
+  EXPECT_EQ(utc_after(solution(25), 604'799'900), utc_ns - 125 * kNsPerMillisecond);
   EXPECT_FALSE(utc_after(solution(kTow_ms), kTow_ms + 11'000)) << "the solution is too old";
   EXPECT_FALSE(utc_after(solution(kTow_ms, 0x03), kTow_ms)) << "its UTC was not resolved";
   EXPECT_FALSE(utc_after({}, kTow_ms));

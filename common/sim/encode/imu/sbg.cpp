@@ -48,10 +48,6 @@ double or_zero(double value) {
   return known(value) ? value : 0.0;
 }
 
-std::uint32_t week_ms(TimeNs utc_ns) {
-  return static_cast<std::uint32_t>(codec::gps_of_utc(utc_ns) % codec::kGpsWeek_ns / kNsPerMillisecond);
-}
-
 ecom::PositionType position_type(GpsFix fix) {
   switch (fix) {
     case GpsFix::none:
@@ -77,7 +73,7 @@ void put_gps_head(Frame& data, bool solved, unsigned type, TimeNs utc_ns, Durati
   put_stamp(data, since_startup_ns);
   append_le<std::uint32_t>(data, (solved ? ecom::kSolutionComputed : ecom::kInsufficientObservations) |
                                      (solved ? type << 6U : 0U));
-  append_le<std::uint32_t>(data, week_ms(utc_ns));
+  append_le<std::uint32_t>(data, codec::time_of_week_ms(utc_ns));
 }
 
 template <class Count>
@@ -141,7 +137,7 @@ Frame sbg_utc_time(TimeNs utc_ns, DurationNs since_startup_ns) {
   for (const int part : {civil.month, civil.day, civil.hour, civil.minute, civil.second})
     data.push_back(static_cast<std::uint8_t>(part));
   append_le<std::int32_t>(data, civil.nanosecond);
-  append_le<std::uint32_t>(data, week_ms(utc_ns));
+  append_le<std::uint32_t>(data, codec::time_of_week_ms(utc_ns));
   for (int i = 0; i < 3; ++i) append_le<float>(data, 0.0F);
   return sbg_frame(ecom::utc_time, kLogs, data);
 }
@@ -187,7 +183,7 @@ Frame sbg_gps_heading(const HeadingSample& s, TimeNs utc_ns, DurationNs since_st
   put_stamp(data, since_startup_ns);
   const unsigned status = solved ? ecom::kSolutionComputed : ecom::kInsufficientObservations;
   append_le<std::uint16_t>(data, static_cast<std::uint16_t>(status));
-  append_le<std::uint32_t>(data, week_ms(utc_ns));
+  append_le<std::uint32_t>(data, codec::time_of_week_ms(utc_ns));
   append_le<float>(data, static_cast<float>(or_zero(heading_deg)));
   append_le<float>(data, static_cast<float>(solved ? sigma_deg : ecom::kNoHeading_deg));
   append_le<float>(data, 0.0F);
