@@ -45,11 +45,9 @@ constexpr double kDrift_m_s3 = 7.292e-5 * 9.8;  // one sigma of each component o
 
 // The integration at an instant.
 struct At {
-  At(const Strapdown& strapdown, double at_s)
-      : t_s(at_s), state(strapdown.at(at_s)), of_bias(strapdown.of_bias_at(at_s)) {}
+  At(const MovedStrapdown& strapdown, double at_s) : t_s(at_s), there(strapdown.at(at_s)) {}
   double t_s;
-  Strapdown::State state;
-  Strapdown::OfBias of_bias;
+  Strapdown::Both there;
 };
 
 // A window's rows: what the DVL read, when.
@@ -60,7 +58,8 @@ struct Row {
 
 // Velocity in body axes of the DVL's place.
 Vector3d body_velocity(const At& at, double begin_s, const Unknowns& u, const Own& own) {
-  const auto& [t_s, state, of_bias] = at;
+  const auto& [t_s, there] = at;
+  const auto& [state, of_bias] = there;
   const Vector3d v_W = own.head<3>() + state.S - of_bias.IC * u.force_bias +
                        own.segment<3>(3) * (t_s - begin_s) +
                        own.tail<3>() * (0.5 * (t_s - begin_s) * (t_s - begin_s));
@@ -71,11 +70,8 @@ double weight_of(double residual, double scale) {
   return scale <= 0.0 || residual <= 3.0 * scale ? 1.0 : std::sqrt(3.0 * scale / residual);
 }
 
-void add_window(const Series& series, const Span& window, const Unknowns& u, double robust_scale,
-                WindowFit& fit, std::vector<double>& residuals) {
-  const double from_s = window.from_s - kWindowMargin_s;
-  const double to_s = window.to_s + kWindowMargin_s;
-  const Strapdown strapdown(series.imu, u.reading, from_s, to_s, Strapdown::Integrate::motion_and_biases);
+void add_window(const Series& series, const Span& window, const MovedStrapdown& strapdown, const Unknowns& u,
+                double robust_scale, WindowFit& fit, std::vector<double>& residuals) {
   std::vector<Row> rows;
   for (const std::size_t i : rows_in(series.dvl, window, kLeastDvlStep_s)) {
     const double t = series.dvl.t_s[i] - u.latency_s;
@@ -96,7 +92,7 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(3 * k);
       const double t = rows[k].at.t_s;
-      const Matrix3d turn = A * rows[k].at.state.C_WB.transpose();
+      const Matrix3d turn = A * rows[k].at.there.state.C_WB.transpose();
       const Vector3d residual = rows[k].read - A * body_velocity(rows[k].at, begin_s, u, own);
       const double weight = pass == 0 ? 1.0 : weight_of(residual.norm(), robust_scale);
       Jw.block<3, 3>(at, 0) = -weight * turn;
@@ -111,7 +107,8 @@ void add_window(const Series& series, const Span& window, const Unknowns& u, dou
   MatrixXd J = MatrixXd::Zero(count + 3, kCommon);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const auto at = static_cast<Eigen::Index>(3 * k);
-    const auto& [t, state, of_bias] = rows[k].at;
+    const auto& [t, there] = rows[k].at;
+    const auto& [state, of_bias] = there;
     const Vector3d v_B = body_velocity(rows[k].at, begin_s, u, own);
     const Vector3d residual = rows[k].read - A * v_B;
     residuals.push_back(residual.norm());
@@ -153,10 +150,18 @@ DvlFigures fit_dvl(const Series& series, const std::vector<Span>& windows, const
   u.reading = reading;
   DvlFigures out;
   double robust_scale = 0.0;
+  std::vector<MovedStrapdown> strapdowns;
+  strapdowns.reserve(windows.size());
+  for (const Span& window : windows)
+    strapdowns.emplace_back(series.imu, reading, window.from_s - kWindowMargin_s,
+                            window.to_s + kWindowMargin_s);
   for (int iteration = 0; iteration < kMostSteps; ++iteration) {
     WindowFit fit(kCommon);
     std::vector<double> residuals;
-    for (const Span& window : windows) add_window(series, window, u, robust_scale, fit, residuals);
+    for (std::size_t w = 0; w < windows.size(); ++w) {
+      strapdowns[w].move_to(u.reading.rate_bias);
+      add_window(series, windows[w], strapdowns[w], u, robust_scale, fit, residuals);
+    }
     if (residuals.size() < 30) return {};
     robust_scale = std::max(1e-4, median(residuals));
     const double sigma = robust_scale / 1.54;  // median of the length of three normal numbers

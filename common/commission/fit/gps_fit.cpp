@@ -194,7 +194,8 @@ GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N, const std::v
         const double t = velocity_N.t_s[i] - out.latency_s;
         if (!strapdown.covers(t - 0.05) || !strapdown.covers(t + 0.05)) continue;
         times.push_back(t);
-        x.push_back(felt(strapdown.at(t), out.lever_B_m) - strapdown.of_bias_at(t).IC * force_bias);
+        const auto [state, of_bias] = strapdown.both_at(t);
+        x.push_back(felt(state, out.lever_B_m) - of_bias.IC * force_bias);
         y.push_back(velocity_N.v[i] - gravity * (t - begin_s));
         mean_x += x.back();
         mean_y += y.back();
@@ -217,8 +218,7 @@ GpsFit fit_gps(const Series& series, const GpsVelocity& velocity_N, const std::v
       for (std::size_t k = 0; k < x.size(); ++k) {
         const Eigen::Index at = axes * static_cast<Eigen::Index>(k);
         const double t = times[k];
-        const Strapdown::State state = strapdown.at(t);
-        const Strapdown::OfBias of_bias = strapdown.of_bias_at(t);
+        const auto [state, of_bias] = strapdown.both_at(t);
         const Vector3d residual = y[k] - mean_y - R * (x[k] - mean_x);
         const double size = velocity_N.measured(residual).norm();
         residuals.push_back(size);

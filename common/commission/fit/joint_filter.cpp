@@ -152,7 +152,8 @@ Vector3d JointFilter::update_dvl(const Vector3d& velocity_D, const Motion& motio
 }
 
 Vector3d JointFilter::update(const Vector3d& residual, const Rows& H, const Vector3d& sigma) {
-  const Eigen::Matrix<double, I::kCount, 3> PHt = P_ * H.transpose();
+  // The products are small: Eigen's way with large matrices would take longer.
+  const Eigen::Matrix<double, I::kCount, 3> PHt = P_.lazyProduct(H.transpose());
   const Matrix3d predicted = H * PHt;
   Matrix3d S = predicted;
   S.diagonal() += sigma.cwiseAbs2();
@@ -163,7 +164,7 @@ Vector3d JointFilter::update(const Vector3d& residual, const Rows& H, const Vect
     S.diagonal() += square / kGate * sigma.cwiseAbs2();
   }
   const Eigen::Matrix<double, I::kCount, 3> K = S.ldlt().solve(PHt.transpose()).transpose();
-  P_ -= K * PHt.transpose();
+  P_ -= K.lazyProduct(PHt.transpose());
   P_ = 0.5 * (P_ + P_.transpose()).eval();
   correct(K * residual);
   return normalised;

@@ -11,6 +11,9 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kStep_s = 0.02;
+// A turn by a bias that has moved. The derivatives leave out half its square: of gravity felt for half a
+// minute, 0.15 mm/s.
+constexpr double kLinear_rad = 1e-3;
 
 }  // namespace
 
@@ -69,22 +72,49 @@ Strapdown::Place Strapdown::place_of(double t_s) const {
   return {next, (t_s - t_s_[next - 1]) / (t_s_[next] - t_s_[next - 1])};
 }
 
-Strapdown::State Strapdown::at(double t_s) const {
-  const auto [next, share] = place_of(t_s);
-  const Step& a = steps_[next - 1];
-  const Step& b = steps_[next];
+Strapdown::State Strapdown::state_at(const Place& place) const {
+  const Step& a = steps_[place.next - 1];
+  const Step& b = steps_[place.next];
   State out;
-  out.S = a.S + share * (b.S - a.S);
+  out.S = a.S + place.share * (b.S - a.S);
   out.rate = b.rate;
-  out.C_WB = geo::to_matrix(a.q_WB * geo::exp(share * (t_s_[next] - t_s_[next - 1]) * b.rate));
+  const double since_s = place.share * (t_s_[place.next] - t_s_[place.next - 1]);
+  out.C_WB = geo::to_matrix(a.q_WB * geo::exp(since_s * b.rate));
   return out;
 }
 
-Strapdown::OfBias Strapdown::of_bias_at(double t_s) const {
-  const auto [next, share] = place_of(t_s);
-  const OfBias& a = of_bias_[next - 1];
-  const OfBias& b = of_bias_[next];
-  return {a.IC + share * (b.IC - a.IC), a.IFC + share * (b.IFC - a.IFC)};
+Strapdown::State Strapdown::at(double t_s) const {
+  return state_at(place_of(t_s));
+}
+
+Strapdown::Both Strapdown::both_at(double t_s) const {
+  const Place place = place_of(t_s);
+  const OfBias& a = of_bias_[place.next - 1];
+  const OfBias& b = of_bias_[place.next];
+  return {state_at(place), {a.IC + place.share * (b.IC - a.IC), a.IFC + place.share * (b.IFC - a.IFC)}};
+}
+
+MovedStrapdown::MovedStrapdown(const ImuSeries& imu, const ImuReading& reading, double from_s, double to_s)
+    : imu_(imu),
+      integrated_(reading),
+      from_s_(from_s),
+      to_s_(to_s),
+      strapdown_(imu, reading, from_s, to_s, Strapdown::Integrate::motion_and_biases) {}
+
+void MovedStrapdown::move_to(const Vector3d& rate_bias) {
+  moved_ = integrated_.rate * (rate_bias - integrated_.rate_bias);
+  if (moved_.norm() * (to_s_ - from_s_) <= kLinear_rad) return;
+  integrated_.rate_bias = rate_bias;
+  strapdown_ = Strapdown(imu_, integrated_, from_s_, to_s_, Strapdown::Integrate::motion_and_biases);
+  moved_.setZero();
+}
+
+Strapdown::Both MovedStrapdown::at(double t_s) const {
+  Strapdown::Both out = strapdown_.both_at(t_s);
+  out.state.C_WB = geo::to_matrix(geo::exp(-out.of_bias.IC * moved_)) * out.state.C_WB;
+  out.state.S += out.of_bias.IFC * moved_;
+  out.state.rate -= moved_;
+  return out;
 }
 
 Vector3d rate_about(const ImuSeries& imu, const ImuReading& reading, double t_s) {

@@ -29,7 +29,7 @@ TEST(Strapdown, ItsIntegralsTellWhatABiasDoes) {
   reading.rate << 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.02;
   const Strapdown strapdown(imu, reading, 0.0, 30.0, Strapdown::Integrate::motion_and_biases);
   const Strapdown::State state = strapdown.at(24.37);
-  const Strapdown::OfBias of_bias = strapdown.of_bias_at(24.37);
+  const Strapdown::OfBias of_bias = strapdown.both_at(24.37).of_bias;
   constexpr double kStep = 1e-6;
   Matrix3d of_velocity;
   Matrix3d of_angle;
@@ -45,6 +45,28 @@ TEST(Strapdown, ItsIntegralsTellWhatABiasDoes) {
   const Matrix3d angle = -of_bias.IC * reading.rate;
   EXPECT_LT((of_velocity - velocity).norm(), 1e-3 * velocity.norm());
   EXPECT_LT((of_angle - angle).norm(), 1e-3 * angle.norm());
+}
+
+TEST(Strapdown, ABiasThatMovesIsTakenIn) {
+  const ImuSeries imu = shaken();
+  ImuReading reading;
+  reading.rate << 0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.02;
+  MovedStrapdown moved(imu, reading, 0.0, 30.0);
+  const auto expect_as_integrated = [&](double rate_bias, double within) {
+    SCOPED_TRACE(rate_bias);
+    reading.rate_bias = Vector3d(rate_bias, -0.5 * rate_bias, rate_bias);
+    moved.move_to(reading.rate_bias);
+    const Strapdown::Both there = moved.at(24.37);
+    const Strapdown::Both expected =
+        Strapdown(imu, reading, 0.0, 30.0, Strapdown::Integrate::motion_and_biases).both_at(24.37);
+    EXPECT_LE((there.state.S - expected.state.S).norm(), 250.0 * within);  // m/s, of gravity felt as long
+    EXPECT_LE((there.state.C_WB - expected.state.C_WB).norm(), within);
+    EXPECT_LE((there.state.rate - expected.state.rate).norm(), 1e-12);
+  };
+  expect_as_integrated(2e-5, 1e-6);  // little: by its derivatives
+  expect_as_integrated(4e-2, 0.0);   // far: anew
+  expect_as_integrated(4e-2 - 2e-5, 1e-6);
+  expect_as_integrated(0.0, 0.0);
 }
 
 }  // namespace
