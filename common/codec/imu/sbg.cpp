@@ -146,7 +146,7 @@ class Sbg : public Framer {
   }
 
   void flush(Sink& sink) override {
-    for (sbg::Epochs& epochs : epochs_) epochs.finish(deliver_to(sink));
+    for (FixEpochs& epochs : epochs_) epochs.finish(deliver_to(sink));
   }
 
   Outcome take_imu(Bytes frame, Bytes data, std::uint64_t offset, Sink& sink) {
@@ -185,7 +185,7 @@ class Sbg : public Framer {
   /// Without a position it is no sample.
   Outcome take_velocity(Bytes frame, Bytes data, Sink& sink) {
     const bool of_second = frame[2] == sbg::gps2_velocity;
-    sbg::Velocity got;
+    EpochVelocity got;
     if (const auto why = sbg::read_velocity(data, got)) return Outcome::refused(*why);
     if (of_second && receiver_.first_heard()) return Outcome::ignored();
     const bool completed = epochs_[of_second ? 1 : 0].add_velocity(got, deliver_to(sink));
@@ -203,8 +203,8 @@ class Sbg : public Framer {
     return Outcome::used();
   }
 
-  sbg::Epochs::Deliver deliver_to(Sink& sink) {
-    return [this, &sink](const sbg::Epochs::Fix& fix) {
+  FixEpochs::Deliver deliver_to(Sink& sink) {
+    return [this, &sink](const FixEpochs::Fix& fix) {
       emit(sink, fix.sample, fix.time, fix.offset, fix.length);
     };
   }
@@ -262,7 +262,7 @@ class Sbg : public Framer {
   DurationNs utc_less_week_ns_ = 0;  ///< UTC less the time of the GPS week
   FirstReceiver receiver_;
   FirstReceiver heading_receiver_;
-  std::array<sbg::Epochs, 2> epochs_;  ///< of the first and the second receiver
+  std::array<FixEpochs, 2> epochs_;  ///< of the first and the second receiver
 };
 
 }  // namespace

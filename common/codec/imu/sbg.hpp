@@ -30,7 +30,7 @@ namespace fathom::codec {
 /// second, and it knows the leap seconds.
 ///
 /// Satellite fix (section GNSS position and velocity of the same document): position and velocity of one time
-/// of the week make one sample (sbg::Epochs); what comes of the second receiver counts where the first is not
+/// of the week make one sample (FixEpochs); what comes of the second receiver counts where the first is not
 /// heard (FirstReceiver). Accuracies are of one sigma and by axis. A solution of unknown kind is no fix, a
 /// precise point position a differential one, and a position that somebody has set no measurement. Instant:
 /// the time stamp is that of the position data, not of the unit's loop, and so stands for the unit's clock.

@@ -1,7 +1,6 @@
 #include "codec/imu/sbg_gnss.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
@@ -19,7 +18,6 @@ constexpr std::size_t kHeadingData = 26;  // before the length of the line betwe
 constexpr std::size_t kSatellitesAt = 52;
 constexpr std::size_t kInterferenceAt = 58;
 constexpr std::uint8_t kNoCount = 0xFF;
-constexpr int kWaitsInVain = 2;
 constexpr std::uint32_t kWeek_ms = kGpsWeek_ns / kNsPerMillisecond;
 
 unsigned solution_of(std::uint32_t status) {
@@ -64,13 +62,6 @@ GpsSpoofing spoofing_of(unsigned word) {
   return word < kMeaning.size() ? kMeaning[word] : GpsSpoofing::unknown;
 }
 
-void join_velocity(GpsSample& sample, const Velocity& velocity) {
-  if (sample.fix == GpsFix::none) return;
-  sample.velocity_N_m_s = velocity.velocity_N_m_s;
-  sample.velocity_sigma_N_m_s = velocity.sigma_N_m_s;
-  sample.course_rad = velocity.course_rad;
-}
-
 }  // namespace
 
 std::optional<RejectReason> read_position(Bytes data, Position& into) {
@@ -101,7 +92,7 @@ std::optional<RejectReason> read_position(Bytes data, Position& into) {
   return check.reason();
 }
 
-std::optional<RejectReason> read_velocity(Bytes data, Velocity& into) {
+std::optional<RejectReason> read_velocity(Bytes data, EpochVelocity& into) {
   if (data.size() < kVelocityData) return RejectReason::length;
   const auto status = load_le<std::uint32_t>(data, 4);
   into.time_of_week_ms = load_le<std::uint32_t>(data, 8);
@@ -132,51 +123,6 @@ std::optional<RejectReason> read_heading(Bytes data, Heading& into) {
   into.sample.heading_rad = heading_deg == 360.0 ? 0.0 : kRadPerDeg * heading_deg;
   if (sigma_deg > 0.0) into.sample.sigma_rad = kRadPerDeg * sigma_deg;
   return check.reason();
-}
-
-void Epochs::add_position(std::uint32_t time_of_week_ms, const Fix& fix, const Deliver& deliver) {
-  release(deliver);
-  const std::optional<Velocity> before = std::exchange(velocity_, std::nullopt);
-  if (before && before->time_of_week_ms == time_of_week_ms) {
-    Fix joined = fix;
-    join_velocity(joined.sample, *before);
-    deliver(joined);
-  } else if (patience_ > 0) {
-    waiting_ = Waiting{time_of_week_ms, fix};
-  } else {
-    delivered_alone_ms_ = time_of_week_ms;
-    deliver(fix);
-  }
-}
-
-bool Epochs::add_velocity(const Velocity& velocity, const Deliver& deliver) {
-  if (waiting_ && waiting_->time_of_week_ms == velocity.time_of_week_ms) {
-    patience_ = kWaitsInVain;
-    join_velocity(waiting_->fix.sample, velocity);
-    deliver(waiting_->fix);
-    waiting_.reset();
-    return true;
-  }
-  if (delivered_alone_ms_ == velocity.time_of_week_ms) {
-    patience_ = kWaitsInVain;
-    delivered_alone_ms_.reset();
-    return false;
-  }
-  velocity_ = velocity;
-  return false;
-}
-
-void Epochs::finish(const Deliver& deliver) {
-  release(deliver);
-  *this = Epochs();
-}
-
-void Epochs::release(const Deliver& deliver) {
-  if (!waiting_) return;
-  --patience_;
-  delivered_alone_ms_ = waiting_->time_of_week_ms;
-  deliver(waiting_->fix);
-  waiting_.reset();
 }
 
 }  // namespace fathom::codec::sbg
