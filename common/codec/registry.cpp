@@ -19,6 +19,7 @@
 #include "codec/imu/xsens.hpp"
 #include "codec/range/micromodem.hpp"
 #include "codec/satellite/gpsd.hpp"
+#include "codec/satellite/novatel.hpp"
 #include "codec/satellite/ubx.hpp"
 #include "codec/text/fix_text.hpp"
 #include "codec/text/nmea.hpp"
@@ -68,6 +69,8 @@ constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "
 
 constexpr std::array<std::string_view, 2> kFixTextAliases{"fix", "pfthx"};
 constexpr std::array<std::string_view, 2> kMavlinkAliases{"ardusub", "mavlink2"};
+constexpr std::array<std::string_view, 5> kNovatelAliases{"oem6", "oem7", "novatel_oem7", "novatel_binary",
+                                                          "bestpos"};
 constexpr std::array<std::string_view, 1> kGpsdAliases{"gpsd_json"};
 constexpr std::array<std::string_view, 3> kMicromodemAliases{"whoi", "whoi_micromodem", "micro_modem"};
 
@@ -77,6 +80,8 @@ constexpr std::string_view kMicroStrainDescription =
     "MicroStrain 3DM, MIP packets with angular rate and acceleration or increments, or a satellite fix";
 constexpr std::string_view kSbgDescription =
     "SBG Systems sbgECom with IMU_SHORT or IMU_DATA, GPS1_POS and GPS1_VEL, or GPS1_HDT";
+constexpr std::string_view kNovatelDescription =
+    "NovAtel OEM6 and OEM7 binary: BESTPOS and BESTVEL, HEADING2 or DUALANTENNAHEADING";
 constexpr std::string_view kNoGreeting;
 
 const auto kProtocols = std::to_array<Protocol>({
@@ -85,6 +90,13 @@ const auto kProtocols = std::to_array<Protocol>({
      kUbxAliases,
      "u-blox UBX NAV-PVT, and NAV-RELPOSNED of a moving base",
      make_ubx,
+     DeviceClock::utc,
+     kNoGreeting,
+     {.heading_by_antennas = true}},
+    {"novatel",
+     kNovatelAliases,
+     kNovatelDescription,
+     make_novatel,
      DeviceClock::utc,
      kNoGreeting,
      {.heading_by_antennas = true}},

@@ -9,6 +9,7 @@
 #include "sim/encode/imu/vectornav.hpp"
 #include "sim/encode/imu/xsens.hpp"
 #include "sim/encode/nmea.hpp"
+#include "sim/encode/novatel.hpp"
 #include "sim/encode/ubx.hpp"
 #include "sim/truth_generator.hpp"
 
@@ -75,6 +76,7 @@ GpsSample GpsModel::sample(const TruthPoint& point) {
 
 Bytes SimulatedDevice<GpsSample>::encode(const GpsSample& gps, const DeviceCall& device) {
   if (device.protocol == "microstrain") return encode::microstrain_gnss(gps, gps.header.stamp_ns);
+  if (device.protocol == "novatel") return encode::novatel_epoch(gps, gps.header.stamp_ns);
   if (device.protocol == "sbg") {
     const DurationNs since_power_on_ns = gps.header.stamp_ns - device.power_on_ns;
     return encode::sbg_epoch(gps, gps.header.stamp_ns, since_power_on_ns);

@@ -59,8 +59,8 @@ struct ModelOf<GpsSample> {
 template <>
 class SimulatedDevice<GpsSample> {
  public:
-  static constexpr std::array<std::string_view, 6> kProtocols{"nmea0183", "ubx",         "vectornav",
-                                                              "xsens",    "microstrain", "sbg"};
+  static constexpr std::array<std::string_view, 7> kProtocols{"nmea0183",    "ubx", "vectornav", "xsens",
+                                                              "microstrain", "sbg", "novatel"};
   [[nodiscard]] Bytes encode(const GpsSample& gps, const DeviceCall& device);
 };
 

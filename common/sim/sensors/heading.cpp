@@ -5,6 +5,7 @@
 #include "geo/so3.hpp"
 #include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/nmea.hpp"
+#include "sim/encode/novatel.hpp"
 #include "sim/encode/ubx.hpp"
 #include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
@@ -38,6 +39,7 @@ HeadingSample HeadingModel::sample(const TruthPoint& point) {
 
 Bytes SimulatedDevice<HeadingSample>::encode(const HeadingSample& heading, const DeviceCall& device) {
   if (device.protocol == "ubx") return encode::ubx_nav_relposned(heading, heading.header.stamp_ns);
+  if (device.protocol == "novatel") return encode::novatel_heading(heading, heading.header.stamp_ns);
   if (device.protocol == "sbg") {
     const TimeNs stamp_ns = heading.header.stamp_ns;
     return encode::sbg_gps_heading(heading, stamp_ns, stamp_ns - device.power_on_ns);

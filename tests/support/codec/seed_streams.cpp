@@ -20,6 +20,7 @@
 #include "sim/encode/imu/xsens.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/ubx.hpp"
+#include "support/codec/novatel_seed.hpp"
 
 namespace fathom::test {
 namespace {
@@ -289,6 +290,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::ubx_nav_relposned(by_antennas(frame), instant(frame)));
     append(stream, sim::encode::ubx_frame(0x01, 0x35, ByteVector(20, static_cast<std::uint8_t>(frame))));
     append(stream, sim::encode::ubx_frame(0x0A, 0x38, ByteVector(4 + 24, 1)));  // MON-RF, one block
+  } else if (protocol == "novatel") {
+    append(stream, novatel_logs(gps(frame), heading_of_antennas(frame), instant(frame), frame));
   } else if (protocol == "paroscientific") {
     append(stream, sim::encode::paroscientific(depth, seed_options(protocol)));
   } else if (protocol == "ascii_depth") {
