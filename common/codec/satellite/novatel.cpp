@@ -22,6 +22,7 @@ std::uint32_t novatel::crc32(std::span<const std::uint8_t> bytes) {
 
 namespace {
 
+constexpr std::uint16_t kLastWeek = 7'000;  // in 2114
 constexpr std::uint32_t kNovatelWeek_ms = kGpsWeek_ns / kNsPerMillisecond;
 
 /// Of a frame of which kShortHeader bytes are here; 0 where its header is too short.
@@ -77,9 +78,9 @@ class Novatel final : public Framer {
  private:
   /// A time that the header vouches for and cannot be.
   static std::optional<RejectReason> impossible_time(const novatel::Header& header) {
-    if (novatel::is_known(header.time_status) && header.time_of_week_ms >= kNovatelWeek_ms)
-      return RejectReason::out_of_range;
-    return std::nullopt;
+    const bool possible = header.time_of_week_ms < kNovatelWeek_ms && header.week <= kLastWeek;
+    if (possible || !novatel::is_known(header.time_status)) return std::nullopt;
+    return RejectReason::out_of_range;
   }
 
   Outcome take_position(Bytes frame, const novatel::Header& header, Bytes message, std::uint64_t offset,

@@ -417,6 +417,7 @@ INSTANTIATE_TEST_SUITE_P(
                       NovatelFault{"type", position({.type = 8}), RejectReason::field},
                       NovatelFault{"datum", position({.datum = 63}), RejectReason::field},
                       NovatelFault{"time_of_the_week", position({.head = kNoTime}), kBeyond},
+                      NovatelFault{"week", position({.head = {.week = 0xFFFF}}), kBeyond},
                       NovatelFault{"position_cut", position({.size = 71}), RejectReason::length},
                       NovatelFault{"velocity_cut", velocity({.size = 40}), RejectReason::length},
                       NovatelFault{"velocity_type", velocity({.type = 7}), RejectReason::field},
