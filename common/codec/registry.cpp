@@ -20,6 +20,7 @@
 #include "codec/range/micromodem.hpp"
 #include "codec/satellite/gpsd.hpp"
 #include "codec/satellite/novatel.hpp"
+#include "codec/satellite/sbf.hpp"
 #include "codec/satellite/ubx.hpp"
 #include "codec/text/fix_text.hpp"
 #include "codec/text/nmea.hpp"
@@ -44,6 +45,7 @@ constexpr std::array<std::string_view, 16> kNmeaAliases{"nmea",
                                                         "nmea0183_heading",
                                                         "nmea0183_rpm"};
 constexpr std::array<std::string_view, 5> kUbxAliases{"ublox", "u_blox", "ubx_nav_pvt", "nav_pvt", "gps_ubx"};
+constexpr std::array<std::string_view, 4> kSbfAliases{"septentrio", "septentrio_sbf", "mosaic", "gps_sbf"};
 constexpr std::array<std::string_view, 5> kPd0Aliases{"teledyne_pd0", "rdi", "rdi_pd0", "workhorse",
                                                       "dvl_pd0"};
 constexpr std::array<std::string_view, 5> kPd6Aliases{"teledyne_pd6", "rdi_pd6", "dvl_pd6", "wayfinder_pd6",
@@ -97,6 +99,13 @@ const auto kProtocols = std::to_array<Protocol>({
      kNovatelAliases,
      kNovatelDescription,
      make_novatel,
+     DeviceClock::utc,
+     kNoGreeting,
+     {.heading_by_antennas = true}},
+    {"sbf",
+     kSbfAliases,
+     "Septentrio SBF PVTGeodetic with covariances, and AttEuler of two antennas",
+     make_sbf,
      DeviceClock::utc,
      kNoGreeting,
      {.heading_by_antennas = true}},

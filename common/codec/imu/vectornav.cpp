@@ -8,6 +8,7 @@
 
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
+#include "codec/crc16.hpp"
 #include "codec/framer.hpp"
 #include "codec/gps_time.hpp"
 #include "codec/imu/known3.hpp"
@@ -18,14 +19,7 @@
 namespace fathom::codec {
 
 std::uint16_t vectornav_crc16(std::span<const std::uint8_t> bytes) {
-  std::uint16_t crc = 0;
-  for (const std::uint8_t byte : bytes) {
-    crc = static_cast<std::uint16_t>(crc ^ byte << 8);
-    for (int bit = 0; bit < 8; ++bit) {
-      crc = static_cast<std::uint16_t>(crc & 0x8000U ? crc << 1 ^ 0x1021 : crc << 1);
-    }
-  }
-  return crc;
+  return crc16_ccitt(bytes);
 }
 
 namespace {

@@ -19,6 +19,7 @@
 #include "sim/encode/imu/vectornav.hpp"
 #include "sim/encode/imu/xsens.hpp"
 #include "sim/encode/nmea.hpp"
+#include "sim/encode/sbf.hpp"
 #include "sim/encode/ubx.hpp"
 #include "support/codec/novatel_seed.hpp"
 
@@ -196,6 +197,18 @@ void sbg_logs(ByteVector& stream, int frame) {
   append(stream, sim::encode::sbg_frame(4, 0x90, {0x5A, 0xFF}));
 }
 
+/// Covariances after the fix, one of them, and before it; a heading; and blocks without sample.
+void sbf_blocks(ByteVector& stream, int frame) {
+  const TimeNs utc_ns = instant(frame);
+  if (frame % 4 == 0) append(stream, sim::encode::sbf_receiver_time(utc_ns, 18));
+  if (frame % 3 == 2) append(stream, sim::encode::sbf_position_covariance(gps(frame), utc_ns));
+  append(stream, frame % 3 == 0 ? sim::encode::sbf_epoch(gps(frame), utc_ns)
+                                : sim::encode::sbf_pvt_geodetic(gps(frame), utc_ns));
+  if (frame % 3 == 1) append(stream, sim::encode::sbf_velocity_covariance(gps(frame), utc_ns));
+  append(stream, sim::encode::sbf_attitude_epoch(heading_of_antennas(frame), utc_ns));
+  append(stream, sim::encode::sbf_block(4027, 1, utc_ns, ByteVector(20, static_cast<std::uint8_t>(frame))));
+}
+
 /// Rates at 10 g, then increments at 5 g, as the configuration between them says.
 void stim300_datagrams(ByteVector& stream, int frame) {
   sim::encode::Stim300Frame datagram;
@@ -292,6 +305,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::ubx_frame(0x0A, 0x38, ByteVector(4 + 24, 1)));  // MON-RF, one block
   } else if (protocol == "novatel") {
     append(stream, novatel_logs(gps(frame), heading_of_antennas(frame), instant(frame), frame));
+  } else if (protocol == "sbf") {
+    sbf_blocks(stream, frame);
   } else if (protocol == "paroscientific") {
     append(stream, sim::encode::paroscientific(depth, seed_options(protocol)));
   } else if (protocol == "ascii_depth") {
