@@ -10,6 +10,7 @@
 #include "sim/encode/imu/xsens.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/novatel.hpp"
+#include "sim/encode/sbf.hpp"
 #include "sim/encode/ubx.hpp"
 #include "sim/truth_generator.hpp"
 
@@ -81,6 +82,7 @@ Bytes SimulatedDevice<GpsSample>::encode(const GpsSample& gps, const DeviceCall&
     const DurationNs since_power_on_ns = gps.header.stamp_ns - device.power_on_ns;
     return encode::sbg_epoch(gps, gps.header.stamp_ns, since_power_on_ns);
   }
+  if (device.protocol == "sbf") return encode::sbf_epoch(gps, gps.header.stamp_ns);
   if (device.protocol == "ubx") return encode::ubx_nav_pvt(gps, gps.header.stamp_ns);
   if (device.protocol == "vectornav") return encode::vectornav_fix({gps, gps.header.stamp_ns});
   if (device.protocol == "xsens") return encode::xsens_fix(gps, gps.header.stamp_ns);

@@ -59,8 +59,8 @@ struct ModelOf<GpsSample> {
 template <>
 class SimulatedDevice<GpsSample> {
  public:
-  static constexpr std::array<std::string_view, 7> kProtocols{"nmea0183",    "ubx", "vectornav", "xsens",
-                                                              "microstrain", "sbg", "novatel"};
+  static constexpr std::array<std::string_view, 8> kProtocols{"nmea0183",  "ubx",   "novatel",     "sbf",
+                                                              "vectornav", "xsens", "microstrain", "sbg"};
   [[nodiscard]] Bytes encode(const GpsSample& gps, const DeviceCall& device);
 };
 

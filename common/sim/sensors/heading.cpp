@@ -6,6 +6,7 @@
 #include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/novatel.hpp"
+#include "sim/encode/sbf.hpp"
 #include "sim/encode/ubx.hpp"
 #include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
@@ -38,6 +39,7 @@ HeadingSample HeadingModel::sample(const TruthPoint& point) {
 }
 
 Bytes SimulatedDevice<HeadingSample>::encode(const HeadingSample& heading, const DeviceCall& device) {
+  if (device.protocol == "sbf") return encode::sbf_attitude_epoch(heading, heading.header.stamp_ns);
   if (device.protocol == "ubx") return encode::ubx_nav_relposned(heading, heading.header.stamp_ns);
   if (device.protocol == "novatel") return encode::novatel_heading(heading, heading.header.stamp_ns);
   if (device.protocol == "sbg") {

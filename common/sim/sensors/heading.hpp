@@ -46,7 +46,7 @@ struct ModelOf<HeadingSample> {
 template <>
 class SimulatedDevice<HeadingSample> {
  public:
-  static constexpr std::array<std::string_view, 4> kProtocols{"nmea0183", "ubx", "sbg", "novatel"};
+  static constexpr std::array<std::string_view, 5> kProtocols{"nmea0183", "ubx", "novatel", "sbf", "sbg"};
   [[nodiscard]] Bytes encode(const HeadingSample& heading, const DeviceCall& device);
 };
 
