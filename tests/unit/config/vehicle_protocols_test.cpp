@@ -73,7 +73,8 @@ TEST_F(ProtocolOfAVehicle, ItsClockIsTheTimeOfTheBridge) {
 }
 
 TEST_F(ProtocolOfAVehicle, AReceiverKnowsUtcWhateverTheUnitAroundItCounts) {
-  for (const char* protocol : {"vectornav", "xsens", "microstrain", "sbg", "nmea0183", "ubx", "novatel"}) {
+  for (const char* protocol :
+       {"vectornav", "xsens", "microstrain", "sbg", "nmea0183", "ubx", "novatel", "sbf"}) {
     const SensorConfig receiver = receiver_of(protocol);
     EXPECT_EQ(receiver.time.mode, runtime::TimeMode::device_utc) << protocol;
     EXPECT_TRUE(receiver.source.shared);
@@ -85,6 +86,7 @@ TEST_F(ProtocolOfAVehicle, AHeadingOfTwoAntennasIsKnownByItsProtocol) {
   EXPECT_TRUE(heading_is_by_antennas({{"protocol", "ubx"}}));
   EXPECT_TRUE(heading_is_by_antennas({{"protocol", "sbg"}}));
   EXPECT_TRUE(heading_is_by_antennas({{"protocol", "novatel"}}));
+  EXPECT_TRUE(heading_is_by_antennas({{"protocol", "sbf"}}));
   EXPECT_FALSE(heading_is_by_antennas({{"protocol", "nmea0183"}}));
   EXPECT_TRUE(heading_is_by_antennas({{"protocol", "nmea0183"}, {"fusion", {{"two_antenna", true}}}}));
 }

@@ -47,7 +47,7 @@ TEST(Recognizer, KnowsEachInstrumentFromItsBytes) {
 }
 
 TEST(Recognizer, KnowsItThroughTransmissionErrors) {
-  for (const char* name : {"ubx", "pd0", "vectornav"}) {
+  for (const char* name : {"ubx", "sbf", "pd0", "vectornav"}) {
     SCOPED_TRACE(name);
     Recognizer recognizer;
     for (int i = 0; i < 20; ++i) {
