@@ -8,6 +8,7 @@
 #include "codec/gps_time.hpp"
 #include "codec/satellite/sbf_blocks.hpp"
 #include "codec/satellite/sbf_epochs.hpp"
+#include "codec/satellite/sbf_interference.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -53,6 +54,8 @@ class Sbf final : public Framer {
         return take_sigmas(block, FixKind::kPosition, sink);
       case sbf::velocity_covariance:
         return take_sigmas(block, FixKind::kVelocity, sink);
+      case sbf::rf_status:
+        return take_interference(block);
       case sbf::receiver_time:
         return take_leap_seconds(block);
       case sbf::att_euler:
@@ -78,6 +81,7 @@ class Sbf final : public Framer {
     if (const auto why = sbf::read_instant(block, at)) return Outcome::refused(*why);
     if (const auto why = sbf::read_pvt(block, revision, got)) return Outcome::refused(*why);
     headings_.pass(at, deliver_to(sink));
+    interference_.stamp(got.sample, at);
     DeviceTime time = time_of(at);
     time.age_ns = got.age_ns;
     const bool counts = fixes_.add(at, {got.sample, time, offset, block.size()}, deliver_to(sink));
@@ -126,6 +130,11 @@ class Sbf final : public Framer {
     return Outcome::ignored();
   }
 
+  Outcome take_interference(Bytes block) {
+    if (const auto why = interference_.read(block)) return Outcome::refused(*why);
+    return Outcome::ignored();
+  }
+
   Outcome take_leap_seconds(Bytes block) {
     if (const auto why = sbf::read_leap_seconds(block, ahead_of_utc_ns_)) return Outcome::refused(*why);
     return Outcome::ignored();
@@ -139,6 +148,7 @@ class Sbf final : public Framer {
 
   sbf::SbfEpochs<FixKind> fixes_;
   sbf::SbfEpochs<HeadingKind> headings_;
+  sbf::SbfInterference interference_;
   DurationNs ahead_of_utc_ns_ = kGpsAheadOfUtc_ns;
 };
 

@@ -27,6 +27,8 @@ namespace fathom::codec {
 /// error code, and none of which the receiver says that the test of its integrity has failed. Coordinates in
 /// a datum that a user has defined are refused: nobody knows how far it is from WGS 84.
 ///
+/// What RFStatus says of jamming and spoofing (SbfInterference) goes into the fixes that follow.
+///
 /// Heading: that of AttEuler, from the main antenna to the first auxiliary one, turned by the offset that the
 /// receiver was told. It is unknown without attitude, and where the ambiguities are not fixed. Pitch and roll
 /// are not used.
@@ -48,6 +50,7 @@ inline constexpr std::size_t kMostLength = 8192;
 /// The lower 13 bits of the identification. The upper three are the revision.
 enum Block : std::uint16_t {
   pvt_geodetic = 4007,
+  rf_status = 4092,
   position_covariance = 5906,
   velocity_covariance = 5908,
   receiver_time = 5914,

@@ -201,6 +201,10 @@ void sbg_logs(ByteVector& stream, int frame) {
 void sbf_blocks(ByteVector& stream, int frame) {
   const TimeNs utc_ns = instant(frame);
   if (frame % 4 == 0) append(stream, sim::encode::sbf_receiver_time(utc_ns, 18));
+  if (frame % 4 == 1) {  // RFStatus, one band
+    const ByteVector band{1, 8, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0};
+    append(stream, sim::encode::sbf_block(4092, 0, utc_ns, band));
+  }
   if (frame % 3 == 2) append(stream, sim::encode::sbf_position_covariance(gps(frame), utc_ns));
   append(stream, frame % 3 == 0 ? sim::encode::sbf_epoch(gps(frame), utc_ns)
                                 : sim::encode::sbf_pvt_geodetic(gps(frame), utc_ns));

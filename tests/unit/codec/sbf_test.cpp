@@ -228,6 +228,45 @@ TEST(Sbf, TheReceiverKnowsItsLeapSeconds) {
   EXPECT_EQ(utc(kReceiverTime + pvt()), "2026-09-19T10:30:15.250Z");
 }
 
+/// RFStatus with a band for each mode.
+ByteVector rf_status(std::uint8_t flags, const ByteVector& modes, std::uint32_t tow_ms = kTow_ms,
+                     std::uint8_t band_length = 8) {
+  ByteVector body{static_cast<std::uint8_t>(modes.size()), band_length, flags, 0, 0, 0};
+  for (const std::uint8_t mode : modes) {
+    append_le<std::uint32_t>(body, 1'575'420'000);
+    append_le<std::uint16_t>(body, 500);
+    body = body + ByteVector{mode, 0};
+  }
+  return block(4092, body, tow_ms);
+}
+
+TEST(Sbf, InterferenceGoesIntoTheFixesThatFollow) {
+  const auto after = [](const ByteVector& status, const PvtFields& f = {}) {
+    return fix(status + pvt(f)).second;
+  };
+  EXPECT_EQ(fix(pvt()).second.jamming, GpsJamming::unknown);
+  EXPECT_EQ(fix(pvt()).second.spoofing, GpsSpoofing::unknown);
+  EXPECT_EQ(after(rf_status(0, {})).jamming, GpsJamming::none);
+  EXPECT_EQ(after(rf_status(0, {})).spoofing, GpsSpoofing::none);
+  EXPECT_EQ(after(rf_status(0, {1})).jamming, GpsJamming::none) << "a filter that somebody has set";
+  EXPECT_EQ(after(rf_status(0, {1, 0x42})).jamming, GpsJamming::warning);
+  EXPECT_EQ(after(rf_status(0, {8, 1})).jamming, GpsJamming::warning);
+  EXPECT_EQ(after(rf_status(0, {8}), {.mode = 0, .error = 1}).jamming, GpsJamming::critical);
+  EXPECT_EQ(after(rf_status(0, {2}), {.mode = 0, .error = 1}).jamming, GpsJamming::warning);
+  EXPECT_EQ(after(rf_status(1, {})).spoofing, GpsSpoofing::indicated);
+  EXPECT_EQ(after(rf_status(2, {})).spoofing, GpsSpoofing::indicated);
+  EXPECT_EQ(after(rf_status(3, {})).spoofing, GpsSpoofing::affirmed);
+  EXPECT_EQ(after(rf_status(1, {}, kTow_ms - 10'000)).spoofing, GpsSpoofing::indicated);
+  EXPECT_EQ(after(rf_status(1, {}, kTow_ms - 10'001)).spoofing, GpsSpoofing::unknown);
+  ByteVector untimed = rf_status(1, {}, 0xFFFF'FFFF);
+  for (int i = 0; i < 51; ++i) untimed = untimed + pvt({.tow_ms = 0xFFFF'FFFF});
+  const Harvest run = decode("sbf", untimed);
+  const auto found = of_kind<GpsSample>(run);
+  ASSERT_EQ(found.size(), 51U);
+  EXPECT_EQ(found[49].second.spoofing, GpsSpoofing::indicated);
+  EXPECT_EQ(found[50].second.spoofing, GpsSpoofing::unknown);
+}
+
 TEST(Sbf, OtherBlocksAndOtherTextAreNoDamage) {
   // PVTCartesian (pysbf2, tests/test_parse.py).
   const ByteVector cartesian{
@@ -326,6 +365,8 @@ INSTANTIATE_TEST_SUITE_P(
                       SbfFault{"attitude_cut", attitude({.size = 40}), kLength},
                       SbfFault{"attitude_variance", attitude_covariance(kTow_ms, -1.0F), kOutside},
                       SbfFault{"attitude_covariance_cut", attitude_covariance(kTow_ms, 1.0F, 36), kLength},
+                      SbfFault{"bands", rf_status(0, {1, 1}, kTow_ms, 20), RejectReason::structure},
+                      SbfFault{"band_cut", rf_status(0, {1}, kTow_ms, 6), RejectReason::structure},
                       SbfFault{"leap_seconds", receiver_time(-3), kOutside},
                       SbfFault{"receiver_time_cut", receiver_time(18, 20), kLength}),
     [](const auto& info) { return std::string(info.param.name); });
