@@ -5,8 +5,8 @@
 #include "base/bytes/big_endian.hpp"
 #include "base/units.hpp"
 #include "codec/gps_time.hpp"
-#include "codec/imu/inner_receiver.hpp"
 #include "codec/imu/microstrain.hpp"
+#include "codec/satellite/receiver_numbers.hpp"
 
 namespace fathom::codec::microstrain {
 

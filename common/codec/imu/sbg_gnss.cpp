@@ -5,7 +5,7 @@
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "codec/gps_time.hpp"
-#include "codec/imu/inner_receiver.hpp"
+#include "codec/satellite/receiver_numbers.hpp"
 
 namespace fathom::codec::sbg {
 
