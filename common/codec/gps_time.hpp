@@ -11,6 +11,9 @@ inline constexpr TimeNs kGpsEpoch_ns = 315'964'800 * kNsPerSecond;
 /// GPS time counts no leap seconds. It is so far ahead of UTC since 2017-01-01.
 inline constexpr DurationNs kGpsAheadOfUtc_ns = 18 * kNsPerSecond;
 inline constexpr DurationNs kGpsWeek_ns = 7 * 86'400 * kNsPerSecond;
+/// A later week, after 2114, is none. Nanoseconds in 64 bits hold twice as many, and not all that a message
+/// can name.
+inline constexpr std::uint16_t kLastGpsWeek = 7'000;
 
 /// From time since the GPS epoch to UTC, and back.
 [[nodiscard]] constexpr TimeNs utc_of_gps(DurationNs gps_ns) {

@@ -12,8 +12,6 @@ namespace fathom::codec::microstrain {
 
 namespace {
 
-constexpr double kMostGpsTime_s = 4e9;  // more than a century, and 64 bits of nanoseconds hold it
-
 /// The satellites' own augmentation or a reference station.
 constexpr unsigned kCorrectionsUsed = 0x0003;
 
@@ -52,7 +50,8 @@ std::optional<RejectReason> read_gps_time(Bytes data, bool (*is_valid)(std::uint
   const auto week = load_be<std::uint16_t>(data, 8);
   const bool valid = is_valid(load_be<std::uint16_t>(data, 10));
   const double since_epoch_s = week * to_seconds(kGpsWeek_ns) + time_of_week_s;
-  const bool possible = time_of_week_s >= 0.0 && since_epoch_s <= kMostGpsTime_s;  // a number at all
+  // A number at all, and one that 64 bits of nanoseconds hold.
+  const bool possible = time_of_week_s >= 0.0 && since_epoch_s <= kLastGpsWeek * to_seconds(kGpsWeek_ns);
   if (valid && !std::isfinite(time_of_week_s)) return RejectReason::field;
   if (valid && !(possible && time_of_week_s <= to_seconds(kGpsWeek_ns))) return RejectReason::out_of_range;
   if (possible) into = GpsTime{week * kGpsWeek_ns + from_seconds(time_of_week_s), valid};

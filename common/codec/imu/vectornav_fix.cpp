@@ -53,10 +53,9 @@ std::optional<RejectReason> read_time(Bytes frame, const Fields& group, GpsFix f
   if (group[field::tow] && group[field::week]) {
     if ((status & (time_ok | date_ok)) != (time_ok | date_ok)) return std::nullopt;
     const auto tow_ns = load_le<std::uint64_t>(frame, group[field::tow]);
-    if (tow_ns <= static_cast<std::uint64_t>(kGpsWeek_ns)) {
-      const auto week = load_le<std::uint16_t>(frame, group[field::week]);
+    const auto week = load_le<std::uint16_t>(frame, group[field::week]);
+    if (tow_ns <= static_cast<std::uint64_t>(kGpsWeek_ns) && week <= kLastGpsWeek)
       time.utc_ns = utc_of_gps(week * kGpsWeek_ns + static_cast<DurationNs>(tow_ns));
-    }
   } else if (group[field::utc] && (status & utc_ok) != 0) {
     time.utc_ns = utc_of_civil(frame, group[field::utc]);
   } else {

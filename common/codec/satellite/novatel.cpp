@@ -22,7 +22,6 @@ std::uint32_t novatel::crc32(std::span<const std::uint8_t> bytes) {
 
 namespace {
 
-constexpr std::uint16_t kLastWeek = 7'000;  // in 2114
 constexpr std::uint32_t kNovatelWeek_ms = kGpsWeek_ns / kNsPerMillisecond;
 
 /// Of a frame of which kShortHeader bytes are here; 0 where its header is too short.
@@ -78,7 +77,7 @@ class Novatel final : public Framer {
  private:
   /// A time that the header vouches for and cannot be.
   static std::optional<RejectReason> impossible_time(const novatel::Header& header) {
-    const bool possible = header.time_of_week_ms < kNovatelWeek_ms && header.week <= kLastWeek;
+    const bool possible = header.time_of_week_ms < kNovatelWeek_ms && header.week <= kLastGpsWeek;
     if (possible || !novatel::is_known(header.time_status)) return std::nullopt;
     return RejectReason::out_of_range;
   }

@@ -25,7 +25,6 @@ constexpr std::size_t kReceiverTimeLength = 22;
 constexpr std::size_t kModeAt = 14;
 constexpr std::size_t kErrorAt = 15;
 constexpr std::uint32_t kSbfWeek_ms = kGpsWeek_ns / kNsPerMillisecond;
-constexpr std::uint16_t kMostWeek = 10'000;  // in 2171
 constexpr std::uint8_t kFirstUserDatum = 250;
 constexpr DurationNs kLatencyUnit_ns = 100'000;
 constexpr double kAccuracyUnit_m = 0.01;
@@ -98,7 +97,7 @@ std::optional<RejectReason> read_instant(Bytes block, GpsInstant& into) {
   const auto time_of_week_ms = load_le<std::uint32_t>(block, 8);
   const auto week = load_le<std::uint16_t>(block, 12);
   if (time_of_week_ms == kDoNotUse32 || week == kDoNotUse16) return std::nullopt;
-  if (time_of_week_ms >= kSbfWeek_ms || week > kMostWeek) return RejectReason::out_of_range;
+  if (time_of_week_ms >= kSbfWeek_ms || week > kLastGpsWeek) return RejectReason::out_of_range;
   into = week * kGpsWeek_ns + time_of_week_ms * kNsPerMillisecond;
   return std::nullopt;
 }

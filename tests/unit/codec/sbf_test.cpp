@@ -351,7 +351,7 @@ INSTANTIATE_TEST_SUITE_P(
                       SbfFault{"mode_beyond", pvt({.mode = 15}), kField},
                       SbfFault{"datum_of_a_user", pvt({.datum = 250}), kField},
                       SbfFault{"time_of_the_week", pvt({.tow_ms = 604'800'000}), kOutside},
-                      SbfFault{"week", pvt({.week = 10'001}), kOutside},
+                      SbfFault{"week", pvt({.week = 7'001}), kOutside},
                       SbfFault{"cut", pvt({.revision = 0, .size = 84}), kLength},
                       SbfFault{"revision_2_cut", pvt({.size = 92}), kLength},
                       SbfFault{"variance", covariance(kPosition, {.north = -0.5F}), kOutside},

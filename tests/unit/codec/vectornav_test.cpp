@@ -364,7 +364,8 @@ TEST(VectorNavFix, AnImpossibleOneIsRefusedOnceAndIsNoneBesideGoodInertialData) 
       {{.altitude_m = nan}, RejectReason::field},
       {{.velocity_N_m_s = {0, std::numeric_limits<float>::infinity(), 0}}, RejectReason::field},
       {{.fix = 5}, RejectReason::field},
-      {{.tow_ns = 604'800'000'000'001}, RejectReason::out_of_range}};
+      {{.tow_ns = 604'800'000'000'001}, RejectReason::out_of_range},
+      {{.week = 0xFFFF}, RejectReason::out_of_range}};
   for (const auto& [gnss, reason] : faults) {
     const Harvest alone = decode("vectornav", gnss.frame() + gnss.frame());
     EXPECT_EQ(alone.totals.samples, 0U);
