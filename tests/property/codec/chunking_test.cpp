@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/codec/decode_run.hpp"
+#include "support/codec/resealed.hpp"
 #include "support/codec/seed_streams.hpp"
 #include "support/data.hpp"
 
@@ -69,6 +70,35 @@ TEST_P(EveryCodec, NorInNoiseAndInOtherProtocols) {
     everything.insert(everything.end(), stream.begin(), stream.end());
   }
   expect_same_however_cut(everything, 3, "all protocols on one line");
+}
+
+TEST_P(EveryCodec, NorWhereADeviceSaysWhatCannotBe) {
+  constexpr TimeNs kYear2130_ns = 5'049'129'600 * kNsPerSecond;
+  const ByteVector stream = seed_stream(protocol());
+  std::size_t samples = 0;
+  std::size_t refused = 0;
+  std::size_t by_checksum = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const ByteVector other = with_other_contents(protocol(), stream, seed);
+    const std::string what = "seed " + std::to_string(seed);
+    expect_same_however_cut(other, seed, what);
+    const DecodeRun run = decode_whole(protocol(), other, seed_options(protocol()));
+    EXPECT_EQ(run.transcript.find("inf"), std::string::npos) << what << ": an infinite number";
+    for (const codec::Decoded& each : run.samples) {
+      if (!each.time.utc_ns) continue;
+      EXPECT_GE(*each.time.utc_ns, 0) << what;
+      EXPECT_LT(*each.time.utc_ns, kYear2130_ns) << what;
+    }
+    samples += run.totals.samples;
+    refused += run.totals.rejected;
+    by_checksum += static_cast<std::size_t>(std::count_if(
+        run.rejected.begin(), run.rejected.end(),
+        [](const codec::Rejected& each) { return each.reason == codec::RejectReason::checksum; }));
+  }
+  EXPECT_GT(samples, 0U);
+  EXPECT_GT(refused, 0U);
+  // Other contents may say another length, at whose end no checksum stands; they seldom do.
+  EXPECT_LT(by_checksum, 1 + refused / 10);
 }
 
 TEST_P(EveryCodec, TheGoodFramesBehindGarbageAreFound) {

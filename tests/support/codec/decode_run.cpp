@@ -55,6 +55,7 @@ void describe(Line& line, const GpsSample& s) {
   line.word("gps").integer(static_cast<int>(s.fix)).integer(s.satellites).real(s.latitude_rad);
   line.real(s.longitude_rad).real(s.altitude_m).real(s.altitude_msl_m).reals(s.position_sigma_N_m);
   line.reals(s.velocity_N_m_s).reals(s.velocity_sigma_N_m_s).real(s.hdop).real(s.course_rad);
+  line.integer(static_cast<int>(s.jamming)).integer(static_cast<int>(s.spoofing));
 }
 
 void describe(Line& line, const DepthSample& s) {
