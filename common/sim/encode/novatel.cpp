@@ -8,8 +8,8 @@
 #include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "codec/gps_time.hpp"
-#include "codec/satellite/novatel.hpp"
-#include "codec/satellite/novatel_logs.hpp"
+#include "codec/satellite/novatel/logs.hpp"
+#include "codec/satellite/novatel/novatel.hpp"
 #include "geo/wgs84.hpp"
 #include "sim/encode/true_heading.hpp"
 

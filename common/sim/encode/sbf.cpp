@@ -7,7 +7,7 @@
 #include "base/units.hpp"
 #include "codec/crc16.hpp"
 #include "codec/gps_time.hpp"
-#include "codec/satellite/sbf.hpp"
+#include "codec/satellite/sbf/sbf.hpp"
 #include "sim/encode/true_heading.hpp"
 
 namespace fathom::sim::encode {

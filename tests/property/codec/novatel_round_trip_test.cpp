@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "codec/satellite/novatel.hpp"
-#include "round_trip.hpp"
+#include "codec/satellite/novatel/novatel.hpp"
+#include "receiver_round_trip.hpp"
 #include "sim/encode/novatel.hpp"
 
 namespace fathom {
@@ -16,26 +16,13 @@ using test::expect_same3;
 using test::kRuns;
 using test::kSomeTime_ns;
 
-constexpr double kTurn_rad = 2.0 * std::numbers::pi;
-constexpr double kSinglePrecision = 6e-8;
-
-class NovatelRoundTrip : public test::RoundTrip {
+class NovatelRoundTrip : public test::ReceiverRoundTrip {
  protected:
   GpsSample draw_solution(int run) {
     constexpr std::array<GpsFix, 7> kFixes{GpsFix::none,     GpsFix::dead_reckoning, GpsFix::fix_2d,
                                            GpsFix::fix_3d,   GpsFix::differential,   GpsFix::rtk_float,
                                            GpsFix::rtk_fixed};
-    GpsSample s;
-    s.fix = kFixes[static_cast<std::size_t>(run) % kFixes.size()];
-    s.satellites = run % 40;
-    if (s.fix == GpsFix::none) return s;
-    s.latitude_rad = draw(-1.57, 1.57);
-    s.longitude_rad = draw(-3.14, 3.14);
-    s.altitude_m = draw(-100.0, 9'000.0);
-    s.altitude_msl_m = s.altitude_m - draw(-100.0, 80.0);
-    s.position_sigma_N_m = {draw(0.01, 30.0), draw(0.01, 30.0), draw(0.01, 60.0)};
-    if (chance(0.8)) s.velocity_N_m_s = draw3(60.0);
-    return s;
+    return draw_fix(kFixes[static_cast<std::size_t>(run) % kFixes.size()], run % 40);
   }
 };
 
@@ -58,7 +45,7 @@ TEST_F(NovatelRoundTrip, KeepsDoublesOfPositionAndVelocity) {
       EXPECT_NEAR(r.longitude_rad, s.longitude_rad, 2e-15);
       EXPECT_NEAR(r.altitude_m, s.altitude_m, 1e-5);
       EXPECT_NEAR(r.altitude_msl_m, s.altitude_msl_m, 1e-9);
-      expect_same3(s.position_sigma_N_m, r.position_sigma_N_m, kSinglePrecision, 0.0);
+      expect_same3(s.position_sigma_N_m, r.position_sigma_N_m, kSingle, 0.0);
     }
     if (known(s.velocity_N_m_s[0])) {
       expect_same3(s.velocity_N_m_s, r.velocity_N_m_s, 0.0, 1e-12);
@@ -71,31 +58,14 @@ TEST_F(NovatelRoundTrip, KeepsDoublesOfPositionAndVelocity) {
 TEST_F(NovatelRoundTrip, KeepsTheHeadingOfTwoAntennas) {
   using sim::encode::NovatelHeadingLog;
   for (int run = 0; run < kRuns; ++run) {
-    HeadingSample s;
-    if (run % 5 != 0) s.heading_rad = draw(0.0, kTurn_rad);
-    if (known(s.heading_rad) && chance(0.7)) s.sigma_rad = draw(0.0005, 3.0);
-    HeadingSample sent = s;
-    if (chance(0.3)) {
-      sent.north = North::magnetic;
-      sent.variation_rad = draw(-0.4, 0.4);
-      sent.heading_rad -= sent.variation_rad;
-    }
+    const HeadingSample s = draw_heading(run);
+    const HeadingSample sent = of_either_north(s);
     const TimeNs utc_ns = kSomeTime_ns + run * 10'000'001LL;
     const auto log = run % 2 == 0 ? NovatelHeadingLog::heading2 : NovatelHeadingLog::dual_antenna;
     const auto got = test::read(codec::make_novatel({}), sim::encode::novatel_heading(sent, utc_ns, log));
     ASSERT_EQ(got.size(), 1U);
     EXPECT_EQ(got[0].time.utc_ns, utc_ns / 1'000'000 * 1'000'000);
-    const auto& r = std::get<HeadingSample>(got[0].sample);
-    EXPECT_EQ(r.north, North::true_north);
-    ASSERT_EQ(known(r.heading_rad), known(s.heading_rad));
-    ASSERT_EQ(known(r.sigma_rad), known(s.sigma_rad));
-    if (!known(s.heading_rad)) continue;
-    EXPECT_GE(r.heading_rad, 0.0);
-    EXPECT_LT(r.heading_rad, kTurn_rad);
-    EXPECT_NEAR(std::remainder(r.heading_rad - s.heading_rad, kTurn_rad), 0.0, 1e-6);
-    if (known(s.sigma_rad)) {
-      EXPECT_NEAR(r.sigma_rad, s.sigma_rad, kSinglePrecision * s.sigma_rad);
-    }
+    expect_same_heading(s, std::get<HeadingSample>(got[0].sample), 1e-6, kSingle * s.sigma_rad);
   }
 }
 

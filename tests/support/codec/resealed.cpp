@@ -19,7 +19,7 @@
 #include "codec/imu/stim300.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
-#include "codec/satellite/novatel.hpp"
+#include "codec/satellite/novatel/novatel.hpp"
 #include "codec/text/nmea_sentence.hpp"
 #include "mavlink/crc.hpp"
 #include "mavlink/known.hpp"

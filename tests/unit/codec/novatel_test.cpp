@@ -1,5 +1,5 @@
 // NovAtel binary logs: published frames, and logs laid by hand.
-#include "codec/satellite/novatel.hpp"
+#include "codec/satellite/novatel/novatel.hpp"
 
 #include <cmath>
 #include <limits>
@@ -11,13 +11,17 @@
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
 #include "capture.hpp"
+#include "fault.hpp"
 
 namespace fathom::codec::novatel_test {
 namespace {
 
 using capture::ByteVector;
 using capture::decode;
+using capture::expect_refused_once;
+using capture::Fault;
 using capture::Harvest;
+using capture::name_of_fault;
 using capture::of_kind;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -385,21 +389,10 @@ TEST(Novatel, DamageDoesNotSwallowWhatFollows) {
   }
 }
 
-struct NovatelFault {
-  const char* name;
-  ByteVector bytes;
-  RejectReason reason;
-};
-
-class NovatelFaults : public ::testing::TestWithParam<NovatelFault> {};
+class NovatelFaults : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(NovatelFaults, AreRefusedOnceAndTheNextFrameIsFound) {
-  const Harvest run = decode("novatel", GetParam().bytes + position());
-  ASSERT_EQ(run.rejected.size(), 1U);
-  EXPECT_EQ(run.rejected[0].reason, GetParam().reason);
-  EXPECT_EQ(run.rejected[0].offset, 0U);
-  EXPECT_EQ(run.totals.samples, 1U);
-  EXPECT_EQ(run.totals.skipped_bytes, 0U);
+  expect_refused_once("novatel", GetParam(), position());
 }
 
 constexpr auto kBeyond = RejectReason::out_of_range;
@@ -407,35 +400,34 @@ constexpr Head kNoTime{.tow_ms = 604'800'000};
 
 INSTANTIATE_TEST_SUITE_P(
     All, NovatelFaults,
-    ::testing::Values(NovatelFault{"latitude", position({.latitude_deg = -90.5}), kBeyond},
-                      NovatelFault{"longitude", position({.longitude_deg = 181.0}), kBeyond},
-                      NovatelFault{"longitude_no_number", position({.longitude_deg = kNan}),
-                                   RejectReason::field},
-                      NovatelFault{"height", position({.height_msl_m = -2e5}), kBeyond},
-                      NovatelFault{"undulation", position({.undulation_m = kNanF}), RejectReason::field},
-                      NovatelFault{"negative_accuracy", position({.sigma_m = -1.0F}), kBeyond},
-                      NovatelFault{"type", position({.type = 8}), RejectReason::field},
-                      NovatelFault{"datum", position({.datum = 63}), RejectReason::field},
-                      NovatelFault{"time_of_the_week", position({.head = kNoTime}), kBeyond},
-                      NovatelFault{"week", position({.head = {.week = 0xFFFF}}), kBeyond},
-                      NovatelFault{"position_cut", position({.size = 71}), RejectReason::length},
-                      NovatelFault{"velocity_cut", velocity({.size = 40}), RejectReason::length},
-                      NovatelFault{"velocity_type", velocity({.type = 7}), RejectReason::field},
-                      NovatelFault{"velocity_no_number", velocity({.up_m_s = kNan}), RejectReason::field},
-                      NovatelFault{"velocity_time", velocity({.head = kNoTime}), kBeyond},
-                      NovatelFault{"negative_latency", velocity({.latency_s = -0.1F}), kBeyond},
-                      NovatelFault{"negative_speed", velocity({.speed_m_s = -1.0}), kBeyond},
-                      NovatelFault{"track", velocity({.track_deg = 720.0}), kBeyond},
-                      NovatelFault{"heading", heading({.heading_deg = 360.5F}), kBeyond},
-                      NovatelFault{"heading_no_number", heading({.heading_deg = kNanF}), RejectReason::field},
-                      NovatelFault{"pitch", heading({.pitch_deg = 91.0F}), kBeyond},
-                      NovatelFault{"heading_type", heading({.type = 99}), RejectReason::field},
-                      NovatelFault{"heading_time", heading({.head = kNoTime}), kBeyond},
-                      NovatelFault{"heading_cut", heading({.size = 40}, kHeading2), RejectReason::length},
-                      NovatelFault{"leap_seconds", time_log(-500.0), kBeyond},
-                      NovatelFault{"leap_seconds_no_number", time_log(kNan), RejectReason::field},
-                      NovatelFault{"time_cut", time_log(-18.0, 1, 40), RejectReason::length}),
-    [](const auto& info) { return std::string(info.param.name); });
+    ::testing::Values(Fault{"latitude", position({.latitude_deg = -90.5}), kBeyond},
+                      Fault{"longitude", position({.longitude_deg = 181.0}), kBeyond},
+                      Fault{"longitude_no_number", position({.longitude_deg = kNan}), RejectReason::field},
+                      Fault{"height", position({.height_msl_m = -2e5}), kBeyond},
+                      Fault{"undulation", position({.undulation_m = kNanF}), RejectReason::field},
+                      Fault{"negative_accuracy", position({.sigma_m = -1.0F}), kBeyond},
+                      Fault{"type", position({.type = 8}), RejectReason::field},
+                      Fault{"datum", position({.datum = 63}), RejectReason::field},
+                      Fault{"time_of_the_week", position({.head = kNoTime}), kBeyond},
+                      Fault{"week", position({.head = {.week = 0xFFFF}}), kBeyond},
+                      Fault{"position_cut", position({.size = 71}), RejectReason::length},
+                      Fault{"velocity_cut", velocity({.size = 40}), RejectReason::length},
+                      Fault{"velocity_type", velocity({.type = 7}), RejectReason::field},
+                      Fault{"velocity_no_number", velocity({.up_m_s = kNan}), RejectReason::field},
+                      Fault{"velocity_time", velocity({.head = kNoTime}), kBeyond},
+                      Fault{"negative_latency", velocity({.latency_s = -0.1F}), kBeyond},
+                      Fault{"negative_speed", velocity({.speed_m_s = -1.0}), kBeyond},
+                      Fault{"track", velocity({.track_deg = 720.0}), kBeyond},
+                      Fault{"heading", heading({.heading_deg = 360.5F}), kBeyond},
+                      Fault{"heading_no_number", heading({.heading_deg = kNanF}), RejectReason::field},
+                      Fault{"pitch", heading({.pitch_deg = 91.0F}), kBeyond},
+                      Fault{"heading_type", heading({.type = 99}), RejectReason::field},
+                      Fault{"heading_time", heading({.head = kNoTime}), kBeyond},
+                      Fault{"heading_cut", heading({.size = 40}, kHeading2), RejectReason::length},
+                      Fault{"leap_seconds", time_log(-500.0), kBeyond},
+                      Fault{"leap_seconds_no_number", time_log(kNan), RejectReason::field},
+                      Fault{"time_cut", time_log(-18.0, 1, 40), RejectReason::length}),
+    name_of_fault);
 
 }  // namespace
 }  // namespace fathom::codec::novatel_test

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/units.hpp"
-#include "codec/satellite/sbf.hpp"
+#include "codec/satellite/sbf/sbf.hpp"
 #include "sbf_bytes.hpp"
 
 namespace fathom::codec::sbf_epochs_test {

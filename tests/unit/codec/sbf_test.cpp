@@ -1,5 +1,5 @@
 // Septentrio receivers: real blocks, and such laid by hand.
-#include "codec/satellite/sbf.hpp"
+#include "codec/satellite/sbf/sbf.hpp"
 
 #include <cmath>
 #include <limits>
@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/units.hpp"
+#include "fault.hpp"
 #include "sbf_bytes.hpp"
 
 namespace fathom::codec::sbf_test {
@@ -17,7 +18,10 @@ namespace {
 using namespace sbf_bytes;
 using capture::Cut;
 using capture::decode;
+using capture::expect_refused_once;
+using capture::Fault;
 using capture::Harvest;
+using capture::name_of_fault;
 using capture::of_kind;
 
 constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
@@ -307,21 +311,10 @@ TEST(Sbf, ADamagedBlockSwallowsNothing) {
   EXPECT_EQ(decode("sbf", damaged + pvt()).totals.samples, 1U);
 }
 
-struct SbfFault {
-  const char* name;
-  ByteVector bytes;
-  RejectReason reason;
-};
-
-class SbfFaults : public ::testing::TestWithParam<SbfFault> {};
+class SbfFaults : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(SbfFaults, AreRefusedOnceAndTheNextBlockIsFound) {
-  const Harvest run = decode("sbf", GetParam().bytes + pvt({.tow_ms = 1'000}));
-  ASSERT_EQ(run.rejected.size(), 1U);
-  EXPECT_EQ(run.rejected[0].reason, GetParam().reason);
-  EXPECT_EQ(run.rejected[0].offset, 0U);
-  EXPECT_EQ(run.totals.samples, 1U);
-  EXPECT_EQ(of_kind<GpsSample>(run).size(), 1U);
+  expect_refused_once("sbf", GetParam(), pvt({.tow_ms = 1'000}));
 }
 
 ByteVector with_byte(ByteVector bytes, std::size_t at, std::uint8_t value) {
@@ -335,41 +328,41 @@ constexpr auto kLength = RejectReason::length;
 
 INSTANTIATE_TEST_SUITE_P(
     All, SbfFaults,
-    ::testing::Values(SbfFault{"crc", with_byte(kReceiverTime, 16, 0xFF), RejectReason::checksum},
-                      SbfFault{"length_odd", with_byte(kReceiverTime, 6, 0x17), kLength},
-                      SbfFault{"length_none", with_byte(kReceiverTime, 6, 4), kLength},
-                      SbfFault{"length_beyond", with_byte(kReceiverTime, 7, 0x21), kLength},
-                      SbfFault{"latitude", pvt({.latitude_rad = 1.6}), kOutside},
-                      SbfFault{"longitude", pvt({.longitude_rad = -3.2}), kOutside},
-                      SbfFault{"no_latitude", pvt({.latitude_rad = -2e10}), RejectReason::incomplete},
-                      SbfFault{"longitude_no_number", pvt({.longitude_rad = kNoNumber}), kField},
-                      SbfFault{"height", pvt({.height_m = 2e5}), kOutside},
-                      SbfFault{"undulation", pvt({.undulation_m = kNoNumber}), kField},
-                      SbfFault{"velocity", pvt({.north_m_s = -2e4F}), kOutside},
-                      SbfFault{"course", pvt({.course_deg = -1.0F}), kOutside},
-                      SbfFault{"mode", pvt({.mode = 9}), kField},
-                      SbfFault{"mode_beyond", pvt({.mode = 15}), kField},
-                      SbfFault{"datum_of_a_user", pvt({.datum = 250}), kField},
-                      SbfFault{"time_of_the_week", pvt({.tow_ms = 604'800'000}), kOutside},
-                      SbfFault{"week", pvt({.week = 7'001}), kOutside},
-                      SbfFault{"cut", pvt({.revision = 0, .size = 84}), kLength},
-                      SbfFault{"revision_2_cut", pvt({.size = 92}), kLength},
-                      SbfFault{"variance", covariance(kPosition, {.north = -0.5F}), kOutside},
-                      SbfFault{"variance_no_number", covariance(kVelocity, {.vertical = kNoNumber}), kField},
-                      SbfFault{"covariance_mode", covariance(kVelocity, {.mode = 11}), kField},
-                      SbfFault{"covariance_cut", covariance(kPosition, {.size = 52}), kLength},
-                      SbfFault{"heading", attitude({.heading_deg = 360.5F}), kOutside},
-                      SbfFault{"heading_no_number", attitude({.heading_deg = kNoNumber}), kField},
-                      SbfFault{"attitude_mode", attitude({.mode = 5}), kField},
-                      SbfFault{"attitude_time", attitude({.tow_ms = 604'800'000}), kOutside},
-                      SbfFault{"attitude_cut", attitude({.size = 40}), kLength},
-                      SbfFault{"attitude_variance", attitude_covariance(kTow_ms, -1.0F), kOutside},
-                      SbfFault{"attitude_covariance_cut", attitude_covariance(kTow_ms, 1.0F, 36), kLength},
-                      SbfFault{"bands", rf_status(0, {1, 1}, kTow_ms, 20), RejectReason::structure},
-                      SbfFault{"band_cut", rf_status(0, {1}, kTow_ms, 6), RejectReason::structure},
-                      SbfFault{"leap_seconds", receiver_time(-3), kOutside},
-                      SbfFault{"receiver_time_cut", receiver_time(18, 20), kLength}),
-    [](const auto& info) { return std::string(info.param.name); });
+    ::testing::Values(Fault{"crc", with_byte(kReceiverTime, 16, 0xFF), RejectReason::checksum},
+                      Fault{"length_odd", with_byte(kReceiverTime, 6, 0x17), kLength},
+                      Fault{"length_none", with_byte(kReceiverTime, 6, 4), kLength},
+                      Fault{"length_beyond", with_byte(kReceiverTime, 7, 0x21), kLength},
+                      Fault{"latitude", pvt({.latitude_rad = 1.6}), kOutside},
+                      Fault{"longitude", pvt({.longitude_rad = -3.2}), kOutside},
+                      Fault{"no_latitude", pvt({.latitude_rad = -2e10}), RejectReason::incomplete},
+                      Fault{"longitude_no_number", pvt({.longitude_rad = kNoNumber}), kField},
+                      Fault{"height", pvt({.height_m = 2e5}), kOutside},
+                      Fault{"undulation", pvt({.undulation_m = kNoNumber}), kField},
+                      Fault{"velocity", pvt({.north_m_s = -2e4F}), kOutside},
+                      Fault{"course", pvt({.course_deg = -1.0F}), kOutside},
+                      Fault{"mode", pvt({.mode = 9}), kField},
+                      Fault{"mode_beyond", pvt({.mode = 15}), kField},
+                      Fault{"datum_of_a_user", pvt({.datum = 250}), kField},
+                      Fault{"time_of_the_week", pvt({.tow_ms = 604'800'000}), kOutside},
+                      Fault{"week", pvt({.week = 7'001}), kOutside},
+                      Fault{"cut", pvt({.revision = 0, .size = 84}), kLength},
+                      Fault{"revision_2_cut", pvt({.size = 92}), kLength},
+                      Fault{"variance", covariance(kPosition, {.north = -0.5F}), kOutside},
+                      Fault{"variance_no_number", covariance(kVelocity, {.vertical = kNoNumber}), kField},
+                      Fault{"covariance_mode", covariance(kVelocity, {.mode = 11}), kField},
+                      Fault{"covariance_cut", covariance(kPosition, {.size = 52}), kLength},
+                      Fault{"heading", attitude({.heading_deg = 360.5F}), kOutside},
+                      Fault{"heading_no_number", attitude({.heading_deg = kNoNumber}), kField},
+                      Fault{"attitude_mode", attitude({.mode = 5}), kField},
+                      Fault{"attitude_time", attitude({.tow_ms = 604'800'000}), kOutside},
+                      Fault{"attitude_cut", attitude({.size = 40}), kLength},
+                      Fault{"attitude_variance", attitude_covariance(kTow_ms, -1.0F), kOutside},
+                      Fault{"attitude_covariance_cut", attitude_covariance(kTow_ms, 1.0F, 36), kLength},
+                      Fault{"bands", rf_status(0, {1, 1}, kTow_ms, 20), RejectReason::structure},
+                      Fault{"band_cut", rf_status(0, {1}, kTow_ms, 6), RejectReason::structure},
+                      Fault{"leap_seconds", receiver_time(-3), kOutside},
+                      Fault{"receiver_time_cut", receiver_time(18, 20), kLength}),
+    name_of_fault);
 
 }  // namespace
 }  // namespace fathom::codec::sbf_test

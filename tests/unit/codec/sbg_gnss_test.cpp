@@ -9,13 +9,17 @@
 #include "base/units.hpp"
 #include "capture.hpp"
 #include "codec/imu/sbg.hpp"
+#include "fault.hpp"
 
 namespace fathom::codec::sbg_gnss_test {
 namespace {
 
 using capture::ByteVector;
 using capture::decode;
+using capture::expect_refused_once;
+using capture::Fault;
 using capture::Harvest;
+using capture::name_of_fault;
 using capture::of_kind;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -340,49 +344,37 @@ TEST(SbgGnss, TheSecondReceiversHeadingCountsWhereThereIsNoOther) {
   EXPECT_FALSE(known(both[1].second.heading_rad));
 }
 
-struct SbgGnssFault {
-  const char* name;
-  ByteVector bytes;
-  RejectReason reason;
-};
-
-class SbgGnssFaults : public ::testing::TestWithParam<SbgGnssFault> {};
+class SbgGnssFaults : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(SbgGnssFaults, AreRefusedOnceAndTheNextFrameIsFound) {
-  const Harvest run = decode("sbg", GetParam().bytes + position());
-  ASSERT_EQ(run.rejected.size(), 1U);
-  EXPECT_EQ(run.rejected[0].reason, GetParam().reason);
-  EXPECT_EQ(run.rejected[0].offset, 0U);
-  EXPECT_EQ(run.totals.samples, 1U);
-  EXPECT_EQ(run.totals.skipped_bytes, 0U);
+  expect_refused_once("sbg", GetParam(), position());
 }
 
 constexpr auto kOutside = RejectReason::out_of_range;
 
 INSTANTIATE_TEST_SUITE_P(
     All, SbgGnssFaults,
-    ::testing::Values(
-        SbgGnssFault{"latitude", position({.latitude_deg = -90.5}), kOutside},
-        SbgGnssFault{"longitude", position({.longitude_deg = 181.0}), kOutside},
-        SbgGnssFault{"longitude_no_number", position({.longitude_deg = kNan}), RejectReason::field},
-        SbgGnssFault{"height", position({.height_msl_m = -2e5}), kOutside},
-        SbgGnssFault{"undulation", position({.undulation_m = kNanF}), RejectReason::field},
-        SbgGnssFault{"negative_accuracy", position({.sigma = -1.0F}), kOutside},
-        SbgGnssFault{"type", position({.status = 11U << 6U}), RejectReason::field},
-        SbgGnssFault{"time_of_the_week", position({.tow_ms = 604'800'000}), kOutside},
-        SbgGnssFault{"position_cut", position({.size = 51}), RejectReason::length},
-        SbgGnssFault{"heading_beyond", heading({.heading_deg = 360.5F}), kOutside},
-        SbgGnssFault{"heading_negative", heading({.heading_deg = -0.5F}), kOutside},
-        SbgGnssFault{"heading_no_number", heading({.heading_deg = kNanF}), RejectReason::field},
-        SbgGnssFault{"heading_time_of_the_week", heading({.tow_ms = 604'800'000}), kOutside},
-        SbgGnssFault{"heading_cut", heading({.size = 25}), RejectReason::length},
-        SbgGnssFault{"heading_of_the_second", heading({.heading_deg = 361.0F}, kHeading2), kOutside},
-        SbgGnssFault{"velocity_cut", frame(kVelocity1, ByteVector(43, 0)), RejectReason::length},
-        SbgGnssFault{"velocity_type", velocity(kTow_ms, 4U << 6U), RejectReason::field},
-        SbgGnssFault{"velocity_no_number", velocity(kTow_ms, 2U << 6U, kNanF), RejectReason::field},
-        SbgGnssFault{"velocity", velocity(kTow_ms, 2U << 6U, 2e4F), kOutside},
-        SbgGnssFault{"course", velocity(kTow_ms, 2U << 6U, 0.0F, 720.0F), kOutside}),
-    [](const auto& info) { return std::string(info.param.name); });
+    ::testing::Values(Fault{"latitude", position({.latitude_deg = -90.5}), kOutside},
+                      Fault{"longitude", position({.longitude_deg = 181.0}), kOutside},
+                      Fault{"longitude_no_number", position({.longitude_deg = kNan}), RejectReason::field},
+                      Fault{"height", position({.height_msl_m = -2e5}), kOutside},
+                      Fault{"undulation", position({.undulation_m = kNanF}), RejectReason::field},
+                      Fault{"negative_accuracy", position({.sigma = -1.0F}), kOutside},
+                      Fault{"type", position({.status = 11U << 6U}), RejectReason::field},
+                      Fault{"time_of_the_week", position({.tow_ms = 604'800'000}), kOutside},
+                      Fault{"position_cut", position({.size = 51}), RejectReason::length},
+                      Fault{"heading_beyond", heading({.heading_deg = 360.5F}), kOutside},
+                      Fault{"heading_negative", heading({.heading_deg = -0.5F}), kOutside},
+                      Fault{"heading_no_number", heading({.heading_deg = kNanF}), RejectReason::field},
+                      Fault{"heading_time_of_the_week", heading({.tow_ms = 604'800'000}), kOutside},
+                      Fault{"heading_cut", heading({.size = 25}), RejectReason::length},
+                      Fault{"heading_of_the_second", heading({.heading_deg = 361.0F}, kHeading2), kOutside},
+                      Fault{"velocity_cut", frame(kVelocity1, ByteVector(43, 0)), RejectReason::length},
+                      Fault{"velocity_type", velocity(kTow_ms, 4U << 6U), RejectReason::field},
+                      Fault{"velocity_no_number", velocity(kTow_ms, 2U << 6U, kNanF), RejectReason::field},
+                      Fault{"velocity", velocity(kTow_ms, 2U << 6U, 2e4F), kOutside},
+                      Fault{"course", velocity(kTow_ms, 2U << 6U, 0.0F, 720.0F), kOutside}),
+    name_of_fault);
 
 }  // namespace
 }  // namespace fathom::codec::sbg_gnss_test

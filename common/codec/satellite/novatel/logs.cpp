@@ -1,4 +1,4 @@
-#include "codec/satellite/novatel_logs.hpp"
+#include "codec/satellite/novatel/logs.hpp"
 
 #include <cmath>
 

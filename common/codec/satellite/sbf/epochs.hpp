@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "base/device_time.hpp"
-#include "codec/satellite/sbf_blocks.hpp"
+#include "codec/satellite/sbf/blocks.hpp"
 
 namespace fathom::codec::sbf {
 

@@ -1,4 +1,4 @@
-#include "codec/satellite/sbf_blocks.hpp"
+#include "codec/satellite/sbf/blocks.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,7 @@
 #include "base/units.hpp"
 #include "codec/gps_time.hpp"
 #include "codec/satellite/receiver_numbers.hpp"
-#include "codec/satellite/sbf.hpp"
+#include "codec/satellite/sbf/sbf.hpp"
 
 namespace fathom::codec::sbf {
 

@@ -1,4 +1,4 @@
-#include "codec/satellite/sbf.hpp"
+#include "codec/satellite/sbf/sbf.hpp"
 
 #include <optional>
 
@@ -6,9 +6,9 @@
 #include "codec/crc16.hpp"
 #include "codec/framer.hpp"
 #include "codec/gps_time.hpp"
-#include "codec/satellite/sbf_blocks.hpp"
-#include "codec/satellite/sbf_epochs.hpp"
-#include "codec/satellite/sbf_interference.hpp"
+#include "codec/satellite/sbf/blocks.hpp"
+#include "codec/satellite/sbf/epochs.hpp"
+#include "codec/satellite/sbf/interference.hpp"
 
 namespace fathom::codec {
 namespace {

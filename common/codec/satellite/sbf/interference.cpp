@@ -1,4 +1,4 @@
-#include "codec/satellite/sbf_interference.hpp"
+#include "codec/satellite/sbf/interference.hpp"
 
 #include <cstdlib>
 

@@ -4,7 +4,7 @@
 
 #include "base/time.hpp"
 #include "codec/framer.hpp"
-#include "codec/satellite/sbf_blocks.hpp"
+#include "codec/satellite/sbf/blocks.hpp"
 #include "samples/gps.hpp"
 
 namespace fathom::codec::sbf {

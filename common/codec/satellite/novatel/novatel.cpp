@@ -1,4 +1,4 @@
-#include "codec/satellite/novatel.hpp"
+#include "codec/satellite/novatel/novatel.hpp"
 
 #include <optional>
 
@@ -6,7 +6,7 @@
 #include "codec/framer.hpp"
 #include "codec/gps_time.hpp"
 #include "codec/satellite/fix_epochs.hpp"
-#include "codec/satellite/novatel_logs.hpp"
+#include "codec/satellite/novatel/logs.hpp"
 
 namespace fathom::codec {
 
