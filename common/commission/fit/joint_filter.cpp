@@ -157,7 +157,7 @@ Vector3d JointFilter::update(const Vector3d& residual, const Rows& H, const Vect
   const Matrix3d predicted = H * PHt;
   Matrix3d S = predicted;
   S.diagonal() += sigma.cwiseAbs2();
-  const Vector3d normalised = residual.cwiseQuotient(S.diagonal().cwiseSqrt());
+  Vector3d normalised = residual.cwiseQuotient(S.diagonal().cwiseSqrt());
   const double square = residual.dot(S.ldlt().solve(residual));
   if (square > kGate) {
     S = predicted;
