@@ -92,6 +92,12 @@ class Framer : public Codec {
   /// How `decode` and `flush` hand out a sample.
   void emit(Sink& sink, const AnySample& sample, const DeviceTime& time, std::uint64_t offset,
             std::uint64_t length);
+  /// The same of what is found later than its frame (Epochs).
+  [[nodiscard]] auto deliver_to(Sink& sink) {
+    return [this, &sink](const auto& found) {
+      emit(sink, found.sample, found.time, found.offset, found.length);
+    };
+  }
 
  private:
   void drain(Sink& sink, bool at_end);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "base/time.hpp"
 
@@ -15,12 +16,18 @@ inline constexpr DurationNs kGpsWeek_ns = 7 * 86'400 * kNsPerSecond;
 /// can name.
 inline constexpr std::uint16_t kLastGpsWeek = 7'000;
 
-/// From time since the GPS epoch to UTC, and back.
-[[nodiscard]] constexpr TimeNs utc_of_gps(DurationNs gps_ns) {
-  return kGpsEpoch_ns - kGpsAheadOfUtc_ns + gps_ns;
+/// From time since the GPS epoch to UTC, and back. A receiver may know the leap seconds of its day.
+[[nodiscard]] constexpr TimeNs utc_of_gps(DurationNs gps_ns, DurationNs ahead_of_utc_ns = kGpsAheadOfUtc_ns) {
+  return kGpsEpoch_ns - ahead_of_utc_ns + gps_ns;
 }
 [[nodiscard]] constexpr DurationNs gps_of_utc(TimeNs utc_ns) {
   return utc_ns - kGpsEpoch_ns + kGpsAheadOfUtc_ns;
+}
+/// Time since the GPS epoch; nothing where it cannot be.
+[[nodiscard]] constexpr std::optional<DurationNs> gps_of_week(std::uint16_t week, std::uint32_t of_week_ms) {
+  const DurationNs of_week_ns = of_week_ms * kNsPerMillisecond;
+  if (week > kLastGpsWeek || of_week_ns >= kGpsWeek_ns) return std::nullopt;
+  return week * kGpsWeek_ns + of_week_ns;
 }
 /// As most receivers count it.
 [[nodiscard]] constexpr std::uint32_t time_of_week_ms(TimeNs utc_ns) {

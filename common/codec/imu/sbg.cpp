@@ -177,8 +177,8 @@ class Sbg : public Framer {
     DeviceTime time;
     time.clock_ns = clock_of(got.stamp_us);
     if (got.sample.fix != GpsFix::none) time.utc_ns = utc_of_week(got.time_of_week_ms, *time.clock_ns);
-    epochs_[of_second ? 1 : 0].add_position(got.time_of_week_ms, {got.sample, time, offset, frame.size()},
-                                            deliver_to(sink));
+    epochs_[of_second ? 1 : 0].add(got.time_of_week_ms, {got.sample, time, offset, frame.size()},
+                                   deliver_to(sink));
     return Outcome::used();
   }
 
@@ -188,8 +188,9 @@ class Sbg : public Framer {
     EpochVelocity got;
     if (const auto why = sbg::read_velocity(data, got)) return Outcome::refused(*why);
     if (of_second && receiver_.first_heard()) return Outcome::ignored();
-    const bool completed = epochs_[of_second ? 1 : 0].add_velocity(got, deliver_to(sink));
-    return completed ? Outcome::used() : Outcome::ignored();
+    const bool joined = epochs_[of_second ? 1 : 0].add_part(FixWithVelocity::kVelocity, got.time_of_week_ms,
+                                                            got, deliver_to(sink));
+    return joined ? Outcome::used() : Outcome::ignored();
   }
 
   Outcome take_heading(Bytes frame, Bytes data, std::uint64_t offset, Sink& sink) {
@@ -201,12 +202,6 @@ class Sbg : public Framer {
     if (known(got.sample.heading_rad)) time.utc_ns = utc_of_week(got.time_of_week_ms, *time.clock_ns);
     emit(sink, got.sample, time, offset, frame.size());
     return Outcome::used();
-  }
-
-  FixEpochs::Deliver deliver_to(Sink& sink) {
-    return [this, &sink](const FixEpochs::Fix& fix) {
-      emit(sink, fix.sample, fix.time, fix.offset, fix.length);
-    };
   }
 
   /// UTC of a time of the week, which UTC_TIME has told beside UTC, in the week of the unit's clock.

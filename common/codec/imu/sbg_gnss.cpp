@@ -120,7 +120,7 @@ std::optional<RejectReason> read_heading(Bytes data, Heading& into) {
   if (into.time_of_week_ms >= kWeek_ms) return RejectReason::out_of_range;
   NumberCheck check;
   const double heading_deg = check.take(true, load_le<float>(data, 10), 0.0, 360.0);
-  into.sample.heading_rad = heading_deg == 360.0 ? 0.0 : kRadPerDeg * heading_deg;
+  into.sample.heading_rad = heading_of(heading_deg);
   if (sigma_deg > 0.0) into.sample.sigma_rad = kRadPerDeg * sigma_deg;
   return check.reason();
 }

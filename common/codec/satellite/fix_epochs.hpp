@@ -1,12 +1,12 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 
-#include "base/device_time.hpp"
 #include "base/unknown.hpp"
+#include "codec/satellite/epochs.hpp"
 #include "samples/gps.hpp"
 
 namespace fathom::codec {
@@ -19,39 +19,21 @@ struct EpochVelocity {
   double course_rad = kUnknown;
 };
 
-/// Joins position and velocity of one receiver, which come in two frames of the same time of the week.
-///
-/// A position whose velocity came before it is delivered with it. Whether one comes after it is learned:
-/// where it did, the next position waits for its own, and no longer after two positions that waited in vain.
-/// A position that waits is delivered when the next one comes; nothing is delivered twice.
-class FixEpochs {
- public:
-  struct Fix {
-    GpsSample sample;
-    DeviceTime time;
-    std::uint64_t offset = 0;  ///< of the position's frame
-    std::uint64_t length = 0;
-  };
-  using Deliver = std::function<void(const Fix&)>;
-
-  void add_position(std::uint32_t time_of_week_ms, const Fix& fix, const Deliver& deliver);
-  /// Whether it completed a fix.
-  bool add_velocity(const EpochVelocity& velocity, const Deliver& deliver);
-  /// The stream has ended: a position that waits is delivered.
-  void finish(const Deliver& deliver);
-
- private:
-  struct Waiting {
-    std::uint32_t time_of_week_ms = 0;
-    Fix fix;
-  };
-
-  void release(const Deliver& deliver);
-
-  std::optional<Waiting> waiting_;
-  std::optional<EpochVelocity> velocity_;            ///< whose position has not come yet
-  std::optional<std::uint32_t> delivered_alone_ms_;  ///< time of the week of the last one without velocity
-  int patience_ = 0;                                 ///< how many positions in a row may wait in vain
+/// A position and its velocity, which come in two frames of the same time of the week.
+struct FixWithVelocity {
+  using Instant = std::optional<std::uint32_t>;  ///< time of the week, ms
+  using Sample = GpsSample;
+  using Part = EpochVelocity;
+  static constexpr std::size_t kParts = 1;
+  static constexpr std::size_t kVelocity = 0;
+  static constexpr int kWaitsInVain = 2;
+  static void join(GpsSample& sample, std::size_t /*which*/, const EpochVelocity& velocity) {
+    if (sample.fix == GpsFix::none) return;
+    sample.velocity_N_m_s = velocity.velocity_N_m_s;
+    sample.velocity_sigma_N_m_s = velocity.sigma_N_m_s;
+    sample.course_rad = velocity.course_rad;
+  }
 };
+using FixEpochs = Epochs<FixWithVelocity>;
 
 }  // namespace fathom::codec

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/units.hpp"
 #include "base/unknown.hpp"
 #include "codec/codec.hpp"
 
@@ -37,6 +38,10 @@ class NumberCheck {
   std::optional<RejectReason> reason_;
 };
 
+/// From degrees of 0 to 360; a whole turn is none.
+[[nodiscard]] inline double heading_of(double heading_deg) {
+  return heading_deg == 360.0 ? 0.0 : kRadPerDeg * heading_deg;
+}
 /// An angle of -2 pi to 2 pi as one of 0 to 2 pi.
 [[nodiscard]] inline double as_course(double angle_rad) {
   return angle_rad < 0.0 ? angle_rad + 2.0 * std::numbers::pi : angle_rad;

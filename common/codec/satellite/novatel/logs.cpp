@@ -171,19 +171,19 @@ std::optional<RejectReason> read_heading(Bytes message, Heading& into) {
   if (check.reason()) return check.reason();
   into.to_another_vehicle = length_m > kMostOnAVehicle_m;
   if (*fix != GpsFix::rtk_fixed || sigma_deg >= kNoHeadingSigma_deg) return std::nullopt;
-  into.sample.heading_rad = heading_deg == 360.0 ? 0.0 : kRadPerDeg * heading_deg;
+  into.sample.heading_rad = heading_of(heading_deg);
   into.sample.sigma_rad = kRadPerDeg * sigma_deg;
   return std::nullopt;
 }
 
-std::optional<RejectReason> read_time(Bytes message, DurationNs& utc_less_gps_ns) {
+std::optional<RejectReason> read_time(Bytes message, DurationNs& ahead_of_utc_ns) {
   constexpr std::uint32_t kUtcValid = 1;
   constexpr double kMostLeapSeconds = 100.0;
   if (message.size() < kTimeMessage) return RejectReason::length;
   if (load_le<std::uint32_t>(message, 40) != kUtcValid) return std::nullopt;
   NumberCheck check;
   const double offset_s = check.take(true, load_le<double>(message, 20), -kMostLeapSeconds, 1.0);
-  if (!check.reason()) utc_less_gps_ns = from_seconds(offset_s);
+  if (!check.reason()) ahead_of_utc_ns = from_seconds(-offset_s);
   return check.reason();
 }
 

@@ -90,7 +90,7 @@ struct Heading {
 /// Both logs of a heading have it in the same places.
 [[nodiscard]] std::optional<RejectReason> read_heading(Bytes message, Heading& into);
 
-/// UTC less GPS time; left as it is where the receiver does not vouch for it.
-[[nodiscard]] std::optional<RejectReason> read_time(Bytes message, DurationNs& utc_less_gps_ns);
+/// How far GPS time is ahead of UTC; left as it is where the receiver does not vouch for it.
+[[nodiscard]] std::optional<RejectReason> read_time(Bytes message, DurationNs& ahead_of_utc_ns);
 
 }  // namespace fathom::codec::novatel

@@ -22,8 +22,6 @@ std::uint32_t novatel::crc32(std::span<const std::uint8_t> bytes) {
 
 namespace {
 
-constexpr std::uint32_t kNovatelWeek_ms = kGpsWeek_ns / kNsPerMillisecond;
-
 /// Of a frame of which kShortHeader bytes are here; 0 where its header is too short.
 std::size_t novatel_length(Bytes front) {
   if (front[2] == novatel::kShortSync3) return novatel::kShortHeader + front[3] + novatel::kCrc;
@@ -65,7 +63,7 @@ class Novatel final : public Framer {
       case novatel::dual_antenna_heading:
         return take_heading(frame, header, message, offset, sink);
       case novatel::time_of_receiver:
-        if (const auto why = novatel::read_time(message, utc_less_gps_ns_)) return Outcome::refused(*why);
+        if (const auto why = novatel::read_time(message, ahead_of_utc_ns_)) return Outcome::refused(*why);
         return Outcome::ignored();
       default:
         return Outcome::ignored();
@@ -77,9 +75,9 @@ class Novatel final : public Framer {
  private:
   /// A time that the header vouches for and cannot be.
   static std::optional<RejectReason> impossible_time(const novatel::Header& header) {
-    const bool possible = header.time_of_week_ms < kNovatelWeek_ms && header.week <= kLastGpsWeek;
-    if (possible || !novatel::is_known(header.time_status)) return std::nullopt;
-    return RejectReason::out_of_range;
+    if (!novatel::is_known(header.time_status)) return std::nullopt;
+    const bool possible = gps_of_week(header.week, header.time_of_week_ms).has_value();
+    return possible ? std::nullopt : std::optional(RejectReason::out_of_range);
   }
 
   Outcome take_position(Bytes frame, const novatel::Header& header, Bytes message, std::uint64_t offset,
@@ -87,8 +85,7 @@ class Novatel final : public Framer {
     GpsSample sample;
     if (const auto why = novatel::read_position(message, sample)) return Outcome::refused(*why);
     if (const auto why = impossible_time(header)) return Outcome::refused(*why);
-    epochs_.add_position(header.time_of_week_ms, {sample, time_of(header), offset, frame.size()},
-                         deliver_to(sink));
+    epochs_.add(header.time_of_week_ms, {sample, time_of(header), offset, frame.size()}, deliver_to(sink));
     return Outcome::used();
   }
 
@@ -97,8 +94,9 @@ class Novatel final : public Framer {
     EpochVelocity velocity;
     if (const auto why = novatel::read_velocity(message, velocity)) return Outcome::refused(*why);
     if (const auto why = impossible_time(header)) return Outcome::refused(*why);
-    velocity.time_of_week_ms = header.time_of_week_ms;
-    return epochs_.add_velocity(velocity, deliver_to(sink)) ? Outcome::used() : Outcome::ignored();
+    const bool joined =
+        epochs_.add_part(FixWithVelocity::kVelocity, header.time_of_week_ms, velocity, deliver_to(sink));
+    return joined ? Outcome::used() : Outcome::ignored();
   }
 
   Outcome take_heading(Bytes frame, const novatel::Header& header, Bytes message, std::uint64_t offset,
@@ -119,20 +117,13 @@ class Novatel final : public Framer {
 
   [[nodiscard]] DeviceTime time_of(const novatel::Header& header) const {
     DeviceTime time;
-    if (novatel::is_known(header.time_status))
-      time.utc_ns = kGpsEpoch_ns + header.week * kGpsWeek_ns + header.time_of_week_ms * kNsPerMillisecond +
-                    utc_less_gps_ns_;
+    const auto gps_ns = gps_of_week(header.week, header.time_of_week_ms);
+    if (gps_ns && novatel::is_known(header.time_status)) time.utc_ns = utc_of_gps(*gps_ns, ahead_of_utc_ns_);
     return time;
   }
 
-  FixEpochs::Deliver deliver_to(Sink& sink) {
-    return [this, &sink](const FixEpochs::Fix& fix) {
-      emit(sink, fix.sample, fix.time, fix.offset, fix.length);
-    };
-  }
-
   FixEpochs epochs_;
-  DurationNs utc_less_gps_ns_ = -kGpsAheadOfUtc_ns;
+  DurationNs ahead_of_utc_ns_ = kGpsAheadOfUtc_ns;
   std::optional<std::uint32_t> heading_at_ms_;  ///< time of the week of the last one,
   std::uint16_t heading_by_ = 0;                ///< the log that it came in,
   bool heading_known_ = false;                  ///< and whether there was one

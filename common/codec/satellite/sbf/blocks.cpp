@@ -24,7 +24,6 @@ constexpr std::size_t kReceiverTimeLength = 22;
 
 constexpr std::size_t kModeAt = 14;
 constexpr std::size_t kErrorAt = 15;
-constexpr std::uint32_t kSbfWeek_ms = kGpsWeek_ns / kNsPerMillisecond;
 constexpr std::uint8_t kFirstUserDatum = 250;
 constexpr DurationNs kLatencyUnit_ns = 100'000;
 constexpr double kAccuracyUnit_m = 0.01;
@@ -97,9 +96,8 @@ std::optional<RejectReason> read_instant(Bytes block, GpsInstant& into) {
   const auto time_of_week_ms = load_le<std::uint32_t>(block, 8);
   const auto week = load_le<std::uint16_t>(block, 12);
   if (time_of_week_ms == kDoNotUse32 || week == kDoNotUse16) return std::nullopt;
-  if (time_of_week_ms >= kSbfWeek_ms || week > kLastGpsWeek) return RejectReason::out_of_range;
-  into = week * kGpsWeek_ns + time_of_week_ms * kNsPerMillisecond;
-  return std::nullopt;
+  into = gps_of_week(week, time_of_week_ms);
+  return into ? std::nullopt : std::optional(RejectReason::out_of_range);
 }
 
 std::optional<RejectReason> read_pvt(Bytes block, unsigned revision, Pvt& into) {
@@ -130,8 +128,7 @@ std::optional<RejectReason> read_pvt(Bytes block, unsigned revision, Pvt& into) 
   for (std::size_t i = 0; i < 3; ++i)
     s.velocity_N_m_s[i] = take_used<float>(check, block, 44 + 4 * i, -kMostVelocity_m_s, kMostVelocity_m_s);
   s.velocity_N_m_s[2] = 0.0 - s.velocity_N_m_s[2];  // said upwards; 0 stays without sign
-  const double course_deg = take_used<float>(check, block, 56, 0.0, 360.0);
-  s.course_rad = course_deg == 360.0 ? 0.0 : kRadPerDeg * course_deg;
+  s.course_rad = heading_of(take_used<float>(check, block, 56, 0.0, 360.0));
   if (has_accuracies && !is_of_moving_base(solution_of_mode(mode))) read_accuracies(block, s);
   return check.reason();
 }
@@ -171,8 +168,7 @@ std::optional<RejectReason> read_att_euler(Bytes block, HeadingSample& into) {
   if (mode != kAttitudeFixed && mode != kFullAttitudeFixed) return std::nullopt;
   if ((error & (kNotRequested | kFirstBaseline)) != 0) return std::nullopt;
   NumberCheck check;
-  const double heading_deg = take_used<float>(check, block, 20, 0.0, 360.0);
-  into.heading_rad = heading_deg == 360.0 ? 0.0 : kRadPerDeg * heading_deg;
+  into.heading_rad = heading_of(take_used<float>(check, block, 20, 0.0, 360.0));
   return check.reason();
 }
 

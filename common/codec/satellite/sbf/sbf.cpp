@@ -13,9 +13,9 @@
 namespace fathom::codec {
 namespace {
 
-using sbf::FixKind;
+using sbf::FixWithSigmas;
 using sbf::GpsInstant;
-using sbf::HeadingKind;
+using sbf::HeadingWithSigma;
 
 Probe probe_sbf(Bytes front) {
   if (const auto other = seek_sync(front, sbf::kSync1, sbf::kSync2)) return *other;
@@ -37,13 +37,6 @@ class Sbf final : public Framer {
  private:
   [[nodiscard]] Probe probe(Bytes front) const override { return probe_sbf(front); }
 
-  // Here its return type is deduced before it is used.
-  auto deliver_to(Sink& sink) {
-    return [this, &sink](const auto& found) {
-      emit(sink, found.sample, found.time, found.offset, found.length);
-    };
-  }
-
   Outcome decode(Bytes block, std::uint64_t offset, Sink& sink) override {
     constexpr unsigned kNumberBits = 13;
     const unsigned id = load_le<std::uint16_t>(block, 4);
@@ -51,9 +44,9 @@ class Sbf final : public Framer {
       case sbf::pvt_geodetic:
         return take_fix(block, id >> kNumberBits, offset, sink);
       case sbf::position_covariance:
-        return take_sigmas(block, FixKind::kPosition, sink);
+        return take_sigmas(block, FixWithSigmas::kPosition, sink);
       case sbf::velocity_covariance:
-        return take_sigmas(block, FixKind::kVelocity, sink);
+        return take_sigmas(block, FixWithSigmas::kVelocity, sink);
       case sbf::rf_status:
         return take_interference(block);
       case sbf::receiver_time:
@@ -81,19 +74,20 @@ class Sbf final : public Framer {
     if (const auto why = sbf::read_instant(block, at)) return Outcome::refused(*why);
     if (const auto why = sbf::read_pvt(block, revision, got)) return Outcome::refused(*why);
     headings_.pass(at, deliver_to(sink));
+    if (fixes_.is_at(at)) return Outcome::ignored();
     interference_.stamp(got.sample, at);
     DeviceTime time = time_of(at);
     time.age_ns = got.age_ns;
-    const bool counts = fixes_.add(at, {got.sample, time, offset, block.size()}, deliver_to(sink));
-    return counts ? Outcome::used() : Outcome::ignored();
+    fixes_.add(at, {got.sample, time, offset, block.size()}, deliver_to(sink));
+    return Outcome::used();
   }
 
   Outcome take_sigmas(Bytes block, std::size_t which, Sink& sink) {
     GpsInstant at;
     sbf::Sigmas sigmas{};
     if (const auto why = sbf::read_instant(block, at)) return Outcome::refused(*why);
-    const auto why = which == FixKind::kPosition ? sbf::read_position_covariance(block, sigmas)
-                                                 : sbf::read_velocity_covariance(block, sigmas);
+    const auto why = which == FixWithSigmas::kPosition ? sbf::read_position_covariance(block, sigmas)
+                                                       : sbf::read_velocity_covariance(block, sigmas);
     if (why) return Outcome::refused(*why);
     headings_.pass(at, deliver_to(sink));
     return fixes_.add_part(which, at, sigmas, deliver_to(sink)) ? Outcome::used() : Outcome::ignored();
@@ -105,8 +99,9 @@ class Sbf final : public Framer {
     if (const auto why = sbf::read_instant(block, at)) return Outcome::refused(*why);
     if (const auto why = sbf::read_att_euler(block, sample)) return Outcome::refused(*why);
     fixes_.pass(at, deliver_to(sink));
-    const bool counts = headings_.add(at, {sample, time_of(at), offset, block.size()}, deliver_to(sink));
-    return counts ? Outcome::used() : Outcome::ignored();
+    if (headings_.is_at(at)) return Outcome::ignored();
+    headings_.add(at, {sample, time_of(at), offset, block.size()}, deliver_to(sink));
+    return Outcome::used();
   }
 
   Outcome take_heading_sigma(Bytes block, Sink& sink) {
@@ -115,7 +110,7 @@ class Sbf final : public Framer {
     if (const auto why = sbf::read_instant(block, at)) return Outcome::refused(*why);
     if (const auto why = sbf::read_att_covariance(block, sigma_rad)) return Outcome::refused(*why);
     fixes_.pass(at, deliver_to(sink));
-    const bool joined = headings_.add_part(HeadingKind::kSigma, at, sigma_rad, deliver_to(sink));
+    const bool joined = headings_.add_part(HeadingWithSigma::kSigma, at, sigma_rad, deliver_to(sink));
     return joined ? Outcome::used() : Outcome::ignored();
   }
 
@@ -142,12 +137,12 @@ class Sbf final : public Framer {
 
   [[nodiscard]] DeviceTime time_of(const GpsInstant& at) const {
     DeviceTime time;
-    if (at) time.utc_ns = utc_of_gps(*at) + kGpsAheadOfUtc_ns - ahead_of_utc_ns_;
+    if (at) time.utc_ns = utc_of_gps(*at, ahead_of_utc_ns_);
     return time;
   }
 
-  sbf::SbfEpochs<FixKind> fixes_;
-  sbf::SbfEpochs<HeadingKind> headings_;
+  Epochs<sbf::FixWithSigmas> fixes_;
+  Epochs<sbf::HeadingWithSigma> headings_;
   sbf::SbfInterference interference_;
   DurationNs ahead_of_utc_ns_ = kGpsAheadOfUtc_ns;
 };

@@ -12,7 +12,7 @@ namespace fathom::codec {
 /// Guide, SBF Reference). PVTGeodetic becomes a GpsSample, AttEuler a HeadingSample. All other blocks are
 /// good frames without sample; NMEA, RTCM and the answers to commands between them are skipped.
 ///
-/// Blocks of one instant are joined (SbfEpochs): the covariances of PosCovGeodetic and VelCovGeodetic with
+/// Blocks of one instant are joined (Epochs): the covariances of PosCovGeodetic and VelCovGeodetic with
 /// the fix, that of AttCovEuler with the heading. EndOfPVT and EndOfAtt, where they are sent, end the
 /// waiting.
 ///
