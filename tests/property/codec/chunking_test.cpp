@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/codec/decode_run.hpp"
-#include "support/codec/resealed.hpp"
+#include "support/codec/other_contents.hpp"
 #include "support/codec/seed_streams.hpp"
 #include "support/data.hpp"
 
@@ -98,7 +98,7 @@ TEST_P(EveryCodec, NorWhereADeviceSaysWhatCannotBe) {
   EXPECT_GT(samples, 0U);
   EXPECT_GT(refused, 0U);
   // Other contents may say another length, at whose end no checksum stands; they seldom do.
-  EXPECT_LT(by_checksum, 1 + refused / 10) << "how its frames are closed belongs in resealed.cpp";
+  EXPECT_LT(by_checksum, 1 + refused / 10) << "how its frames are closed belongs in other_contents.cpp";
 }
 
 TEST_P(EveryCodec, TheGoodFramesBehindGarbageAreFound) {

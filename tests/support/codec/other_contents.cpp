@@ -1,4 +1,4 @@
-#include "support/codec/resealed.hpp"
+#include "support/codec/other_contents.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +23,7 @@
 #include "codec/text/nmea_sentence.hpp"
 #include "mavlink/crc.hpp"
 #include "mavlink/known.hpp"
+#include "support/codec/seed_streams.hpp"
 
 namespace fathom::test {
 namespace {
@@ -186,7 +187,7 @@ void change(const Seal& seal, Frame frame, Random& random) {
 ByteVector with_other_frames(const Seal& seal, ByteVector stream, Random& random) {
   const Frame all(stream);
   if (seal.length == says_none) {
-    DecodeRun run = decode_whole(seal.protocol, stream);
+    const DecodeRun run = decode_whole(seal.protocol, stream, seed_options(seal.protocol));
     for (const codec::Decoded& each : run.samples)
       if (random() % 2 == 0) change(seal, all.subspan(each.offset, each.length), random);
     return stream;
