@@ -40,10 +40,10 @@ struct Cut {
 
 /// The samples of one kind, in stream order.
 template <class Sample>
-[[nodiscard]] std::vector<std::pair<const Decoded*, Sample>> of_kind(const Harvest& run) {
-  std::vector<std::pair<const Decoded*, Sample>> found;
+[[nodiscard]] std::vector<std::pair<Decoded, Sample>> of_kind(const Harvest& run) {
+  std::vector<std::pair<Decoded, Sample>> found;
   for (const Decoded& decoded : run.samples) {
-    if (const auto* sample = std::get_if<Sample>(&decoded.sample)) found.emplace_back(&decoded, *sample);
+    if (const auto* sample = std::get_if<Sample>(&decoded.sample)) found.emplace_back(decoded, *sample);
   }
   return found;
 }

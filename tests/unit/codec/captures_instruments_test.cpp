@@ -171,7 +171,7 @@ TEST(XsensCaptures, AgreeWithAnotherDriversDecoding) {
       if (force.size() != 3 || rate.size() != 3) continue;
       ASSERT_LT(compared, imu.size());
       const auto& [decoded, s] = imu[compared++];
-      bool agrees = decoded->time.clock_ns == static_cast<TimeNs>(message["SampleTimeFine"].at(0)) * 100'000;
+      bool agrees = decoded.time.clock_ns == static_cast<TimeNs>(message["SampleTimeFine"].at(0)) * 100'000;
       for (std::size_t i = 0; i < 3; ++i) {
         const double sign = i == 0 ? 1.0 : -1.0;
         agrees = agrees && near_float(sign * force[i], s.specific_force_B_m_s2[i]);
@@ -217,7 +217,7 @@ TEST(XsensCaptures, FixesAgreeWithAnotherDriversDecoding) {
                                    .minute = whole(5),
                                    .second = whole(6),
                                    .nanosecond = whole(9)});
-      bool agrees = decoded->time.utc_ns == utc && s.fix == GpsFix::fix_3d && s.satellites == whole(12);
+      bool agrees = decoded.time.utc_ns == utc && s.fix == GpsFix::fix_3d && s.satellites == whole(12);
       const std::vector<std::pair<double, double>> pairs{
           {pvt[14] * 1e-7, s.longitude_rad * kDegPerRad},
           {pvt[15] * 1e-7, s.latitude_rad * kDegPerRad},
@@ -237,7 +237,7 @@ TEST(XsensCaptures, FixesAgreeWithAnotherDriversDecoding) {
       if (compared == 1) continue;
       // Four a second, and as far from each other as its velocity says, within what that knows.
       const auto& [before, last] = fixes[compared - 2];
-      EXPECT_NEAR(to_seconds(*decoded->time.utc_ns - *before->time.utc_ns), 0.25, 1e-5);
+      EXPECT_NEAR(to_seconds(*decoded.time.utc_ns - *before.time.utc_ns), 0.25, 1e-5);
       constexpr double kEarth_m = 6.37e6;
       EXPECT_NEAR(kEarth_m * (s.latitude_rad - last.latitude_rad), 0.25 * s.velocity_N_m_s[0], 0.1);
     }
@@ -314,8 +314,8 @@ TEST(UsblCaptures, AgreeWithTheExpectedFixes) {
     const std::string t = e.at("t");
     const double seconds =
         3600.0 * std::stod(t.substr(0, 2)) + 60.0 * std::stod(t.substr(3, 2)) + std::stod(t.substr(6));
-    ASSERT_TRUE(usbl[i].first->time.time_of_day_ns.has_value());
-    EXPECT_NEAR(to_seconds(*usbl[i].first->time.time_of_day_ns), seconds, 1e-6);
+    ASSERT_TRUE(usbl[i].first.time.time_of_day_ns.has_value());
+    EXPECT_NEAR(to_seconds(*usbl[i].first.time.time_of_day_ns), seconds, 1e-6);
   }
   EXPECT_EQ(run.totals.rejected, 0U);
   report(file, run, usbl.size(), 0);

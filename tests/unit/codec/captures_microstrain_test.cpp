@@ -65,16 +65,16 @@ TEST(MicroStrainCaptures, AgreeWithTheMakersKit) {
       ++compared;
       mismatches += !agrees;
     };
-    ASSERT_TRUE(decoded->time.clock_ns.has_value());
+    ASSERT_TRUE(decoded.time.clock_ns.has_value());
     const std::int64_t clock_ns = std::stoll(packet.fields.at("D5").at(0));
-    EXPECT_EQ(*decoded->time.clock_ns, clock_ns);
+    EXPECT_EQ(*decoded.time.clock_ns, clock_ns);
     ++compared;
-    mismatches += *decoded->time.clock_ns != clock_ns;
+    mismatches += *decoded.time.clock_ns != clock_ns;
     for (std::size_t i = 0; i < 3; ++i) {
       agree(std::stod(packet.fields.at("04").at(i)), s.specific_force_B_m_s2[i] / kG);
       agree(std::stod(packet.fields.at("05").at(i)), s.angular_rate_B_rad_s[i]);
     }
-    EXPECT_FALSE(decoded->time.utc_ns.has_value());
+    EXPECT_FALSE(decoded.time.utc_ns.has_value());
     EXPECT_FALSE(known(s.delta_time_s));  // it has no increments
   }
   EXPECT_EQ(packets, imu.size());

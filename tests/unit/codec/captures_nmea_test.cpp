@@ -127,7 +127,7 @@ TEST_P(NmeaCaptures, AgreeWithPynmeagps) {
       }
       if (type == "HDT" || type == "HDM" || type == "HDG" || type == "THS") {
         const auto found = std::find_if(headings.begin(), headings.end(),
-                                        [&](const auto& h) { return h.first->offset == offset; });
+                                        [&](const auto& h) { return h.first.offset == offset; });
         if (found == headings.end()) {
           check(e, "no sample");
           continue;
@@ -143,15 +143,15 @@ TEST_P(NmeaCaptures, AgreeWithPynmeagps) {
       // The sample whose sentences enclose this one and whose time it has.
       std::string wrong = "no sample";
       for (const auto& [decoded, s] : gps) {
-        if (offset < decoded->offset || offset >= decoded->offset + decoded->length) continue;
+        if (offset < decoded.offset || offset >= decoded.offset + decoded.length) continue;
         if (s.fix == GpsFix::none) continue;
-        const bool agrees_exactly = disagreement(e, *decoded, s, true).empty();
-        wrong = agrees_exactly ? "" : disagreement(e, *decoded, s, false);
+        const bool agrees_exactly = disagreement(e, decoded, s, true).empty();
+        wrong = agrees_exactly ? "" : disagreement(e, decoded, s, false);
         if (wrong.empty()) break;
       }
       // A second receiver repeating the epoch adds nothing to the sample.
       if (wrong == "no sample" && std::any_of(gps.begin(), gps.end(), [&](const auto& g) {
-            return disagreement(e, *g.first, g.second, true).empty();
+            return disagreement(e, g.first, g.second, true).empty();
           })) {
         wrong.clear();
       }

@@ -43,16 +43,16 @@ TEST(NortekCaptures, AgreeWithAnotherDecoding) {
     };
     const auto number = [&](const std::string& name) { return std::stod(text_of(name)); };
     const auto& [decoded, s] = dvl[r];
-    ASSERT_TRUE(decoded->time.clock_ns && decoded->time.age_ns);
+    ASSERT_TRUE(decoded.time.clock_ns && decoded.time.age_ns);
     const double fom = std::sqrt(0.5 * (std::pow(number("fomX"), 2) + std::pow(number("fomY"), 2)));
     const double z1 = number("velZ1");
     const double z2 = number("velZ2");
-    std::vector<std::pair<double, double>> pairs{{number("offset"), static_cast<double>(decoded->offset)},
+    std::vector<std::pair<double, double>> pairs{{number("offset"), static_cast<double>(decoded.offset)},
                                                  {number("sound_speed"), s.sound_speed_m_s},
                                                  {number("velX"), s.velocity_D_m_s[0]},
                                                  {number("velY"), s.velocity_D_m_s[1]},
                                                  {fom, s.sigma_m_s},
-                                                 {-number("dt2X"), to_seconds(*decoded->time.age_ns)}};
+                                                 {-number("dt2X"), to_seconds(*decoded.time.age_ns)}};
     for (std::size_t i = 0; i < 4; ++i) {
       pairs.emplace_back(number("velBeam" + std::to_string(i)), s.beam_velocity_m_s[i]);
       pairs.emplace_back(number("distBeam" + std::to_string(i)), s.beam_range_m[i]);
@@ -62,7 +62,7 @@ TEST(NortekCaptures, AgreeWithAnotherDecoding) {
     agrees = agrees && std::abs(0.5 * (z1 + z2) - s.velocity_D_m_s[2]) < 1e-6;
     agrees = agrees && std::abs(1.5164 * (z1 - z2) - s.error_velocity_m_s) < 2e-6;
     // The instant that the table prints to 0.1 ms, and dt1 after it.
-    const TimeNs echo_ns = *decoded->time.clock_ns;
+    const TimeNs echo_ns = *decoded.time.clock_ns;
     const TimeNs trigger_ns = echo_ns - from_seconds(number("dt1X"));
     agrees = agrees && to_iso8601(trigger_ns + 500, 4) == text_of("time") + "Z";
     EXPECT_TRUE(agrees) << "record " << r;

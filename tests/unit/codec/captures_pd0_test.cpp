@@ -146,26 +146,26 @@ TEST_P(Pd0Captures, AgreeWithOtherDecoders) {
   const Harvest run = decode("pd0", load(file));
   std::size_t compared = 0;
   std::size_t mismatches = 0;
-  std::vector<const Decoded*> bottoms;
+  std::vector<Decoded> bottoms;
   std::map<std::uint64_t, DvlSample> water;  // by offset of the ensemble
   for (const auto& [decoded, sample] : of_kind<DvlSample>(run)) {
     if (sample.mode == DvlMode::bottom) {
       bottoms.push_back(decoded);
     } else {
-      water[decoded->offset] = sample;
+      water[decoded.offset] = sample;
     }
   }
   ASSERT_FALSE(expected.empty());
   ASSERT_GE(bottoms.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    const auto& sample = std::get<DvlSample>(bottoms[i]->sample);
-    ASSERT_TRUE(bottoms[i]->time.clock_ns.has_value());
-    const std::size_t n = differences(sample, to_seconds(*bottoms[i]->time.clock_ns), expected[i]);
+    const auto& sample = std::get<DvlSample>(bottoms[i].sample);
+    ASSERT_TRUE(bottoms[i].time.clock_ns.has_value());
+    const std::size_t n = differences(sample, to_seconds(*bottoms[i].time.clock_ns), expected[i]);
     EXPECT_EQ(n, 0U) << "ensemble " << i;
     ++compared;
     mismatches += n;
     if (!expected[i].knows_water) continue;
-    const auto found = water.find(bottoms[i]->offset);
+    const auto found = water.find(bottoms[i].offset);
     ASSERT_EQ(found != water.end(), known(expected[i].water_m_s[0])) << "ensemble " << i;
     if (found == water.end()) continue;
     const auto v = as_recorded(found->second);

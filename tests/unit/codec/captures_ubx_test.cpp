@@ -76,7 +76,7 @@ TEST(UbxCaptures, AgreeWithPyubx2) {
     ASSERT_EQ(gps.size(), expected.size());
     std::size_t mismatches = 0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const std::string wrong = disagreement(expected[i], *gps[i].first, gps[i].second);
+      const std::string wrong = disagreement(expected[i], gps[i].first, gps[i].second);
       EXPECT_EQ(wrong, "") << "message " << i << ": " << expected[i].dump();
       mismatches += !wrong.empty();
     }

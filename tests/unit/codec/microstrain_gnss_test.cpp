@@ -119,10 +119,10 @@ TEST(MicroStrainGnss, OnePacketIsOneFix) {
     EXPECT_EQ(s.velocity_sigma_N_m_s, (std::array<double, 3>{0.125, 0.125, 0.125}));
     EXPECT_DOUBLE_EQ(s.course_rad, 270.0 * kRadPerDeg);
     EXPECT_EQ(s.hdop, 0.75);
-    ASSERT_TRUE(decoded->time.utc_ns.has_value());
-    EXPECT_EQ(to_iso8601(*decoded->time.utc_ns, 3), "2026-09-19T10:30:15.250Z");
-    EXPECT_FALSE(decoded->time.clock_ns.has_value());
-    EXPECT_EQ(decoded->length, bytes.size());
+    ASSERT_TRUE(decoded.time.utc_ns.has_value());
+    EXPECT_EQ(to_iso8601(*decoded.time.utc_ns, 3), "2026-09-19T10:30:15.250Z");
+    EXPECT_FALSE(decoded.time.clock_ns.has_value());
+    EXPECT_EQ(decoded.length, bytes.size());
   }
 }
 

@@ -131,9 +131,9 @@ TEST(Nortek, ReadsARecord) {
   EXPECT_EQ(s.sound_speed_m_s, 1500.0);
   EXPECT_FALSE(known(s.beam_angle_rad));  // the record does not say it
   // 2023-11-15T09:37:39.001 was the trigger; the echo 16.03 ms later, 627.74 ms before the output.
-  EXPECT_NEAR(static_cast<double>(*dvl[0].first->time.clock_ns - 1'700'041'059'001'000'000), 16'031'248, 2);
-  EXPECT_NEAR(static_cast<double>(*dvl[0].first->time.age_ns), 627'736'747, 2);
-  EXPECT_FALSE(dvl[0].first->time.utc_ns.has_value());
+  EXPECT_NEAR(static_cast<double>(*dvl[0].first.time.clock_ns - 1'700'041'059'001'000'000), 16'031'248, 2);
+  EXPECT_NEAR(static_cast<double>(*dvl[0].first.time.age_ns), 627'736'747, 2);
+  EXPECT_FALSE(dvl[0].first.time.utc_ns.has_value());
   EXPECT_EQ(run.totals.skipped_bytes, 0U);
 }
 
@@ -152,8 +152,8 @@ TEST(Nortek, InAirItIsAliveWithoutVelocity) {
   EXPECT_FALSE(known(s.error_velocity_m_s));
   EXPECT_EQ(s.sound_speed_m_s, 1500.0);
   // 2019-08-08T14:49:21.001 on a clock that is tracked, whatever it shows.
-  EXPECT_NEAR(static_cast<double>(*dvl[0].first->time.clock_ns - 1'565'275'761'001'000'000), 21'577'000, 2);
-  EXPECT_NEAR(static_cast<double>(*dvl[0].first->time.age_ns), 134'923'000, 1'000);
+  EXPECT_NEAR(static_cast<double>(*dvl[0].first.time.clock_ns - 1'565'275'761'001'000'000), 21'577'000, 2);
+  EXPECT_NEAR(static_cast<double>(*dvl[0].first.time.age_ns), 134'923'000, 1'000);
 }
 
 TEST(Nortek, TheWaterTrackHasNoDistance) {

@@ -140,17 +140,11 @@ ByteVector time_log(double utc_less_gps_s, std::uint32_t utc_status = 1, std::si
   return log(kTimeLog, data);
 }
 
-template <class Sample>
-std::vector<std::pair<Decoded, Sample>> read(const ByteVector& bytes) {
-  std::vector<std::pair<Decoded, Sample>> out;
-  for (const auto& [decoded, s] : of_kind<Sample>(decode("novatel", bytes))) out.emplace_back(*decoded, s);
-  return out;
-}
 std::vector<std::pair<Decoded, GpsSample>> fixes(const ByteVector& bytes) {
-  return read<GpsSample>(bytes);
+  return of_kind<GpsSample>(decode("novatel", bytes));
 }
 std::vector<std::pair<Decoded, HeadingSample>> headings(const ByteVector& bytes) {
-  return read<HeadingSample>(bytes);
+  return of_kind<HeadingSample>(decode("novatel", bytes));
 }
 
 bool moves(const std::pair<Decoded, GpsSample>& fix) {

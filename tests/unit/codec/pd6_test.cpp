@@ -83,9 +83,9 @@ TEST(Pd6, ReadsThePing) {
   EXPECT_NEAR(s.pitch_rad, -2.31 * kRadPerDeg, 1e-15);
   EXPECT_NEAR(s.roll_rad, 1.92 * kRadPerDeg, 1e-15);
   EXPECT_NEAR(s.heading_rad, 75.20 * kRadPerDeg, 1e-15);
-  EXPECT_EQ(dvl[0].first->time.clock_ns, from_civil({2004, 8, 11, 11, 56, 36, 440'000'000}));
-  EXPECT_EQ(dvl[0].first->offset, 0U);
-  EXPECT_EQ(dvl[0].first->length, pathfinder_ping().size() - 2) << "from the first line to the last";
+  EXPECT_EQ(dvl[0].first.time.clock_ns, from_civil({2004, 8, 11, 11, 56, 36, 440'000'000}));
+  EXPECT_EQ(dvl[0].first.offset, 0U);
+  EXPECT_EQ(dvl[0].first.length, pathfinder_ping().size() - 2) << "from the first line to the last";
   EXPECT_EQ(run.totals.frames_ignored, 5U) << ":SA :TS :RA :WD :BD";
   EXPECT_EQ(run.totals.skipped_bytes, 0U);
 }
@@ -129,7 +129,7 @@ TEST(Pd6, WaterLinkedSendsForwardRightDown) {
   EXPECT_EQ(dvl[0].second.altitude_m, 5.32);
   EXPECT_EQ(dvl[0].second.sound_speed_m_s, 1475.0);
   EXPECT_FALSE(known(dvl[0].second.heading_rad)) << "it has none";
-  EXPECT_EQ(dvl[0].first->time.clock_ns, from_civil({2022, 2, 8, 12, 6, 18, 0}));
+  EXPECT_EQ(dvl[0].first.time.clock_ns, from_civil({2022, 2, 8, 12, 6, 18, 0}));
   // Known by then, also from a ping that lost the line which tells, and from the ship's axes.
   for (const char* lost : {"BE", "BI", "BS"}) {
     const auto later = pd6_samples(kWaterLinkedPing + without_line(kWaterLinkedPing, lost));
@@ -236,7 +236,7 @@ TEST(Pd6, LinesWithoutLineEndBetweenThem) {
   EXPECT_EQ(dvl[0].second.velocity_D_m_s, (Frd{0.037, -0.030, 0.0}));
   EXPECT_EQ(dvl[0].second.altitude_m, 5.84);
   EXPECT_EQ(dvl[0].second.sound_speed_m_s, 1500.0);
-  EXPECT_EQ(dvl[0].first->time.clock_ns, from_civil({2000, 1, 1, 0, 0, 1, 860'000'000}));
+  EXPECT_EQ(dvl[0].first.time.clock_ns, from_civil({2000, 1, 1, 0, 0, 1, 860'000'000}));
   ASSERT_EQ(run.rejected.size(), 1U) << "of the heading a piece is left";
   EXPECT_EQ(run.rejected[0].reason, RejectReason::field);
   EXPECT_EQ(run.totals.skipped_bytes, 0U);
@@ -330,8 +330,8 @@ TEST(Pd6Captures, AgreeWithWhatWasReadByHand) {
     for (std::size_t i = 0; i < dvl.size(); ++i) {
       const auto& [decoded, s] = dvl[i];
       const auto& ping = pings[i];
-      ASSERT_TRUE(decoded->time.clock_ns.has_value());
-      EXPECT_EQ(to_iso8601(*decoded->time.clock_ns, 2), ping["TS"].get<std::string>() + "Z");
+      ASSERT_TRUE(decoded.time.clock_ns.has_value());
+      EXPECT_EQ(to_iso8601(*decoded.time.clock_ns, 2), ping["TS"].get<std::string>() + "Z");
       EXPECT_EQ(known(s.velocity_D_m_s[0]), ping["bottom_lock"].get<bool>());
       const double range_m = ping["range_m"].get<double>();
       EXPECT_EQ(known(s.altitude_m), range_m > 0.0);

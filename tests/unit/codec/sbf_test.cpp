@@ -63,7 +63,7 @@ std::pair<Decoded, GpsSample> fix(const ByteVector& bytes) {
     ADD_FAILURE() << found.size() << " fixes, " << run.rejected.size() << " refused";
     return {};
   }
-  return {*found[0].first, found[0].second};
+  return found[0];
 }
 
 HeadingSample heading(const ByteVector& bytes) {

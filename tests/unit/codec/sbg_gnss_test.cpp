@@ -115,15 +115,11 @@ ByteVector utc_time(std::uint32_t stamp_us = 5'000'000, std::uint32_t tow_ms = k
 }
 
 std::vector<std::pair<Decoded, GpsSample>> fixes(const ByteVector& bytes) {
-  std::vector<std::pair<Decoded, GpsSample>> out;
-  for (const auto& [decoded, s] : of_kind<GpsSample>(decode("sbg", bytes))) out.emplace_back(*decoded, s);
-  return out;
+  return of_kind<GpsSample>(decode("sbg", bytes));
 }
 
 std::vector<std::pair<Decoded, HeadingSample>> headings(const ByteVector& bytes) {
-  std::vector<std::pair<Decoded, HeadingSample>> out;
-  for (const auto& [decoded, s] : of_kind<HeadingSample>(decode("sbg", bytes))) out.emplace_back(*decoded, s);
-  return out;
+  return of_kind<HeadingSample>(decode("sbg", bytes));
 }
 
 bool moves(const std::pair<Decoded, GpsSample>& fix) {

@@ -63,7 +63,7 @@ TEST(VectorNav, ReadsUncompensatedRateAndForce) {
   EXPECT_EQ(imu[0].second.specific_force_B_m_s2, (std::array<double, 3>{1, 2, 3}));
   EXPECT_FLOAT_EQ(static_cast<float>(imu[0].second.angular_rate_B_rad_s[2]), 0.3F);
   EXPECT_FALSE(known(imu[0].second.delta_time_s));
-  EXPECT_FALSE(imu[0].first->time.clock_ns.has_value());
+  EXPECT_FALSE(imu[0].first.time.clock_ns.has_value());
 }
 
 TEST(VectorNav, PrefersUncompensatedToCompensated) {
@@ -95,9 +95,9 @@ TEST(VectorNav, FindsFieldsBehindOthersOfEveryGroup) {
   const Harvest run = decode("vectornav", bytes);
   const auto imu = of_kind<ImuSample>(run);
   ASSERT_EQ(imu.size(), 1U);
-  EXPECT_EQ(imu[0].first->length, bytes.size());
+  EXPECT_EQ(imu[0].first.length, bytes.size());
   EXPECT_EQ(imu[0].second.specific_force_B_m_s2, (std::array<double, 3>{4, 5, 6}));
-  EXPECT_EQ(imu[0].first->time.clock_ns, 123'456'789'012);
+  EXPECT_EQ(imu[0].first.time.clock_ns, 123'456'789'012);
   EXPECT_EQ(run.totals.skipped_bytes, 0U);
 }
 

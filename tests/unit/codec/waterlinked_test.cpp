@@ -45,8 +45,8 @@ TEST(WaterLinked, ReadsAReport) {
   EXPECT_EQ(s.beam_range_m[0], 13.0);
   EXPECT_FALSE(known(s.beam_velocity_m_s[1]));
   EXPECT_FALSE(known(s.beam_velocity_m_s[3]));
-  EXPECT_EQ(dvl[0].first->time.clock_ns, 1'638'191'471'563'017'000);
-  EXPECT_EQ(dvl[0].first->time.age_ns, 189'319'000);
+  EXPECT_EQ(dvl[0].first.time.clock_ns, 1'638'191'471'563'017'000);
+  EXPECT_EQ(dvl[0].first.time.age_ns, 189'319'000);
   EXPECT_EQ(run.totals.skipped_bytes, 0U);
 }
 
