@@ -115,6 +115,8 @@ class CsvReader::Source {
  public:
   explicit Source(const std::filesystem::path& path) : file_(std::fopen(path.c_str(), "rbe")) {
     if (file_ == nullptr) throw DatasetError(path.string() + ": cannot be opened: " + std::strerror(errno));
+    std::error_code unknown;
+    file_bytes_ = static_cast<double>(std::filesystem::file_size(path, unknown));  // huge where unknown
     refill();
     plain_ = !begins_member();
     if (!plain_ && inflateInit2(&stream_, kGzip) != Z_OK)
@@ -145,9 +147,17 @@ class CsvReader::Source {
         unpack(error);
       }
     }
-    return {buffer_.data(), buffer_.size() - stream_.avail_out};
+    const std::size_t count = buffer_.size() - stream_.avail_out;
+    output_bytes_ += static_cast<double>(count);
+    return {buffer_.data(), count};
   }
   [[nodiscard]] bool plain() const { return plain_; }
+  /// How much of the file became lines, from 0 to 1: about 0 where its length is not known.
+  [[nodiscard]] double part_read() const {
+    const double taken = input_bytes_ - stream_.avail_in;
+    const double waits = static_cast<double>(pending.size()) / std::max(1.0, output_bytes_);
+    return std::clamp(taken * (1.0 - waits) / std::max(1.0, file_bytes_), 0.0, 1.0);
+  }
 
   std::string_view pending;      // read, not yet split into lines
   const char* damage = nullptr;  // found behind `pending`
@@ -161,6 +171,7 @@ class CsvReader::Source {
     const std::size_t left = stream_.avail_in;
     const std::size_t got = std::fread(input_.data() + left, 1, input_.size() - left, file_);
     if (std::ferror(file_) != 0) error_number_ = errno;
+    input_bytes_ += static_cast<double>(got);
     stream_.next_in = input_.data();
     stream_.avail_in = static_cast<uInt>(left + got);
   }
@@ -200,6 +211,9 @@ class CsvReader::Source {
   }
 
   std::FILE* file_;
+  double file_bytes_ = 0.0;
+  double input_bytes_ = 0.0;
+  double output_bytes_ = 0.0;
   int error_number_ = 0;
   bool plain_ = true;
   bool within_ = false;  ///< a member
@@ -228,6 +242,10 @@ CsvReader::CsvReader(const std::filesystem::path& path, LostEnd policy)
 }
 
 CsvReader::~CsvReader() = default;
+
+double CsvReader::part_read() const {
+  return source_->part_read();
+}
 
 bool CsvReader::next_line() {
   line_.clear();

@@ -48,6 +48,9 @@ class CsvReader {
   [[nodiscard]] std::string_view name(Column column) const { return names_[column]; }
   [[nodiscard]] std::size_t columns() const { return names_.size(); }
 
+  /// About how much of the file has been read, from 0 to 1; about 0 where its length is not known.
+  [[nodiscard]] double part_read() const;
+
   /// "LINE: what is missing of the file from there on"; empty where nothing is, or as long as rows come.
   [[nodiscard]] const std::string& lost_end() const { return lost_end_; }
 

@@ -23,6 +23,7 @@ struct Placement {
 
 class ReferencePlacement {
  public:
+  void reserve(std::size_t rows) { rows_.reserve(rows); }
   void add(const NavState& state, const dataset::NavError& error);
   /// Least squares over all, with a constant error north and east beside them, which is no placement and
   /// stays in what is left. Nothing where the vehicle did not change speed and heading enough to tell.

@@ -203,7 +203,10 @@ SolveReport solve(const SolveOptions& options) {
   Path path;
   Path filtered_path;
   const std::size_t most_states = data.of<ImuSample>().size();
-  if (!data.reference.empty()) scorer.reserve(most_states);
+  if (!data.reference.empty()) {
+    scorer.reserve(most_states);
+    placement.reserve(most_states);
+  }
   if (!data.of<GpsSample>().empty()) path.reserve(most_states);
   HeadingErrors heading_errors;
   const auto take = [&](const NavState& state) {
