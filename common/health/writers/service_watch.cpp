@@ -8,8 +8,6 @@
 namespace fathom::health {
 namespace {
 
-constexpr std::size_t kMaxVoices = 8;
-
 StreamLimits life_sign_limits(const ServiceWatchConfig& config) {
   // One life sign is enough to be back: it carries the state.
   return {kUnknown, std::min(2.0, config.missing_s), config.missing_s, 1};
@@ -67,29 +65,13 @@ void ServiceWatch::add(const ServiceStatus& status, const Instant& now) {
     unwatched_heard_ns_ = now.monotonic_ns;
     return;
   }
-  hear(*service, status, now);
+  if (service->voices.hear(status, now.monotonic_ns)) service->restarted = service->stream.ever_heard();
   service->stream.heard(now.monotonic_ns);
   service->state = status.state;
   service->text = status.text;
   const bool unwell = status.state == ServiceState::degraded;
   if (unwell && !service->unwell) service->unwell_since_ns = now.monotonic_ns;
   service->unwell = unwell;
-}
-
-void ServiceWatch::hear(Service& service, const ServiceStatus& status, const Instant& now) const {
-  std::vector<Voice>& voices = service.voices;
-  const auto found = std::find_if(voices.begin(), voices.end(), [&](const Voice& one) {
-    return one.pid == status.pid && one.started_ns == status.started_ns && one.host == status.host;
-  });
-  if (found == voices.end()) {
-    service.restarted = service.stream.ever_heard();
-    if (voices.size() == kMaxVoices) voices.erase(voices.begin());
-    voices.push_back({status.pid, status.started_ns, status.host, now.monotonic_ns});
-    return;
-  }
-  if (found + 1 != voices.end()) ++service.returns;
-  found->heard_ns = now.monotonic_ns;
-  std::rotate(found, found + 1, voices.end());
 }
 
 void ServiceWatch::evaluate(const Instant& now) {
@@ -111,7 +93,7 @@ void ServiceWatch::report(AlarmBook& book, const Instant& now) {
         book.event({.key = alarm_key("service_restarted", service.what.name.view()),
                     .severity = Severity::notice,
                     .text = sentence("Service %s was restarted and is now process %u.",
-                                     service.what.name.c_str(), service.voices.back().pid)},
+                                     service.what.name.c_str(), service.voices.newest_pid())},
                    now);
       }
     }
@@ -121,27 +103,15 @@ void ServiceWatch::report(AlarmBook& book, const Instant& now) {
 }
 
 void ServiceWatch::report_twice(Service& service, AlarmBook& book, const Instant& now) const {
-  std::vector<Voice>& voices = service.voices;
-  // The last one stays, so that a restart is noticed after any silence.
-  while (voices.size() > 1 && to_seconds(now.monotonic_ns - voices.front().heard_ns) > config_.missing_s)
-    voices.erase(voices.begin());
-  if (voices.size() < 2) service.returns = 0;
-  // One that ends may be heard once more after its successor, and the successor then: two turns. Two that
-  // live go on.
-  const bool twice = service.returns >= 3;
+  service.voices.forget(now.monotonic_ns, config_.missing_s);
+  const bool twice = service.voices.several();
   Condition condition;
   condition.key = alarm_key("service_twice", service.what.name.view());
   condition.severity = service.what.severity;
   if (twice) {
-    const Voice& one = voices[voices.size() - 2];
-    const Voice& other = voices.back();
-    condition.text = sentence(
-        "Several processes call themselves %s: process %u on host %s and process %u on host %s. End the one "
-        "that does not belong.",
-        service.what.name.c_str(), std::min(one.pid, other.pid),
-        (one.pid < other.pid ? one : other).host.c_str(), std::max(one.pid, other.pid),
-        (one.pid < other.pid ? other : one).host.c_str());
-    condition.value = static_cast<double>(voices.size());
+    condition.text =
+        service.voices.sentence_about(service.what.name.c_str()) + " End the one that does not belong.";
+    condition.value = static_cast<double>(service.voices.count());
     condition.limit = 1.0;
   }
   book.set(twice, condition, now);

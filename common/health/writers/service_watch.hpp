@@ -7,6 +7,7 @@
 #include "health/alarm_book.hpp"
 #include "health/instant.hpp"
 #include "health/instruments/stream_watch.hpp"
+#include "health/writers/service_voices.hpp"
 
 namespace fathom::health {
 
@@ -42,21 +43,13 @@ class ServiceWatch {
   [[nodiscard]] std::vector<WatchedItem> items(const Instant& now) const;
 
  private:
-  /// A process that speaks as a service.
-  struct Voice {
-    std::uint32_t pid = 0;
-    TimeNs started_ns = 0;
-    std::string host{};
-    TimeNs heard_ns = 0;  ///< monotonic
-  };
   struct Service {
     ExpectedService what;
     bool expected = false;
     StreamWatch stream;
     ServiceState state = ServiceState::starting;
     std::string text{};
-    std::vector<Voice> voices{};  ///< heard lately, the newest last
-    int returns = 0;              ///< how often one spoke again after another had, while there are several
+    ServiceVoices voices{};  ///< heard lately
     bool unwell = false;
     TimeNs unwell_since_ns = 0;
     std::string first_reason{};  ///< why it was unwell when the alarm was raised; empty: there is no alarm
@@ -64,7 +57,6 @@ class ServiceWatch {
   };
 
   [[nodiscard]] Service* find_or_make(const Name& name, const Instant& now);
-  void hear(Service& service, const ServiceStatus& status, const Instant& now) const;
   void report_twice(Service& service, AlarmBook& book, const Instant& now) const;
   void report_unwatched(AlarmBook& book, const Instant& now) const;
   void report_missing(const Service& service, AlarmBook& book, const Instant& now) const;

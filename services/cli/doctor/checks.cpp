@@ -201,6 +201,10 @@ void examine_services(const NetworkFacts& network, Report& report) {
   for (const HeardService& one : network.services) {
     const std::string name = one.status.header.sensor.str();
     versions[one.status.version].insert(name);
+    if (one.voices.several()) {
+      well = false;
+      report.problem(one.voices.sentence_about(name.c_str()), "End the one that does not belong.");
+    }
     if (one.status.state == ServiceState::healthy) continue;
     well = false;
     report.problem("Service " + name + " is " + std::string(to_string(one.status.state)) +

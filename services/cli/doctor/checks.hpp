@@ -9,6 +9,7 @@
 #include "base/unknown.hpp"
 #include "bus/interfaces.hpp"
 #include "bus/network_map.hpp"
+#include "health/writers/service_voices.hpp"
 #include "samples/status/health.hpp"
 
 namespace fathom::cli {
@@ -36,6 +37,7 @@ struct HostFacts {
 /// included.
 struct HeardService {
   ServiceStatus status;
+  health::ServiceVoices voices{};  ///< the processes that speak as this service
   double behind_s = kUnknown;
 };
 

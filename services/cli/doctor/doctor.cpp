@@ -49,6 +49,7 @@ class LifeSigns {
     const std::lock_guard lock(mutex_);
     HeardService& one = services_[status.header.sensor];
     one.status = status;
+    (void)one.voices.hear(status, clock_.monotonic_ns());
     // The first comes from the writer's memory and may be a second old; the quickest tells the clocks apart.
     one.behind_s = known(one.behind_s) ? std::min(one.behind_s, behind_s) : behind_s;
   }

@@ -176,6 +176,25 @@ TEST(Doctor, ServicesThatAreUnwellOrOfAnotherVersion) {
   EXPECT_EQ(only(network).text, "The services are of different versions: 0.1.0: fusion; 0.2.0: imu_bridge.");
 }
 
+TEST(Doctor, ServicesThatRunTwiceAreNamedAndARestartIsNone) {
+  NetworkFacts network = sound_network();
+  HeardService& fusion = network.services[1];
+  const auto hear = [&fusion](std::uint32_t pid, int second) {
+    fusion.status.pid = pid;
+    (void)fusion.voices.hear(fusion.status, second * kNsPerSecond);
+  };
+  hear(100, 0);
+  hear(200, 1);
+  hear(100, 1);  // on its way while its successor spoke
+  hear(200, 2);
+  EXPECT_TRUE(bad(network, sound_host()).empty());
+  hear(100, 2);
+  EXPECT_EQ(only(network).level, FindingLevel::problem);
+  EXPECT_EQ(only(network).text,
+            "Several processes call themselves fusion: process 100 on host auv1 and process 200 on host "
+            "auv1.");
+}
+
 TEST(Doctor, AClockThatWasSetMovesNoStamps) {
   NetworkFacts network = sound_network();
   for (HeardService& one : network.services) one.status.utc_offset_ns = 3600 * kNsPerSecond;
