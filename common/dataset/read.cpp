@@ -80,8 +80,8 @@ class SensorFile {
   bool arrivals_sorted_ = true;
 };
 
-// Room for the rest of the file, by how much of it has been read. Doubled instead, a long file takes three
-// times the memory, and the time to fill it.
+// Room for the rest of the file, by how much of it has been read. Where room is doubled instead, a long file
+// is copied at its greatest and has both copies in memory.
 template <class T>
 void make_room(std::vector<T>& rows, const CsvReader& csv) {
   constexpr std::size_t kRowsToJudgeBy = 4'096;
