@@ -17,6 +17,7 @@
 #include "cli/doctor/checks.hpp"
 #include "cli/doctor/host.hpp"
 #include "cli/security_options.hpp"
+#include "health/writers/service_watch.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -38,7 +39,10 @@ class LifeSigns {
   [[nodiscard]] std::vector<HeardService> all() const {
     const std::lock_guard lock(mutex_);
     std::vector<HeardService> out;
-    for (const auto& [name, one] : services_) out.push_back(one);
+    for (const auto& [name, one] : services_) {
+      out.push_back(one);
+      out.back().voices.forget(clock_.monotonic_ns(), kGone_s);
+    }
     return out;
   }
 
@@ -49,10 +53,13 @@ class LifeSigns {
     const std::lock_guard lock(mutex_);
     HeardService& one = services_[status.header.sensor];
     one.status = status;
+    one.voices.forget(clock_.monotonic_ns(), kGone_s);
     (void)one.voices.hear(status, clock_.monotonic_ns());
     // The first comes from the writer's memory and may be a second old; the quickest tells the clocks apart.
     one.behind_s = known(one.behind_s) ? std::min(one.behind_s, behind_s) : behind_s;
   }
+
+  static constexpr double kGone_s = health::ServiceWatchConfig{}.missing_s;
 
   SystemClock clock_;
   mutable std::mutex mutex_;
