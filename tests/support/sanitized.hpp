@@ -10,3 +10,7 @@ inline constexpr bool kSanitized = false;
 #endif
 
 }  // namespace fathom::test
+
+/// The first line of a test that does many times over, to judge a mean or by seeds, what other tests do once.
+#define FATHOM_MANY_RUNS() \
+  if (::fathom::test::kSanitized) GTEST_SKIP() << "sanitized: many runs of what other tests run once"

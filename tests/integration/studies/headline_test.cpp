@@ -16,6 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/sanitized.hpp"
+
 namespace fathom {
 namespace {
 
@@ -103,7 +105,12 @@ void expect_limits(const Rows& rows, const std::string& study) {
   EXPECT_GT(compared, 0) << study;
 }
 
-TEST(Headline, RotatingArm) {
+class Headline : public ::testing::Test {
+ protected:
+  void SetUp() override { FATHOM_MANY_RUNS(); }
+};
+
+TEST_F(Headline, RotatingArm) {
   const Rows rows = rows_of("rotating_arm --case speed_1.5");
   expect_limits(rows, "rotating_arm");
   // The states are worth what is left when the settings are equal.
@@ -111,26 +118,26 @@ TEST(Headline, RotatingArm) {
             mean(rows, "speed_1.5 hybrid25_equal horizontal_end_error"));
 }
 
-TEST(Headline, Survey) {
+TEST_F(Headline, Survey) {
   expect_limits(
       rows_of("survey --method full --case tactical_straight --case tactical_straight_course_90_off "
               "--case tactical_straight_3_sigma --case tactical_lawn"),
       "survey");
 }
 
-TEST(Headline, GpsOutage) {
+TEST_F(Headline, GpsOutage) {
   expect_limits(rows_of("gps_outage --method fixed_gain_hold --method ekf36 --case climb_10s --case bank_10s "
                         "--case dutch_10s --case aided --case random"),
                 "gps_outage");
 }
 
-TEST(Headline, Alignment) {
+TEST_F(Headline, Alignment) {
   expect_limits(rows_of("alignment --method fine --case +10+10 --case -10-10 --case roll_30 "
                         "--case turn_6dps --case vibration_20mg"),
                 "alignment");
 }
 
-TEST(Headline, Hydro) {
+TEST_F(Headline, Hydro) {
   expect_limits(rows_of("hydro --case perfect --case dvl_loss_300s --case dvl_loss_300s_coeff_30pct --case "
                         "dvl_loss_300s_straight --method ins_dvl --method linked --method engine "
                         "--method engine_no_model"),
@@ -139,7 +146,7 @@ TEST(Headline, Hydro) {
 
 /// The NEES of every named configuration in some cells, within the limits of all cells as far as these runs
 /// can tell.
-TEST(Headline, Consistency) {
+TEST_F(Headline, Consistency) {
   const Rows rows = rows_of(
       "consistency --case auv_lawn_tactical --case auv_under_way_industrial --case boat_swell_consumer "
       "--case plane_straight_consumer --case plane_banks_consumer --case plane_aerobatic_industrial "
@@ -164,23 +171,23 @@ TEST(Headline, Consistency) {
 }
 
 // The handover of an air drop is drawn at its sigmas, its hull at 10 %.
-TEST(Headline, AirDropFromDrawnHandovers) {
+TEST_F(Headline, AirDropFromDrawnHandovers) {
   const Rows rows = rows_of("scenarios --case air_drop", 50);
   expect_limits(rows, "scenarios");
   EXPECT_LT(rows.at("air_drop fusion horizontal_rms").at("median").get<double>(), 45.0);
 }
 
 // The hull is drawn at 30 % and does what the estimator's model does not know of.
-TEST(Headline, DvlLossWithDrawnHulls) {
+TEST_F(Headline, DvlLossWithDrawnHulls) {
   expect_limits(rows_of("scenarios --case dvl_loss", 20), "scenarios");
 }
 
-TEST(Headline, RangesToBeacons) {
+TEST_F(Headline, RangesToBeacons) {
   expect_limits(rows_of("scenarios --case beacons", 20), "scenarios");
 }
 
 // Each scenario of the demonstration, through device bytes and codecs, keeps the limits that it ships with.
-TEST(Headline, ScenariosKeepTheirLimits) {
+TEST_F(Headline, ScenariosKeepTheirLimits) {
   const Rows rows = rows_of("scenarios");
   for (const char* name : {"survey", "air_drop", "flight", "rotating_arm", "dvl_loss", "beacons"}) {
     std::ifstream file(std::string(FATHOM_SOURCE_DIR) + "/deploy/config/scenarios/" + name + ".json");

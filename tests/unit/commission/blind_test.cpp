@@ -7,6 +7,7 @@
 #include "base/units.hpp"
 #include "commission/fit/signed_axes.hpp"
 #include "sim/random.hpp"
+#include "support/sanitized.hpp"
 #include "unit/commission/vehicle.hpp"
 
 namespace fathom::test {
@@ -51,6 +52,7 @@ void expect_near(const commission::Findings& findings, const char* sensor, const
 }
 
 TEST(CommissionBlind, FindsMountingLeversLatenciesAndNoiseThatWereDrawn) {
+  FATHOM_MANY_RUNS();
   int axes = 0;
   int within = 0;
   double worst_deg = 0.0;

@@ -10,6 +10,7 @@
 #include "commission/fit/gps_fit.hpp"
 #include "commission/fit/series.hpp"
 #include "commission/fit/signed_axes.hpp"
+#include "support/sanitized.hpp"
 #include "unit/commission/sabotage.hpp"
 
 namespace fathom::test {
@@ -182,6 +183,7 @@ TEST(CommissionLevelBoat, SaysWhetherTheReceiverGivesAVelocity) {
 
 // A vehicle that dives, so that the vertical that the receiver does not give is not zero.
 TEST(CommissionLevelBoat, ServesWithoutAVerticalVelocityForAVehicleThatDives) {
+  FATHOM_MANY_RUNS();
   const dataset::Dataset healthy = drive(commissioning_vehicle(), 1);
   commission::Assumed assumed = as_built({});
   assumed.depth.configured = assumed.heading.configured = true;

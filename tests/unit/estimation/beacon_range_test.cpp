@@ -11,6 +11,7 @@
 
 #include "estimation/engine/fusion_engine.hpp"
 #include "support/orders.hpp"
+#include "support/sanitized.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -145,6 +146,7 @@ TEST(BeaconRange, AloneItNeverClaimsAPosition) {
 }
 
 TEST(BeaconRange, ItsUncertaintyIsHonestOverSeeds) {
+  FATHOM_MANY_RUNS();
   double two = 0.0;
   double one = 0.0;
   constexpr int kSeeds = 12;

@@ -5,6 +5,7 @@
 #include "estimation/engine/fusion_engine.hpp"
 #include "estimation/filter/error_filter.hpp"
 #include "geo/wgs84.hpp"
+#include "support/sanitized.hpp"
 #include "support/vehicles/analytic_vehicle.hpp"
 
 namespace fathom::estimation {
@@ -126,6 +127,7 @@ double hover(std::uint64_t seed, double off_m_s, double told_m_s) {
 }
 
 TEST(Considered, ABiasOfTheDvlCarriesAVehicleThatHoversAway) {
+  FATHOM_MANY_RUNS();
   constexpr double kOff_m_s = 0.002;
   constexpr int kRuns = 12;
   double known = 0.0;

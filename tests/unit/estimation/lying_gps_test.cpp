@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "health/vehicle_health.hpp"
+#include "support/sanitized.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -140,6 +141,7 @@ void expect_refused(const LyingOutcome& got) {
 
 /// A vehicle with a DVL and a compass knows where it is far better than such a fix says.
 TEST(LyingGps, NoStandingOrMovingLieWinsAgainstALog) {
+  FATHOM_MANY_RUNS();
   const Liar liar(Aiding::log_and_compass, 300.0);
   for (const double silent_s : {0.0, 300.0})
     for (const double length_s : {30.0, 120.0, 300.0}) {

@@ -11,6 +11,7 @@
 #include "base/units.hpp"
 #include "estimation/navigator/plausibility/plausibility.hpp"
 #include "sim/random.hpp"
+#include "support/sanitized.hpp"
 #include "support/vehicles/plausibility_run.hpp"
 
 namespace fathom::estimation {
@@ -83,6 +84,7 @@ std::vector<Drawn> mistakes(sim::Random& random) {
 }
 
 TEST(PlausibilityDrawn, NoMistakeIsGivenAnothersNameAndMostAreNamedWithinAMinute) {
+  FATHOM_MANY_RUNS();
   int named = 0;
   int all = 0;
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + kDraws; ++seed) {
@@ -101,6 +103,7 @@ TEST(PlausibilityDrawn, NoMistakeIsGivenAnothersNameAndMostAreNamedWithinAMinute
 }
 
 TEST(PlausibilityDrawn, InstrumentsAsBadAsTheirSheetsAllowAreLeftAlone) {
+  FATHOM_MANY_RUNS();
   for (std::uint64_t seed = kFirstSeed; seed < kFirstSeed + 4 * kDraws; ++seed) {
     sim::Random random(seed, "sheets");
     const double deviation = random.normal(3.0 * kRadPerDeg);

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "base/units.hpp"
+#include "support/sanitized.hpp"
 #include "support/vehicles/spoilt_survey.hpp"
 
 namespace fathom::estimation {
@@ -116,6 +117,7 @@ EngineConfig truthful() {
 }
 
 TEST(Smoother, IsBetterThanTheFilterAndKnowsHowGoodItIs) {
+  FATHOM_MANY_RUNS();
   constexpr int kRuns = 6;
   Errors filter;
   Errors smoother;

@@ -13,6 +13,7 @@
 #include "explain/sentence.hpp"
 #include "geo/wgs84.hpp"
 #include "sim/random.hpp"
+#include "support/sanitized.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/explain/stage.hpp"
 
@@ -58,6 +59,7 @@ sim::Scenario surface() {
 }
 
 constexpr double kFault_s = 120.0;
+constexpr std::uint64_t kSeeds = kSanitized ? 1 : 5;
 
 struct Case {
   friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
@@ -280,7 +282,7 @@ class Staged : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Staged, TheCauseIsNamedFirst) {
   const Case& one = GetParam();
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     const sim::Scenario configured = one.configured ? one.configured() : one.scenario();
     Stage stage(one.scenario(), seed, &configured);
     one.set_up(stage);
@@ -410,7 +412,7 @@ TEST(Silence, ComesInSpellsOfTheirOwnReasons) {
 class Quiet : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Quiet, NothingIsNamed) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
     sim::Scenario one = GetParam() == "surface" ? surface() : scenario(GetParam());
     cure(one);
     Stage stage(one, seed);
