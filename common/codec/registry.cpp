@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "codec/acoustic/evologics.hpp"
 #include "codec/air/ascii_air_data.hpp"
 #include "codec/air/nmea_air_data.hpp"
 #include "codec/autopilot/mavlink.hpp"
@@ -65,6 +66,7 @@ constexpr std::array<std::string_view, 4> kParoscientificAliases{"pressure", "di
 constexpr std::array<std::string_view, 3> kAsciiDepthAliases{"ascii", "depth_line", "ascii_line"};
 constexpr std::array<std::string_view, 4> kPsimssbAliases{"usbl", "kongsberg", "kongsberg_psimssb", "hipap"};
 constexpr std::array<std::string_view, 3> kPsonlldAliases{"sonardyne", "ranger2", "mini_ranger2"};
+constexpr std::array<std::string_view, 3> kEvologicsAliases{"s2c", "evologics_s2c", "usbllong"};
 constexpr std::array<std::string_view, 2> kAsciiAirDataAliases{"air_data", "air_data_line"};
 constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "openvario",
                                                               "nmea0183_air_data"};
@@ -152,6 +154,13 @@ const auto kProtocols = std::to_array<Protocol>({
      make_ascii_depth, DeviceClock::none},
     {"psimssb", kPsimssbAliases, "Kongsberg $PSIMSSB acoustic positions", make_psimssb, DeviceClock::utc},
     {"psonlld", kPsonlldAliases, "Sonardyne $PSONLLD acoustic positions", make_psonlld, DeviceClock::utc},
+    {"evologics",
+     kEvologicsAliases,
+     "EvoLogics S2C modems with a USBL head: USBLLONG",
+     make_evologics,
+     DeviceClock::none,
+     kNoGreeting,
+     {.tells_age = true}},
     {"ascii_air_data", kAsciiAirDataAliases, "air data a line, columns and units configurable",
      make_ascii_air_data, DeviceClock::none},
     {"nmea_air_data", kNmeaAirDataAliases, "air data as NMEA 0183 XDR, MWV, VWR or OpenVario $POV",

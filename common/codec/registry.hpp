@@ -21,12 +21,31 @@ struct BeaconPlace {
   double depth_m = 0.0;
 };
 
-/// What turns travel times into ranges to places.
+/// What turns travel times into ranges to places, and relative fixes of beacons into places of the vehicle.
 struct BeaconOptions {
   static constexpr std::size_t kMost = 16;
   std::array<BeaconPlace, kMost> list;
   std::size_t count = 0;
   double sound_speed_m_s = 1'500.0;
+
+  /// The one of this address; null where nobody has said where it is.
+  [[nodiscard]] const BeaconPlace* find(std::string_view address) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (list[i].address.view() == address) return &list[i];
+    }
+    return nullptr;
+  }
+};
+
+/// Who carries the transceiver of an acoustic positioning system.
+enum class UsblCarrier : std::uint8_t {
+  station,  ///< a ship, buoy or quay: fixes are of the vehicle
+  vehicle,  ///< fixes are of a beacon
+};
+
+struct UsblOptions {
+  UsblCarrier carrier = UsblCarrier::station;
+  double sigma_floor_m = 0.0;
 };
 
 /// What the datagrams of a STIM300 do not say of themselves.
@@ -48,10 +67,10 @@ struct CodecOptions {
   double ascii_offset = 0.0;
   /// Rotation of the recorded instrument axes about down onto the vehicle, for DVLs in instrument axes.
   double dvl_heading_alignment_rad = 0.0;
-  double usbl_sigma_floor_m = 0.0;
   int mavlink_system = 0;  ///< of the autopilot that counts; 0: of the first that is heard
   AirDataOptions air_data;
   BeaconOptions beacons;
+  UsblOptions usbl;
   Stim300Options stim300;
 };
 
@@ -69,6 +88,8 @@ struct Traits {
   bool turns_axes = false;
   /// Its satellite fixes carry the receiver's UTC, whatever clock its other frames have.
   bool fixes_have_utc = false;
+  /// Its frames say how old their samples are when they are sent, whatever the device waits for.
+  bool tells_age = false;
   /// Its headings are those of two satellite antennas.
   bool heading_by_antennas = false;
 };

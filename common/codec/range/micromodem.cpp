@@ -1,6 +1,5 @@
 #include "codec/range/micromodem.hpp"
 
-#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -71,10 +70,7 @@ class Micromodem final : public Framer {
     sample.beacon = address;
     sample.travel_time_s = travel_s;
     sample.range_m = travel_s * beacons_.sound_speed_m_s;
-    const auto known_end = beacons_.list.begin() + static_cast<std::ptrdiff_t>(beacons_.count);
-    const auto beacon = std::find_if(beacons_.list.begin(), known_end,
-                                     [&](const BeaconPlace& one) { return one.address.view() == address; });
-    if (beacon != known_end) {
+    if (const BeaconPlace* beacon = beacons_.find(address)) {
       sample.beacon_latitude_rad = beacon->latitude_rad;
       sample.beacon_longitude_rad = beacon->longitude_rad;
       sample.beacon_depth_m = beacon->depth_m;

@@ -24,7 +24,7 @@ class Nmea0183 final : public Framer {
   Nmea0183(const CodecOptions& options, Scope scope)
       : Framer(kMaxSentence, LineEnds::belong_to_frames),
         require_checksum_(options.require_checksum),
-        usbl_sigma_floor_m_(options.usbl_sigma_floor_m),
+        usbl_sigma_floor_m_(options.usbl.sigma_floor_m),
         scope_(scope) {}
 
  protected:

@@ -212,12 +212,23 @@ void describe(Schema<UsblSensorConfig>& s) {
   s.include(&UsblSensorConfig::sensor);
   require_checksum(s);
   s.field("transponder", &UsblSensorConfig::transponder, "only fixes of this transponder; empty: of all");
+  s.field("carried_by", &UsblSensorConfig::carried_by,
+          "who carries the transceiver: a station, of whose fixes the vehicle is the target, or the vehicle, "
+          "of whose fixes the beacons are")
+      .words({{"station", codec::UsblCarrier::station}, {"vehicle", codec::UsblCarrier::vehicle}})
+      .only_for({"evologics"});
+  s.field(
+       "beacons", &UsblSensorConfig::beacons,
+       "for a transceiver on the vehicle: the beacons whose place is known, by the address of their modem; "
+       "fixes of others are published without a place")
+      .only_for({"evologics"});
   s.field("sigma_floor_m", &UsblSensorConfig::sigma_floor_m, "no fix is believed to be better")
       .unit("m")
       .range(0, 1000);
   s.field("max_range_m", &UsblSensorConfig::max_range_m, "relative fixes beyond are refused")
       .unit("m")
       .range(1, 1e5);
+  s.check([](const UsblSensorConfig& config) { return wrong_beacons(config.beacons); });
 }
 
 void describe(Schema<ActuatorSensorConfig>& s) {

@@ -7,6 +7,7 @@
 
 #include "base/name.hpp"
 #include "codec/registry.hpp"
+#include "config/bridge/beacon_config.hpp"
 #include "config/common_config.hpp"
 #include "config/registry.hpp"
 #include "runtime/byte_source.hpp"
@@ -126,6 +127,8 @@ struct UsblSensorConfig {
   SensorConfig sensor;
   bool require_checksum = true;
   std::string transponder;  ///< fixes of others are ignored; empty: all are taken
+  codec::UsblCarrier carried_by = codec::UsblCarrier::station;
+  std::vector<BeaconConfig> beacons;
   double sigma_floor_m = 0.0;
   double max_range_m = 20'000.0;
 };

@@ -116,7 +116,8 @@ SensorPlan sensor_plan(const HeadingSensorConfig& config) {
 SensorPlan sensor_plan(const UsblSensorConfig& config) {
   SensorPlan out = plan_of(config.sensor);
   out.options.require_checksum = config.require_checksum;
-  out.options.usbl_sigma_floor_m = config.sigma_floor_m;
+  out.options.usbl = {config.carried_by, config.sigma_floor_m};
+  out.options.beacons = beacon_options(config.beacons);
   out.transponder = config.transponder;
   out.intermittent = true;  // out of earshot is no fault
   out.limits.acoustic_range_m = config.max_range_m;

@@ -20,6 +20,8 @@ namespace fathom::config {
          " reads from it as well; where one line carries both, the same port with shared: true in each";
 }
 
+void describe(Schema<BeaconConfig>& s);
+
 template <class Sensor>
 void describe(Schema<BridgeConfig<Sensor>>& s) {
   using Config = BridgeConfig<Sensor>;

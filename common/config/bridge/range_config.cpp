@@ -4,29 +4,6 @@
 
 namespace fathom::config {
 
-void describe(Schema<BeaconConfig>& s) {
-  using C = BeaconConfig;
-  s.field("address", &C::address,
-          "as the instrument tells it: the number of a modem, A to D of a transponder")
-      .required();
-  s.field("latitude_deg", &C::latitude_rad, "where it is")
-      .unit("deg")
-      .range(-90, 90)
-      .scaled(kRadPerDeg)
-      .required();
-  s.field("longitude_deg", &C::longitude_rad, "where it is")
-      .unit("deg")
-      .range(-180, 180)
-      .scaled(kRadPerDeg)
-      .required();
-  s.field("depth_m", &C::depth_m, "below the surface").unit("m").range(-100, 12'000).required();
-  s.check([](const C& beacon) -> std::pair<std::string, std::string> {
-    if (beacon.address.empty() || beacon.address.size() > Name::kCapacity)
-      return {"address", "1 to 31 characters"};
-    return {};
-  });
-}
-
 void describe(Schema<RangeSensorConfig>& s) {
   using C = RangeSensorConfig;
   s.include(&C::sensor);
@@ -37,15 +14,7 @@ void describe(Schema<RangeSensorConfig>& s) {
       .unit("m/s")
       .range(1'350, 1'650);
   s.field("max_range_m", &C::max_range_m, "samples beyond are refused").unit("m").range(1, 100'000);
-  s.check([](const C& config) -> std::pair<std::string, std::string> {
-    if (config.beacons.size() > codec::BeaconOptions::kMost) return {"beacons", "at most 16 beacons"};
-    std::set<std::string> addresses;
-    for (const BeaconConfig& beacon : config.beacons) {
-      if (!addresses.insert(beacon.address).second)
-        return {"beacons", "different addresses, but \"" + beacon.address + "\" comes twice"};
-    }
-    return {};
-  });
+  s.check([](const C& config) { return wrong_beacons(config.beacons); });
 }
 
 template LoadedConfig<RangeBridgeConfig> load_service_config(const LoadRequest& request);
@@ -58,13 +27,8 @@ ConfigKind range_bridge_kind() {
 SensorPlan sensor_plan(const RangeSensorConfig& config) {
   SensorPlan out = plan_of(config.sensor);
   out.options.require_checksum = config.require_checksum;
-  codec::BeaconOptions& beacons = out.options.beacons;
-  beacons.sound_speed_m_s = config.sound_speed_m_s;
-  for (const BeaconConfig& one : config.beacons) {
-    if (beacons.count < codec::BeaconOptions::kMost)
-      beacons.list[beacons.count++] = {std::string_view(one.address), one.latitude_rad, one.longitude_rad,
-                                       one.depth_m};
-  }
+  out.options.beacons = beacon_options(config.beacons);
+  out.options.beacons.sound_speed_m_s = config.sound_speed_m_s;
   out.intermittent = true;  // out of earshot is no fault
   out.limits.acoustic_range_m = config.max_range_m;
   return out;

@@ -4,14 +4,6 @@
 
 namespace fathom::config {
 
-/// A beacon that answers, and where it is.
-struct BeaconConfig {
-  std::string address;
-  double latitude_rad = 0.0;
-  double longitude_rad = 0.0;
-  double depth_m = 0.0;
-};
-
 struct RangeSensorConfig {
   SensorConfig sensor;
   bool require_checksum = true;

@@ -66,7 +66,9 @@ json port_of(const sim::SensorCommon& sensor, const sim::Scenario& scenario, con
 }
 
 double latency_of(const sim::SensorCommon& sensor, bool says_utc) {
-  if (says_utc || has_utc(sensor)) return 0.0;
+  const codec::Protocol* protocol = codec::find_protocol(sensor.protocol);
+  const bool tells_age = protocol != nullptr && protocol->traits.tells_age;
+  if (says_utc || tells_age || has_utc(sensor)) return 0.0;
   if (has_counter(sensor)) return sensor.latency_s;
   return sensor.latency_s + 0.5 * sensor.jitter_s;
 }

@@ -19,7 +19,8 @@ struct Wiring {
 [[nodiscard]] nlohmann::json port_of(const sim::SensorCommon& sensor, const sim::Scenario& scenario,
                                      const Wiring& wiring);
 /// From validity to arrival, as a bridge of this instrument counts it: of the quickest frame where the device
-/// has a counter, of the mean one where nothing but the arrival is known, 0 where the frame says its UTC.
+/// has a counter, of the mean one where nothing but the arrival is known, 0 where the frame says its UTC or
+/// age.
 [[nodiscard]] double latency_of(const sim::SensorCommon& sensor, bool says_utc);
 
 /// What each service has to be told by --set so that it fits a simulated vehicle: bridges get source,

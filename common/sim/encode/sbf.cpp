@@ -35,7 +35,7 @@ std::uint16_t accuracy_cm(double accuracy_m) {
   return static_cast<std::uint16_t>(std::clamp(std::round(accuracy_m * 100.0), 0.0, 65'534.0));
 }
 
-unsigned mode_of(GpsFix fix) {
+unsigned pvt_mode_of(GpsFix fix) {
   switch (fix) {
     case GpsFix::dead_reckoning:
       return static_cast<unsigned>(Solution::told);
@@ -58,7 +58,7 @@ unsigned mode_of(GpsFix fix) {
 
 /// Mode and error.
 std::vector<std::uint8_t> solution_body(GpsFix fix) {
-  const unsigned mode = mode_of(fix);
+  const unsigned mode = pvt_mode_of(fix);
   return {static_cast<std::uint8_t>(mode), mode == 0 ? kSbfNotEnoughMeasurements : kSbfNoError};
 }
 

@@ -5,6 +5,7 @@
 
 #include "geo/so3.hpp"
 #include "geo/wgs84.hpp"
+#include "sim/encode/evologics.hpp"
 #include "sim/encode/nmea.hpp"
 #include "sim/truth_generator.hpp"
 #include "sim/vehicles/vehicle.hpp"
@@ -54,7 +55,7 @@ std::optional<UsblSample> UsblModel::sample(const TruthPoint& point) {
   if (transponder.depth_m < config_.minimum_depth_m) return std::nullopt;
   const geo::Geodetic heard = geo::moved_by(at, error);
   UsblSample out;
-  out.transponder = "B01";
+  out.transponder = std::string_view(config_.transponder);
   out.sigma_m = sigma;
   out.travel_time_s = range_m / kSoundSpeed_m_s;
   if (config_.output == UsblConfig::Output::geodetic) {
@@ -111,6 +112,9 @@ double UsblModel::latency_s() {
 
 Bytes SimulatedDevice<UsblSample>::encode(const UsblSample& usbl, const DeviceCall& device) {
   if (device.protocol == "psonlld") return bytes_of(encode::psonlld(usbl, usbl.header.stamp_ns));
+  if (device.protocol == "evologics")
+    return bytes_of(encode::evologics(usbl, usbl.header.stamp_ns - device.power_on_ns,
+                                      usbl.header.received_ns - device.power_on_ns));
   return bytes_of(encode::psimssb(usbl, usbl.header.stamp_ns));
 }
 

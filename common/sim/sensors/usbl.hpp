@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <Eigen/Geometry>
@@ -20,7 +21,8 @@ struct TruthPoint;
 template <>
 struct SimulatedSensor<UsblSample> : SensorCommon {
   static constexpr const char* kDescription = "acoustic positioning from a ship";
-  double range_fraction = 0.01;  ///< of the slant range, each axis
+  std::string transponder = "B01";  ///< its name; the address of a modem is a number
+  double range_fraction = 0.01;     ///< of the slant range, each axis
   double floor_m = 0.5;
   double maximum_latency_s = 2.0;           ///< latency is uniform between latency_s and this
   double outlier_m = 40.0;                  ///< multipath
@@ -66,7 +68,7 @@ struct ModelOf<UsblSample> {
 template <>
 class SimulatedDevice<UsblSample> {
  public:
-  static constexpr std::array<std::string_view, 2> kProtocols{"psimssb", "psonlld"};
+  static constexpr std::array<std::string_view, 3> kProtocols{"psimssb", "psonlld", "evologics"};
   [[nodiscard]] Bytes encode(const UsblSample& usbl, const DeviceCall& device);
 };
 

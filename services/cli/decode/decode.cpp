@@ -216,8 +216,11 @@ void add_decode(CLI::App& app, ExitCode& /*exit_code*/) {
   command->add_option("--offset", options->codec.ascii_offset, "ASCII depth: added after the factor");
   command->add_option("--dvl-heading-alignment", options->heading_alignment_deg,
                       "DVL in instrument or beam axes: degrees from forward to beam 3, clockwise from above");
-  command->add_option("--usbl-sigma-floor", options->codec.usbl_sigma_floor_m, "USBL: least sigma, m")
+  command->add_option("--usbl-sigma-floor", options->codec.usbl.sigma_floor_m, "USBL: least sigma, m")
       ->check(CLI::NonNegativeNumber);
+  command->add_flag_callback(
+      "--usbl-on-vehicle", [options] { options->codec.usbl.carrier = codec::UsblCarrier::vehicle; },
+      "EvoLogics: the vehicle carries the head, not a station");
   command
       ->add_option("--mavlink-system", options->codec.mavlink_system,
                    "MAVLink: system id of the autopilot; 0: of the first that is heard")

@@ -13,6 +13,7 @@
 #include "sim/encode/dvl/pd0.hpp"
 #include "sim/encode/dvl/pd6.hpp"
 #include "sim/encode/dvl/waterlinked.hpp"
+#include "sim/encode/evologics.hpp"
 #include "sim/encode/imu/microstrain.hpp"
 #include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/imu/stim300.hpp"
@@ -137,6 +138,18 @@ ImuSample imu(int frame) {
 /// What an inertial unit says of time: its own clock, now and then UTC besides.
 DurationNs since_power_on(int frame) {
   return (frame + 1) * kNsPerSecond / 100;
+}
+
+void evologics_lines(ByteVector& stream, int frame) {
+  UsblSample fix = usbl(frame);
+  fix.frame = frame % 2 == 0 ? UsblFrame::ned : UsblFrame::vehicle_frd;
+  fix.transponder = "3";
+  const DurationNs measured = since_power_on(frame);
+  const std::string line = sim::encode::evologics(fix, measured, measured + 260 * kNsPerMillisecond);
+  // As a modem sends it that is not set to count its characters.
+  append(stream, frame % 3 == 2 ? line.substr(line.find("USBLLONG")) : line);
+  append(stream, sim::encode::evologics_line("RECVIM,4,3,1,ack,280000,-36,77,0.0,0.1\r\n\x01\xFF"));
+  append(stream, "+++AT*SENDIM:2:OK\r\n");
 }
 std::optional<TimeNs> some_utc(int frame) {
   return frame % 4 == 3 ? std::optional<TimeNs>(instant(frame)) : std::nullopt;
@@ -302,6 +315,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     UsblSample fix = usbl(frame);
     fix.frame = frame == 2 ? UsblFrame::ned : UsblFrame::geodetic;  // not told, as by a beacon out of earshot
     append(stream, sim::encode::psonlld(fix, instant(frame)));
+  } else if (protocol == "evologics") {
+    evologics_lines(stream, frame);
   } else if (protocol == "ubx") {
     append(stream, sim::encode::ubx_nav_pvt(gps(frame), instant(frame)));
     append(stream, sim::encode::ubx_nav_relposned(by_antennas(frame), instant(frame)));

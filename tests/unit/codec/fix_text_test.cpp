@@ -16,14 +16,14 @@ using test::decode_text;
 using test::DecodeRun;
 using test::sentence;
 
-DecodeRun run(const std::string& text, bool require_checksum = false) {
+DecodeRun told_by(const std::string& text, bool require_checksum = false) {
   CodecOptions options;
   options.require_checksum = require_checksum;
   return decode_text("fix_text", text, options);
 }
 
 TEST(FixText, ALineIsAPositionAtItsInstant) {
-  const DecodeRun told = run(sentence("PFTHX,2026-01-31T12:00:00.5Z,36.4009,-127.25,20"), true);
+  const DecodeRun told = told_by(sentence("PFTHX,2026-01-31T12:00:00.5Z,36.4009,-127.25,20"), true);
   ASSERT_EQ(told.samples.size(), 1U);
   const auto& fix = std::get<FixSample>(told.samples[0].sample);
   EXPECT_DOUBLE_EQ(fix.latitude_rad, 36.4009 * kRadPerDeg);
@@ -36,7 +36,7 @@ TEST(FixText, ALineIsAPositionAtItsInstant) {
 
 TEST(FixText, WhatIsKnownOfTheDepthComesBehind) {
   const DecodeRun told =
-      run(sentence("PFTHX,,36.4,127.25,20,12.5,0.5") + sentence("PFTHX,,36.4,127.25,20,12.5"));
+      told_by(sentence("PFTHX,,36.4,127.25,20,12.5,0.5") + sentence("PFTHX,,36.4,127.25,20,12.5"));
   ASSERT_EQ(told.samples.size(), 2U);
   const auto& both = std::get<FixSample>(told.samples[0].sample);
   EXPECT_EQ(both.depth_m, 12.5);
@@ -47,8 +47,8 @@ TEST(FixText, WhatIsKnownOfTheDepthComesBehind) {
 
 TEST(FixText, TheChecksumMayBeLeftOutWhereTheConfigurationSaysSo) {
   const std::string line = "$PFTHX,2026-01-31T12:00:00Z,36.4,127.25,20\n";
-  EXPECT_EQ(run(line).samples.size(), 1U);
-  const DecodeRun strict = run(line, true);
+  EXPECT_EQ(told_by(line).samples.size(), 1U);
+  const DecodeRun strict = told_by(line, true);
   EXPECT_EQ(strict.samples.size(), 0U);
   ASSERT_EQ(strict.rejected.size(), 1U);
   EXPECT_EQ(strict.rejected[0].reason, RejectReason::no_checksum);
@@ -67,7 +67,7 @@ TEST(FixText, WhatIsNoPositionIsRefusedWithItsReason) {
       {"PFTHX,,36.4,127.25,", RejectReason::incomplete},
       {"PFTHX,,,127.25,20", RejectReason::incomplete}};
   for (const auto& [body, reason] : bad) {
-    const DecodeRun told = run(sentence(body));
+    const DecodeRun told = told_by(sentence(body));
     EXPECT_EQ(told.samples.size(), 0U) << body;
     ASSERT_EQ(told.rejected.size(), 1U) << body;
     EXPECT_EQ(told.rejected[0].reason, reason) << body;
@@ -75,7 +75,7 @@ TEST(FixText, WhatIsNoPositionIsRefusedWithItsReason) {
 }
 
 TEST(FixText, OtherSentencesAreIgnored) {
-  const DecodeRun told = run(sentence("GPGLL,3624.0,N,12715.0,E,120000,A"));
+  const DecodeRun told = told_by(sentence("GPGLL,3624.0,N,12715.0,E,120000,A"));
   EXPECT_TRUE(told.samples.empty());
   EXPECT_TRUE(told.rejected.empty());
 }

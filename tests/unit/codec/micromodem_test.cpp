@@ -27,12 +27,12 @@ CodecOptions options() {
   return out;
 }
 
-DecodeRun run(const std::string& text) {
+DecodeRun pinged(const std::string& text) {
   return decode_text("micromodem", text, options());
 }
 
 TEST(Micromodem, ThePingThatCameBackIsARangeToTheModemThatAnswered) {
-  const DecodeRun ping = run(sentence("CAMPR,12,1,0.2500"));
+  const DecodeRun ping = pinged(sentence("CAMPR,12,1,0.2500"));
   ASSERT_EQ(ping.samples.size(), 1U);
   const auto& sample = std::get<RangeSample>(ping.samples[0].sample);
   EXPECT_EQ(sample.beacon, Name("12"));
@@ -48,7 +48,7 @@ TEST(Micromodem, ThePingThatCameBackIsARangeToTheModemThatAnswered) {
 }
 
 TEST(Micromodem, ABeaconThatNobodyListedHasNoPlace) {
-  const DecodeRun ping = run(sentence("CAMPR,7,1,1.0"));
+  const DecodeRun ping = pinged(sentence("CAMPR,7,1,1.0"));
   ASSERT_EQ(ping.samples.size(), 1U);
   const auto& sample = std::get<RangeSample>(ping.samples[0].sample);
   EXPECT_EQ(sample.beacon, Name("7"));
@@ -57,7 +57,7 @@ TEST(Micromodem, ABeaconThatNobodyListedHasNoPlace) {
 }
 
 TEST(Micromodem, EachTransponderThatAnsweredIsARange) {
-  const DecodeRun four = run(sentence("SNTTA,0.1000,,0.3000,,120000.00"));
+  const DecodeRun four = pinged(sentence("SNTTA,0.1000,,0.3000,,120000.00"));
   ASSERT_EQ(four.samples.size(), 2U);
   const auto& a = std::get<RangeSample>(four.samples[0].sample);
   const auto& c = std::get<RangeSample>(four.samples[1].sample);
@@ -70,8 +70,8 @@ TEST(Micromodem, EachTransponderThatAnsweredIsARange) {
 }
 
 TEST(Micromodem, SilenceAndOtherWordsOfTheModemAreNoRange) {
-  const DecodeRun other = run(sentence("SNTTA,,,,,120000.00") + sentence("CAMPR,12,1,") +
-                              sentence("CAREV,120000,AUV,0.93.0.30") + sentence("CAMPA,1,12"));
+  const DecodeRun other = pinged(sentence("SNTTA,,,,,120000.00") + sentence("CAMPR,12,1,") +
+                                 sentence("CAREV,120000,AUV,0.93.0.30") + sentence("CAMPA,1,12"));
   EXPECT_TRUE(other.samples.empty());
   EXPECT_TRUE(other.rejected.empty());
   EXPECT_EQ(other.totals.frames_ignored, 4U);
@@ -79,7 +79,7 @@ TEST(Micromodem, SilenceAndOtherWordsOfTheModemAreNoRange) {
 
 TEST(Micromodem, WhatNoModemMeansIsRefused) {
   const auto reason = [](const std::string& text) {
-    const DecodeRun one = run(text);
+    const DecodeRun one = pinged(text);
     EXPECT_TRUE(one.samples.empty()) << text;
     EXPECT_EQ(one.rejected.size(), 1U) << text;
     return one.rejected.empty() ? RejectReason::truncated : one.rejected[0].reason;
@@ -99,7 +99,7 @@ TEST(Micromodem, WhatNoModemMeansIsRefused) {
 
 TEST(Micromodem, ALogOfItsLineGivesItsRanges) {
   std::ifstream in(FATHOM_VECTORS "/micromodem/pings.txt", std::ios::binary);
-  const DecodeRun log = run({std::istreambuf_iterator<char>(in), {}});
+  const DecodeRun log = pinged({std::istreambuf_iterator<char>(in), {}});
   std::vector<std::pair<std::string, double>> found;
   for (const RangeSample& one : log.all<RangeSample>())
     found.emplace_back(one.beacon.str(), one.travel_time_s);

@@ -203,7 +203,7 @@ TEST(Psimssb, NoReplyIsNoPositionWhateverTheStatusSays) {
 
 TEST(Psimssb, TheSigmaHasAFloor) {
   CodecOptions options;
-  options.usbl_sigma_floor_m = 1.5;
+  options.usbl.sigma_floor_m = 1.5;
   EXPECT_EQ(usbl("PSIMSSB,180554.432,M44,A,,C,N,M,3.0,40.0,34.0,0.072,T,0.05,", options).sigma_m, 1.5);
   EXPECT_EQ(usbl("PSIMSSB,180554.432,M44,A,,C,N,M,3.0,40.0,34.0,2.5,T,0.05,", options).sigma_m, 2.5);
 }
@@ -243,7 +243,7 @@ TEST(Psonlld, APlaceWithItsBeaconAndErrorEllipse) {
 TEST(Psonlld, TheSigmaIsThatOfTheLargerSemiAxisWithAFloor) {
   const std::string body = "PSONLLD,170004.53,24,A,50.02495,8.873323,425.3,";
   CodecOptions options;
-  options.usbl_sigma_floor_m = 0.5;
+  options.usbl.sigma_floor_m = 0.5;
   EXPECT_EQ(place(sentence(body + "3.0,1.0,30.0,0.5,,,,"), options).sigma_m, 3.0);
   EXPECT_EQ(place(sentence(body + "0.1,0.3,30.0,0.5,,,,"), options).sigma_m, 0.5);
   EXPECT_EQ(place(sentence(body + "2.0,,,,,,,"), options).sigma_m, 2.0);

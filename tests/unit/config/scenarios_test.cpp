@@ -169,6 +169,17 @@ TEST(Scenarios, WiringPointsEachBridgeAtItsDevice) {
   EXPECT_EQ(service_overrides(shipped("flight"), {}).count("dvl_bridge"), 0U);
 }
 
+TEST(Scenarios, WhatAFrameSaysOfItsAgeIsNoLatencyOfItsBridge) {
+  sim::SensorCommon sensor;
+  sensor.latency_s = 0.6;
+  sensor.protocol = "fix_text";
+  EXPECT_EQ(latency_of(sensor, false), 0.0);  // its UTC
+  sensor.protocol = "micromodem";             // the way from the device
+  EXPECT_EQ(latency_of(sensor, false), 0.6);
+  sensor.protocol = "s2c";
+  EXPECT_EQ(latency_of(sensor, false), 0.0);
+}
+
 TEST(Scenarios, TheSimulatorsFileLoadsItsScenarioToo) {
   const std::string file = FATHOM_SOURCE_DIR "/deploy/config/simulator.json";
   const auto loaded = load_service_config<SimulatorConfig>({file, {"scenario_dir=" + kFolder}});

@@ -1,3 +1,5 @@
+#include "codec/registry.hpp"
+#include "codec/text/numbers.hpp"
 #include "config/scenario/sensors/common_fields.hpp"
 
 namespace fathom::config {
@@ -6,6 +8,7 @@ template <>
 void describe(Schema<sim::SimulatedSensor<UsblSample>>& s) {
   using C = sim::UsblConfig;
   common_fields(s);
+  s.field("transponder", &C::transponder, "its name; for evologics the address of its modem, 1 to 254");
   s.field("range_fraction", &C::range_fraction, "error of each axis as a share of the slant range")
       .range(0, 1);
   s.field("floor_m", &C::floor_m, "least error").unit("m").range(0, 1e3);
@@ -48,8 +51,20 @@ void describe(Schema<sim::SimulatedSensor<UsblSample>>& s) {
       .range(0, 20);
   s.check([](const C& usbl) -> std::pair<std::string, std::string> {
     const bool polar = usbl.output == C::Output::range_bearing || usbl.output == C::Output::inverted;
-    if (polar && !usbl.protocol.empty()) return {"output", "geodetic, ned or vessel for a device protocol"};
-    if (usbl.protocol == "psonlld" && usbl.output != C::Output::geodetic)
+    if (usbl.transponder.empty() || usbl.transponder.size() > Name::kCapacity)
+      return {"transponder", "1 to 31 characters"};
+    const codec::Protocol* known = codec::find_protocol(usbl.protocol);
+    const std::string_view protocol = known == nullptr ? std::string_view() : known->name;
+    if (protocol == "evologics") {
+      const auto address = codec::parse_digits(usbl.transponder);
+      if (!address || *address < 1 || *address > 254)
+        return {"transponder", "the address of a modem, 1 to 254, for evologics"};
+      if (usbl.output != C::Output::ned && usbl.output != C::Output::inverted)
+        return {"output", "ned or inverted for evologics"};
+      return {};
+    }
+    if (polar && !usbl.protocol.empty()) return {"output", "geodetic, ned or vessel for " + usbl.protocol};
+    if (protocol == "psonlld" && usbl.output != C::Output::geodetic)
       return {"output", "geodetic for psonlld, which tells places alone"};
     return {};
   });
