@@ -12,6 +12,8 @@ namespace {
 
 /// A heading known better than this turns nothing far.
 constexpr double kKnownHeading_rad = 0.01;
+/// A level known better than this leaves gravity as long as it is.
+constexpr double kKnownLevel_rad = 0.035;
 /// How long the error of an acceleration keeps its value, where GPS renews it (NOISE-3).
 constexpr double kProductMemory_s = 3.0;
 /// How long tilt and accelerometer bias keep what they share (NOISE-3), and how long a gyro bias takes to
@@ -137,21 +139,35 @@ void Estimate::add_second_order(const Setup& setup, const Eigen::Matrix3d& C_NB,
                                 ProcessNoise& noise) const {
   // (NOISE-3)
   const double heading = filter(8, 8);
-  if (heading < kKnownHeading_rad * kKnownHeading_rad) return;
+  const bool turns = heading >= kKnownHeading_rad * kKnownHeading_rad;
+  const bool leans = filter(6, 6) + filter(7, 7) >= kKnownLevel_rad * kKnownLevel_rad;
+  if (!turns && !leans) return;
   const int accel = setup.index.of(Group::accel_bias);
   const int gyro = setup.index.of(Group::gyro_bias);
+  const Eigen::Matrix3d force = geo::skew(force_N_m_s2);
+  const Eigen::Matrix3d tilts = filter.block3(6, 6);
+  const Eigen::Matrix3d bias = filter.block3(6, accel) * C_NB.transpose();
+  const Eigen::Matrix3d cross = force * bias;
+  const Eigen::Matrix3d acceleration = force * tilts * force.transpose() + cross + cross.transpose() +
+                                       C_NB * filter.block3(accel, accel) * C_NB.transpose();
   Eigen::Matrix3d about_down = Eigen::Matrix3d::Zero();
   about_down(0, 1) = -1.0;
   about_down(1, 0) = 1.0;
-  const Eigen::Matrix3d force = geo::skew(force_N_m_s2);
-  const Eigen::Matrix3d tilts = filter.block3(6, 6);
-  const Eigen::Matrix3d cross = force * filter.block3(6, accel) * C_NB.transpose();
-  const Eigen::Matrix3d acceleration = force * tilts * force.transpose() + cross + cross.transpose() +
-                                       C_NB * filter.block3(accel, accel) * C_NB.transpose();
-  noise.velocity += kProductMemory_s * heading * about_down * acceleration * about_down.transpose();
-  const Vector3d down_B = C_NB.row(2).transpose();
-  const double rate = down_B.dot(filter.block3(gyro, gyro) * down_B);
-  noise.attitude += kDriftMemory_s * rate * about_down * tilts * about_down.transpose();
+  if (turns) {
+    noise.velocity += kProductMemory_s * heading * about_down * acceleration * about_down.transpose();
+    const Vector3d down_B = C_NB.row(2).transpose();
+    const double rate = down_B.dot(filter.block3(gyro, gyro) * down_B);
+    noise.attitude += kDriftMemory_s * rate * about_down * tilts * about_down.transpose();
+  }
+  if (leans) {
+    const Eigen::Matrix2d level = tilts.topLeftCorner<2, 2>();
+    const Eigen::Matrix2d both =
+        ((tilts * force.transpose() + bias) * about_down).topLeftCorner<2, 2>();  // of the level and ...
+    const Eigen::Matrix2d turned = (about_down.transpose() * acceleration * about_down)
+                                       .topLeftCorner<2, 2>();  // ... of what it brings about
+    const double square = both.trace() * both.trace() + (level * turned).trace() + (both * both).trace();
+    noise.velocity(2, 2) += 0.25 * kProductMemory_s * square;
+  }
 }
 
 void Estimate::add_g_sensitivity(const Setup& setup, ProcessNoise& noise) {

@@ -5,6 +5,7 @@
 
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/registry.hpp"
+#include "estimation/filter/second_order.hpp"
 #include "estimation/filter/sigma_range.hpp"
 #include "estimation/navigator/trial.hpp"
 
@@ -148,10 +149,19 @@ bool Navigator::observe(Trial& trial) {
   trial.with_position = trial.policy.position && measures(trial.whole, 0, 0);
   trial.fix = trial.policy.follows_motion && trial.with_position;
   trial.whole.list_columns(setup_->index.size());
+  if (trial.then == nullptr) add_second_order(trial, state, input.unused_s);
   if (adapts_noise(trial)) trial.instrument.noise.widen(trial.whole);
   if (trial.then != nullptr && !trial.then->look_back(trial.whole, trial.statistics))
     return trial.end(VerdictKind::late);
   return true;
+}
+
+void Navigator::add_second_order(Trial& trial, const AidingState& state, double unused_s) const {
+  const ErrorFilter& filter = estimate_.filter;
+  if (trial.policy.doppler)
+    add_second_order_of_velocity(filter, estimate_.velocity_N_m_s(*setup_, trial.policy.velocity),
+                                 trial.whole);
+  if (trial.policy.heading_alone) add_second_order_of_heading(filter, state.C_NB, unused_s, trial.whole);
 }
 
 void Navigator::gate(Trial& trial) const {

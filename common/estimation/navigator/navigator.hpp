@@ -122,6 +122,8 @@ class Navigator {
   [[nodiscard]] std::optional<TrustedAttitude> attitude_to_trust(const Measurement& measurement) const;
   /// What the aiding models make of it; false when there is nothing for the filter in it.
   bool observe(Trial& trial);
+  /// What the rows see beyond the first order, where attitude and velocity are known badly.
+  void add_second_order(Trial& trial, const AidingState& state, double unused_s) const;
   void gate(Trial& trial) const;
   /// A refusal may not be the last word: the estimate, not the instrument, may be wrong.
   void reacquire(Trial& trial);

@@ -1,6 +1,8 @@
 // The inertial unit is silent for some seconds, and the vehicle goes on (ALN-19).
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -21,8 +23,8 @@ struct Fared {
   double last_tilt_rad = 0.0;
 };
 
-/// From the end of the gap on.
-Fared with_gap(const SurveyRun& run, double from_s, double until_s) {
+/// From the end of the gap on. The DVL says nothing from the gap on until `log_s`.
+Fared with_gap(const SurveyRun& run, double from_s, double until_s, double log_s = 0.0) {
   FusionEngine engine(SurveyRun::config());
   Fared out;
   std::size_t row = 0;
@@ -31,6 +33,7 @@ Fared with_gap(const SurveyRun& run, double from_s, double until_s) {
     const double t_s = to_seconds(test::header(sample).stamp_ns - SurveyRun::kEpochNs);
     const std::size_t at = inertial ? row++ : row;
     if (inertial && t_s >= from_s && t_s < until_s) continue;
+    if (std::holds_alternative<DvlSample>(sample) && t_s >= from_s && t_s < log_s) continue;
     test::feed(engine, sample);
     if (!inertial || t_s < until_s) continue;
     const NavState& nav = engine.nav_state();
@@ -62,6 +65,24 @@ TEST(Gap, InWavesIsNoSwingThatGoesOn) {
       EXPECT_LT(fared.worst_position_sigmas, 4.0) << from_s << " " << gap_s;
       EXPECT_LT(fared.last_position_m, 3.0) << from_s << " " << gap_s;
       EXPECT_LT(fared.last_tilt_rad, 1.0 * kRadPerDeg) << from_s << " " << gap_s;
+    }
+  }
+}
+
+// Behind the gap attitude and velocity are both uncertain, and the product of their errors is more than the
+// noise of what is measured: by the DVL when it is heard again (AID-DVL-4), until then by depth (NOISE-3) and
+// compass (AID-HDG-3).
+TEST(Gap, InWhichADiveBeginsIsTakenInByTheFirstVelocity) {
+  for (const double from_s : {49.0, 50.0, 50.5}) {
+    for (const double gap_s : {2.0, 3.0, 4.0}) {
+      for (const double silent_s : {0.3, 1.3, 3.0, 6.0}) {
+        const SurveyRun run({.duration_s = 75.0, .usbl = false});
+        const Fared fared = with_gap(run, from_s, from_s + gap_s, from_s + gap_s + silent_s);
+        SCOPED_TRACE(std::to_string(from_s) + " " + std::to_string(gap_s) + " " + std::to_string(silent_s));
+        EXPECT_LT(fared.worst_tilt_sigmas, 4.0);
+        EXPECT_LT(fared.worst_position_sigmas, 4.0);
+        EXPECT_LT(fared.last_tilt_rad, 0.2 * kRadPerDeg);
+      }
     }
   }
 }
