@@ -69,8 +69,8 @@ start() {  # start MACHINE SERVICE: as commands.txt says, bound to that machine'
   pid_of[$2]=$!
   machine_of[$2]=$1
 }
-watch_from() {  # watch_from FILE: guidance
-  ip netns exec "${tag}guide" "$watch" --interface "${address[guide]}" "${peers[@]}" --gap 0.06 >"$1" 2>&1 &
+watch_from() {  # watch_from FILE [COMMAND...]: guidance, started by that command
+  ip netns exec "${tag}guide" "${@:2}" "$watch" --interface "${address[guide]}" "${peers[@]}" --gap 0.06 >"$1" 2>&1 &
   pids+=($!)
   watcher=$!
 }
