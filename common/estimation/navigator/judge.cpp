@@ -5,7 +5,6 @@
 
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/registry.hpp"
-#include "estimation/filter/second_order.hpp"
 #include "estimation/filter/sigma_range.hpp"
 #include "estimation/navigator/trial.hpp"
 
@@ -154,14 +153,6 @@ bool Navigator::observe(Trial& trial) {
   if (trial.then != nullptr && !trial.then->look_back(trial.whole, trial.statistics))
     return trial.end(VerdictKind::late);
   return true;
-}
-
-void Navigator::add_second_order(Trial& trial, const AidingState& state, double unused_s) const {
-  const ErrorFilter& filter = estimate_.filter;
-  if (trial.policy.doppler)
-    add_second_order_of_velocity(filter, estimate_.velocity_N_m_s(*setup_, trial.policy.velocity),
-                                 trial.whole);
-  if (trial.policy.heading_alone) add_second_order_of_heading(filter, state.C_NB, unused_s, trial.whole);
 }
 
 void Navigator::gate(Trial& trial) const {

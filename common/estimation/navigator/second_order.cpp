@@ -1,8 +1,8 @@
-#include "estimation/filter/second_order.hpp"
-
+// What a measurement sees beyond the first order, where attitude and velocity are known badly.
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/navigator/trial.hpp"
 #include "geo/so3.hpp"
 
 namespace fathom::estimation {
@@ -19,8 +19,10 @@ constexpr double kNoticed = 0.01;
 constexpr double kMemory_s = 3.0;
 constexpr double kSoonest_s = 0.01;  // between two headings
 
-}  // namespace
-
+/// What the rows of a velocity along the vehicle see beyond the first order where attitude and velocity are
+/// both uncertain (AID-DVL-4): its mean is taken off the innovation, its variance is noise. `velocity_N_m_s`
+/// is the estimate of what they measure. A row whose variance would change by less than a hundredth stays as
+/// it is.
 void add_second_order_of_velocity(const ErrorFilter& filter, const Vector3d& velocity_N_m_s,
                                   Observation& observation) {
   // (AID-DVL-4)
@@ -49,6 +51,8 @@ void add_second_order_of_velocity(const ErrorFilter& filter, const Vector3d& vel
   }
 }
 
+/// The same of the one row of a heading (AID-HDG-3), which turns with the roll of a vehicle that is pitched.
+/// A tilt that stays does the same to every heading meanwhile: `again_s` is the time since the one before.
 void add_second_order_of_heading(const ErrorFilter& filter, const Matrix3d& C_NB, double again_s,
                                  Observation& observation) {
   // (AID-HDG-3)
@@ -67,6 +71,16 @@ void add_second_order_of_heading(const ErrorFilter& filter, const Matrix3d& C_NB
   if (lasting < kNoticed * noise_rad2) return;
   observation.innovation[0] += curve * both;
   observation.sigma[0] = std::sqrt(noise_rad2 + lasting);
+}
+
+}  // namespace
+
+void Navigator::add_second_order(Trial& trial, const AidingState& state, double unused_s) const {
+  const ErrorFilter& filter = estimate_.filter;
+  if (trial.policy.doppler)
+    add_second_order_of_velocity(filter, estimate_.velocity_N_m_s(*setup_, trial.policy.velocity),
+                                 trial.whole);
+  if (trial.policy.heading_alone) add_second_order_of_heading(filter, state.C_NB, unused_s, trial.whole);
 }
 
 }  // namespace fathom::estimation
