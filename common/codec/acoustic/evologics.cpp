@@ -185,7 +185,8 @@ class Evologics final : public Framer {
     UsblSample sample;
     sample.transponder = fix.address();
     sample.travel_time_s = fix.value(UsblLong::kTravel) * 1e-6;
-    sample.sigma_m = std::max(fix.value(UsblLong::kAccuracy), usbl_.sigma_floor_m);
+    const double accuracy_m = fix.value(UsblLong::kAccuracy);
+    if (accuracy_m > 0.0) sample.sigma_m = std::max(accuracy_m, usbl_.sigma_floor_m);
     if (usbl_.carrier == UsblCarrier::vehicle) {
       const auto [forward_m, left_m, up_m] = fix.three(UsblLong::kAlongHead);
       sample.frame = UsblFrame::vehicle_frd;

@@ -213,8 +213,8 @@ void describe(Schema<UsblSensorConfig>& s) {
   require_checksum(s);
   s.field("transponder", &UsblSensorConfig::transponder, "only fixes of this transponder; empty: of all");
   s.field("carried_by", &UsblSensorConfig::carried_by,
-          "who carries the transceiver: a station, of whose fixes the vehicle is the target, or the vehicle, "
-          "of whose fixes the beacons are")
+          "who carries the transceiver: station, whose fixes are places of the vehicle, or vehicle, whose "
+          "fixes are places of beacons")
       .words({{"station", codec::UsblCarrier::station}, {"vehicle", codec::UsblCarrier::vehicle}})
       .only_for({"evologics"});
   s.field(

@@ -104,6 +104,9 @@ TEST(Evologics, TheSigmaHasAFloor) {
   options.usbl.sigma_floor_m = 0.5;
   EXPECT_EQ(fix(counted(kOfTheDay), options).sigma_m, 0.5);
   EXPECT_EQ(fix(counted(kSinceStart), options).sigma_m, 1.2375);
+  std::string unsaid = kSinceStart;
+  unsaid.replace(unsaid.find("1.2375"), 6, "0.0000");
+  EXPECT_FALSE(known(fix(counted(unsaid), options).sigma_m));
 }
 
 TEST(Evologics, OtherNotificationsAndPayloadCarryNoSample) {
