@@ -23,7 +23,7 @@ namespace fathom::codec {
 /// Who carries the head decides what a fix is (UsblOptions): on a station, the place of the vehicle's modem
 /// from there along north, east, down; on the vehicle, the place of a beacon's modem along the vehicle's
 /// axes, with the beacon's own place where it is configured. The accuracy is taken as the sigma of one axis,
-/// and not below `sigma_floor_m`. The sample is as old as the two instants of the line say.
+/// 0 as unknown, and not below `sigma_floor_m`. The sample is as old as the two instants of the line say.
 ///
 /// A line begins with `+++AT:` and the number of characters that follow, or, where the modem is set so, with
 /// its first word; only the former shows damage, for neither has a checksum. USBLANGLES has no range and
