@@ -15,6 +15,9 @@ struct Demand {
   std::uint64_t samples;
 };
 
+/// So soon behind the first sample comes what waited with it.
+constexpr DurationNs kGathered_ns = 50 * kNsPerMillisecond;
+
 /// The lower, the less likely it is that anything else looks like it.
 int rank_of(std::string_view protocol) {
   if (protocol == "nmea0183" || protocol == "pd6") return 1;
@@ -36,6 +39,10 @@ struct Recognizer::Listener : codec::Sink {
     std::uint64_t last_offset = 0;
     TimeNs first_ns = 0;
     TimeNs last_ns = 0;
+    // What had gathered in the line before it was heard comes at once and tells no rate: counted is from its
+    // last one on.
+    std::uint64_t gathered = 0;
+    TimeNs gathered_ns = 0;
   };
 
   explicit Listener(const codec::Protocol& one) : protocol(&one), decoder(one.make({})) {}
@@ -47,6 +54,10 @@ struct Recognizer::Listener : codec::Sink {
     if (kind.samples == 0 || decoded.offset != kind.last_offset) ++kind.samples;
     kind.last_offset = decoded.offset;
     kind.last_ns = now_ns;
+    if (now_ns - kind.first_ns <= kGathered_ns) {
+      kind.gathered = kind.samples;
+      kind.gathered_ns = now_ns;
+    }
     if (const auto* fix = std::get_if<GpsSample>(&decoded.sample)) {
       if (fix->fix != GpsFix::none && known(fix->latitude_rad)) latitude_rad = fix->latitude_rad;
     } else if (const auto* imu = std::get_if<ImuSample>(&decoded.sample)) {
@@ -113,9 +124,10 @@ std::optional<Recognition> Recognizer::best() const {
   out.protocol = found->protocol->name;
   out.share = found->share();
   for (const auto& [kind, seen] : found->kinds) {
-    const double span_s = to_seconds(seen.last_ns - seen.first_ns);
+    const double span_s = to_seconds(seen.last_ns - seen.gathered_ns);
     const bool enough = seen.samples >= 3 && span_s > 0.0;
-    out.kinds.push_back({kind, seen.samples, enough ? static_cast<double>(seen.samples - 1) / span_s : 0.0});
+    const auto counted = static_cast<double>(seen.samples - seen.gathered);
+    out.kinds.push_back({kind, seen.samples, enough ? counted / span_s : 0.0});
   }
   out.latitude_rad = found->latitude_rad;
   if (const auto imu = found->kinds.find(SourceKind::imu); imu != found->kinds.end()) {

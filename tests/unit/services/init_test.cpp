@@ -81,6 +81,19 @@ TEST(Recognizer, CutsOfTheStreamDoNotMatter) {
   EXPECT_EQ(by_byte->kinds.front().samples, whole->kinds.front().samples);
 }
 
+TEST(Recognizer, WhatHadGatheredBeforeItWasHeardTellsNoRate) {
+  const auto stream = test::seed_stream("pd0");
+  const std::uint64_t once = recognised(stream, 1)->kinds.front().samples;
+  Recognizer recognizer;
+  for (int i = 0; i < 8; ++i)
+    recognizer.feed(stream, i * kNsPerMillisecond);  // a second's worth and more, at once
+  for (int i = 1; i <= 10; ++i) recognizer.feed(stream, i * kNsPerSecond);
+  const auto found = recognizer.best();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->kinds.front().samples, 18 * once);
+  EXPECT_NEAR(found->kinds.front().rate_hz, static_cast<double>(once), 0.01);
+}
+
 TEST(Proposal, RatesAreThoseThatPeopleSet) {
   EXPECT_EQ(tidy_rate_hz(99.2, 600), 100.0);
   EXPECT_EQ(tidy_rate_hz(10.03, 600), 10.0);
