@@ -6,6 +6,9 @@
 
 #include <Eigen/Geometry>
 
+#include "estimation/aiding/constant_depth.hpp"
+#include "estimation/aiding/non_holonomic.hpp"
+
 namespace fathom::estimation {
 namespace {
 
@@ -18,36 +21,33 @@ constexpr double kDeviation50 = 0.674489750196082;
 constexpr int kLeastMemory = 10;
 /// An aiding sensor is taken to give one independent measurement in each.
 constexpr double kStep_s = 1.0;
+/// The likely one, and from four instants of the memory, evenly apart.
+constexpr std::size_t kCoursesOfWheels = 5;
 
-/// What 95 % and half of such vehicles would not exceed.
 struct Uncertainty {
   double within_95 = 0.0;
   double median = 0.0;
 };
-struct Now {
-  Uncertainty horizontal;
-  Uncertainty vertical;
-  Uncertainty heading;
-};
 
-Now measure(const ErrorFilter& filter) {
-  const double a = filter(0, 0);
-  const double b = filter(1, 1);
-  const double c = filter(0, 1);
-  const double middle = 0.5 * (a + b);
-  const double half = std::hypot(0.5 * (a - b), c);
-  const double vertical = std::sqrt(std::max(filter(2, 2), 0.0));
-  const double heading = std::sqrt(std::max(filter(8, 8), 0.0));
-  const double larger = std::sqrt(std::max(middle + half, 0.0));
-  const double smaller = std::sqrt(std::max(middle - half, 0.0));
-  return {{radius_95(larger, smaller), radius_50(larger, smaller)},
-          {kDeviation95 * vertical, kDeviation50 * vertical},
-          {kDeviation95 * heading, kDeviation50 * heading}};
+Uncertainty wider(const Uncertainty& a, const Uncertainty& b) {
+  return {std::max(a.within_95, b.within_95), std::max(a.median, b.median)};
 }
 
-const Uncertainty& of(const Now& now, const std::string& name) {
-  if (name.starts_with("heading")) return now.heading;
-  return name.starts_with("vertical") ? now.vertical : now.horizontal;
+/// Takes a measurement in without its value.
+void take_in(const Setup& setup, Observation& observation, double noise_scale, ErrorFilter& filter) {
+  observation.list_columns(setup.index.size());
+  InnovationStatistics statistics;
+  std::array<double, kMaxStates> ignored{};
+  filter.statistics(observation, noise_scale, statistics);
+  (void)filter.update(observation, statistics, ignored);
+}
+
+/// What holds all the time is applied so many times.
+template <class Model>
+void hold(const Setup& setup, const Model& model, double times, ErrorFilter& filter) {
+  Observation observation;
+  observe(model, setup.index, observation);
+  take_in(setup, observation, 1.0 / times, filter);
 }
 
 /// When a value that grows from `low` to `high` within a step passes the limit.
@@ -57,6 +57,31 @@ void pass(double& time_s, double limit, double low, double high, double elapsed_
 }
 
 }  // namespace
+
+struct Forecaster::Reach {
+  Uncertainty horizontal;
+  Uncertainty vertical;
+  Uncertainty heading;
+
+  explicit Reach(const ErrorFilter& filter) {
+    const double a = filter(0, 0);
+    const double b = filter(1, 1);
+    const double c = filter(0, 1);
+    const double middle = 0.5 * (a + b);
+    const double half = std::hypot(0.5 * (a - b), c);
+    const double down = std::sqrt(std::max(filter(2, 2), 0.0));
+    const double turn = std::sqrt(std::max(filter(8, 8), 0.0));
+    const double larger = std::sqrt(std::max(middle + half, 0.0));
+    const double smaller = std::sqrt(std::max(middle - half, 0.0));
+    horizontal = {radius_95(larger, smaller), radius_50(larger, smaller)};
+    vertical = {kDeviation95 * down, kDeviation50 * down};
+    heading = {kDeviation95 * turn, kDeviation50 * turn};
+  }
+  [[nodiscard]] const Uncertainty& of(const std::string& name) const {
+    if (name.starts_with("heading")) return heading;
+    return name.starts_with("vertical") ? vertical : horizontal;
+  }
+};
 
 double radius_95(double larger_sigma, double smaller_sigma) {
   if (!(larger_sigma > 0.0)) return 0.0;
@@ -70,7 +95,10 @@ double radius_50(double larger_sigma, double smaller_sigma) {
   return larger_sigma * (0.671956 + c * (0.011405 + c * (1.013712 - c * 0.523462)));
 }
 
-Forecaster::Forecaster(const Setup& setup) : setup_(&setup), navigator_(setup), filter_(setup.index) {}
+Forecaster::Forecaster(const Setup& setup)
+    : setup_(&setup),
+      navigator_(setup),
+      courses_(setup.config.constraints.non_holonomic.enabled ? kCoursesOfWheels : 1, Course(setup.index)) {}
 
 // What was refused, or has nothing to say, will not aid.
 void Forecaster::remember(int sensor, const EventSample& sample) {
@@ -88,7 +116,7 @@ void Forecaster::take(const Navigator& navigator) {
   navigator_.record_to(nullptr);
   navigator_.follow();
   taken_ = past_;
-  first_ = -1;
+  likely_ = -1;
 }
 
 bool Forecaster::aids(int sensor, int instrument, const Instrument& known) const {
@@ -108,60 +136,91 @@ bool Forecaster::aids(int sensor) const {
 }
 
 void Forecaster::begin() {
-  // (FC-1)
-  filter_ = navigator_.filter();
-  state_ = navigator_.state();
-  const NavSolution& nav = state_.nav;
-  ahead_s_ = 0.0;
-  turned_rad_ = turn_of_pattern_rad_ = 0.0;
   const MotionMemory& memory = taken_.motion;
-  if (memory.size() >= kLeastMemory) {
-    // (FC-2)
-    if (first_ < 0) first_ = memory.likely_next();
-    second_ = first_;
-    turned_rad_ = turn_of_pattern_rad_ =
-        turn_about_down_rad(memory.at(std::max(first_ - 1, 0)).q_NB, memory.at(memory.size() - 1).q_NB);
+  if (memory.size() < kLeastMemory) {
+    count_ = 1;
+    begin(courses_[0], -1);
+    return;
   }
-  still_ = {};
-  still_.q_NB = nav.q_NB;
-  still_.v_N_m_s = nav.v_N_m_s;
-  const double gravity = geo::gravity(nav.position.latitude_rad, nav.position.altitude_m);
-  still_.force_B_m_s2 = geo::to_matrix(nav.q_NB).transpose() * Vector3d(0.0, 0.0, -gravity);
+  count_ = courses_.size();
+  // (FC-2)
+  if (likely_ < 0) likely_ = memory.likely_next();
+  begin(courses_[0], likely_);
+  // (FC-3)
+  const auto others = static_cast<int>(count_) - 1;
+  for (int i = 0; i < others; ++i)
+    begin(courses_[static_cast<std::size_t>(i) + 1], i * memory.size() / others);
 }
 
-const MotionMemory::Second& Forecaster::next_second() {
-  const MotionMemory& memory = taken_.motion;
-  if (memory.size() < kLeastMemory) return still_;
-  if (second_ == memory.size()) {
-    second_ = first_;
-    turned_rad_ += turn_of_pattern_rad_;
+void Forecaster::begin(Course& course, int first) const {
+  // (FC-1)
+  course.filter = navigator_.filter();
+  course.state = navigator_.state();
+  course.ahead_s = 0.0;
+  course.first = course.second = first;
+  course.turned_rad = course.turn_of_pattern_rad = 0.0;
+  if (first >= 0) {
+    const MotionMemory& memory = taken_.motion;
+    course.turned_rad = course.turn_of_pattern_rad =
+        turn_about_down_rad(memory.at(std::max(first - 1, 0)).q_NB, memory.at(memory.size() - 1).q_NB);
   }
-  return memory.at(second_++);
+  const NavSolution& nav = course.state.nav;
+  course.straight = {};
+  course.straight.q_NB = nav.q_NB;
+  course.straight.v_N_m_s = nav.v_N_m_s;
+  const double gravity = geo::gravity(nav.position.latitude_rad, nav.position.altitude_m);
+  course.straight.force_B_m_s2 = geo::to_matrix(nav.q_NB).transpose() * Vector3d(0.0, 0.0, -gravity);
+}
+
+const MotionMemory::Second& Forecaster::next_second(Course& course) const {
+  if (course.second < 0) return course.straight;
+  const MotionMemory& memory = taken_.motion;
+  if (course.second == memory.size()) {
+    course.second = course.first;
+    course.turned_rad += course.turn_of_pattern_rad;
+  }
+  return memory.at(course.second++);
 }
 
 void Forecaster::step(int lost, double dt_s) {
-  const MotionMemory::Second& motion = next_second();
-  NavSolution& nav = state_.nav;
-  nav.q_NB = geo::exp({0.0, 0.0, turned_rad_}) * motion.q_NB;
-  nav.v_N_m_s = Eigen::AngleAxisd(turned_rad_, Vector3d::UnitZ()) * motion.v_N_m_s;
+  for (std::size_t i = 0; i < count_; ++i) step(courses_[i], lost, dt_s);
+}
+
+void Forecaster::step(Course& course, int lost, double dt_s) const {
+  const MotionMemory::Second& motion = next_second(course);
+  NavSolution& nav = course.state.nav;
+  nav.q_NB = geo::exp({0.0, 0.0, course.turned_rad}) * motion.q_NB;
+  nav.v_N_m_s = Eigen::AngleAxisd(course.turned_rad, Vector3d::UnitZ()) * motion.v_N_m_s;
   const Eigen::Matrix3d c = geo::to_matrix(nav.q_NB);
   ProcessNoise noise = setup_->process_noise(c, SquaredInputs(c, motion.rate_B_rad_s, motion.force_B_m_s2));
   navigator_.estimate().motion_noise.widen(setup_->imu_noise, noise);
-  filter_.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s), noise);
-  navigator_.drive_biases(filter_, ahead_s_, dt_s);
-  ahead_s_ += dt_s;
+  course.filter.propagate(NavTransition(setup_->index, nav, motion.rate_B_rad_s, motion.force_B_m_s2, dt_s),
+                          noise);
+  navigator_.drive_biases(course.filter, course.ahead_s, dt_s);
+  course.ahead_s += dt_s;
+  const AidingState state(setup_->index, course.state, motion.rate_B_rad_s, 0.0, motion.force_B_m_s2);
+  constrain(course, state, dt_s);
   if (lost == kAll) return;
-  const AidingState state(setup_->index, state_, motion.rate_B_rad_s, 0.0, motion.force_B_m_s2);
   for (int i = 0; i < static_cast<int>(setup_->config.sensors.size()); ++i) {
     if (i == lost) continue;
-    aid(i, i, navigator_.sensor(i), state, dt_s);
+    aid(course, i, i, navigator_.sensor(i), state, dt_s);
     if (const Instrument* layer = navigator_.water_layer(i))
-      aid(i, kMaxSensors + setup_->water_layer[static_cast<std::size_t>(i)], *layer, state, dt_s);
+      aid(course, i, kMaxSensors + setup_->water_layer[static_cast<std::size_t>(i)], *layer, state, dt_s);
   }
 }
 
-void Forecaster::aid(int sensor, int instrument, const Instrument& known, const AidingState& state,
-                     double dt_s) {
+void Forecaster::constrain(Course& course, const AidingState& state, double dt_s) const {
+  const ConstraintsConfig& config = setup_->config.constraints;
+  if (config.non_holonomic.enabled)
+    hold(*setup_, NonHolonomic(state, config.non_holonomic), config.non_holonomic.rate_hz * dt_s,
+         course.filter);
+  if (config.constant_depth.enabled)
+    hold(*setup_, ConstantDepth(state, config.constant_depth.sigma_m_s), config.constant_depth.rate_hz * dt_s,
+         course.filter);
+}
+
+void Forecaster::aid(Course& course, int sensor, int instrument, const Instrument& known,
+                     const AidingState& state, double dt_s) const {
   if (!aids(sensor, instrument, known)) return;
   const SensorConfig& config = setup_->config.sensors[static_cast<std::size_t>(sensor)];
   // The last sample is about one second old in the forecast's eyes, whatever its rate.
@@ -172,7 +231,7 @@ void Forecaster::aid(int sensor, int instrument, const Instrument& known, const 
                           .vehicle_model = &setup_->config.vehicle_model,
                           .water = modelled ? &navigator_.water_velocity() : nullptr,
                           .unused_s = dt_s,
-                          .position_covariance_N_m2 = filter_.block3(0, 0),
+                          .position_covariance_N_m2 = course.filter.block3(0, 0),
                           .gps_bias_sigma_N_m = navigator_.gps_bias_sigma_N_m()};
   Observation observation;
   for (const AidingEntry& entry : aiding_registry())
@@ -180,11 +239,18 @@ void Forecaster::aid(int sensor, int instrument, const Instrument& known, const 
       (void)entry.observe(input, taken_.last[static_cast<std::size_t>(instrument)], observation);
   if (observation.rows == 0) return;
   if (config.max_noise_factor > 1.0 && !modelled) known.noise.widen(observation);
-  observation.list_columns(setup_->index.size());
-  InnovationStatistics statistics;
-  std::array<double, kMaxStates> ignored{};
-  filter_.statistics(observation, kStep_s / dt_s, statistics);
-  (void)filter_.update(observation, statistics, ignored);
+  take_in(*setup_, observation, kStep_s / dt_s, course.filter);
+}
+
+Forecaster::Reach Forecaster::reach() const {
+  Reach out(courses_[0].filter);
+  for (std::size_t i = 1; i < count_; ++i) {
+    const Reach other(courses_[i].filter);
+    out.horizontal = wider(out.horizontal, other.horizontal);
+    out.vertical = wider(out.vertical, other.vertical);
+    out.heading = wider(out.heading, other.heading);
+  }
+  return out;
 }
 
 double Forecaster::horizontal_95_m(double after_s) {
@@ -195,14 +261,14 @@ double Forecaster::horizontal_95_m(double after_s) {
     step(kNone, dt);
     elapsed += dt;
   }
-  return measure(filter_).horizontal.within_95;
+  return reach().horizontal.within_95;
 }
 
 void Forecaster::follow(int lost, Forecast& out, std::uint32_t first) {
   const auto& limits = setup_->config.forecast_limits;
   constexpr double kNever = std::numeric_limits<double>::infinity();
   begin();
-  const Now start = measure(filter_);
+  const Reach start = reach();
   for (std::size_t i = 0; i < limits.size(); ++i) {
     ForecastLimit& limit = out.limits[first + i];
     limit = {};
@@ -211,21 +277,21 @@ void Forecaster::follow(int lost, Forecast& out, std::uint32_t first) {
     if (lost >= 0)
       limit.without = std::string_view(setup_->config.sensors[static_cast<std::size_t>(lost)].sensor);
     limit.limit = limits[i].limit;
-    const Uncertainty& now = of(start, limits[i].name);
+    const Uncertainty& now = start.of(limits[i].name);
     limit.now = now.within_95;
     limit.time_to_limit_s = now.within_95 >= limit.limit ? 0.0 : kNever;
     limit.time_expected_s = now.median >= limit.limit ? 0.0 : kNever;
   }
-  Now before = start;
+  Reach before = start;
   bool open = true;
   for (double elapsed = 0.0; elapsed < setup_->config.forecast_span_s && open; elapsed += kStep_s) {
     step(lost, kStep_s);
-    const Now after = measure(filter_);
+    const Reach after = reach();
     open = false;
     for (std::size_t i = 0; i < limits.size(); ++i) {
       ForecastLimit& limit = out.limits[first + i];
-      const Uncertainty& low = of(before, limits[i].name);
-      const Uncertainty& high = of(after, limits[i].name);
+      const Uncertainty& low = before.of(limits[i].name);
+      const Uncertainty& high = after.of(limits[i].name);
       pass(limit.time_to_limit_s, limit.limit, low.within_95, high.within_95, elapsed, kStep_s);
       pass(limit.time_expected_s, limit.limit, low.median, high.median, elapsed, kStep_s);
       open = open || std::isinf(limit.time_expected_s);
@@ -251,7 +317,7 @@ void Forecaster::fill(Forecast& out) {
     }
     return;
   }
-  const Now now = measure(navigator_.filter());
+  const Reach now(navigator_.filter());
   out.horizontal_95_m = now.horizontal.within_95;
   out.vertical_95_m = now.vertical.within_95;
   out.heading_95_rad = now.heading.within_95;

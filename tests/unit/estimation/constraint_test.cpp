@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "estimation/aiding/non_holonomic.hpp"
+#include "samples/forecast.hpp"
+#include "samples/uncertainty.hpp"
+#include "support/vehicles/road_run.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom::estimation {
@@ -69,6 +72,62 @@ TEST(Constraints, AWrongConstraintIsWeighedDown) {
   level.constant_depth.enabled = true;
   level.constant_depth.sigma_m_s = 0.01;
   EXPECT_LT(end_error_m(level, run), 2.0 * end_error_m({}, run) + 5.0);
+}
+
+/// What was forecast when GPS ended, and what the estimate then came to.
+struct Outage {
+  double forecast_95_m = kUnknown;
+  double reached_95_m = kUnknown;
+};
+
+Outage outage(const ConstraintsConfig& constraints, const test::RoadRun& run, double from_s, double for_s) {
+  EngineConfig config = test::RoadRun::config();
+  config.groups.mount_angles = true;
+  config.constraints = constraints;
+  FusionEngine engine(config);
+  Outage out;
+  for (const auto& sample : run.samples) {
+    const double t = to_seconds(test::header(sample).stamp_ns - test::RoadRun::kEpochNs);
+    if (t >= from_s && !known(out.forecast_95_m)) out.forecast_95_m = engine.forecast_horizontal_95_m(for_s);
+    if (t >= from_s + for_s) break;
+    if (t < from_s || std::holds_alternative<ImuSample>(sample)) test::feed(engine, sample);
+  }
+  out.reached_95_m = horizontal_95_m(engine.nav_state().position_covariance_N_m2);
+  return out;
+}
+
+// (FC-1, FC-3)
+TEST(Constraints, AForecastReckonsWithWheels) {
+  const test::RoadRun run({});
+  ConstraintsConfig wheels;
+  wheels.non_holonomic.enabled = true;
+  wheels.non_holonomic.lateral_sigma_m_s = wheels.non_holonomic.vertical_sigma_m_s = 0.2;
+  for (const double from_s : {80.0, 90.0, 100.0}) {
+    for (const double for_s : {20.0, 50.0}) {
+      const Outage held = outage(wheels, run, from_s, for_s);
+      // As sure as the estimate comes to be, though nobody knows the turns to come.
+      EXPECT_GT(held.forecast_95_m, 0.9 * held.reached_95_m) << from_s << " " << for_s;
+      EXPECT_LT(held.forecast_95_m, 1.5 * held.reached_95_m) << from_s << " " << for_s;
+      if (for_s > 40.0) {
+        EXPECT_LT(held.forecast_95_m, 0.4 * outage({}, run, from_s, for_s).forecast_95_m) << from_s;
+      }
+    }
+  }
+}
+
+TEST(Constraints, AForecastReckonsWithAVehicleThatKeepsItsDepth) {
+  const test::RoadRun run({.duration_s = 80.0});
+  const auto vertical_10m_s = [&](bool keeps) {
+    EngineConfig config = test::RoadRun::config();
+    config.constraints.constant_depth.enabled = keeps;
+    config.forecast_limits = {{"vertical_10m", 10.0}};
+    FusionEngine engine(config);
+    for (const auto& sample : run.samples) test::feed(engine, sample);
+    Forecast forecast;
+    engine.fill(forecast);
+    return forecast.limits[0].time_to_limit_s;
+  };
+  EXPECT_GT(vertical_10m_s(true), 2.0 * vertical_10m_s(false));
 }
 
 }  // namespace
