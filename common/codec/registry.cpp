@@ -13,6 +13,7 @@
 #include "codec/dvl/pd0.hpp"
 #include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
+#include "codec/heading/nmea_attitude.hpp"
 #include "codec/imu/microstrain.hpp"
 #include "codec/imu/sbg.hpp"
 #include "codec/imu/stim300.hpp"
@@ -71,6 +72,8 @@ constexpr std::array<std::string_view, 2> kAsciiAirDataAliases{"air_data", "air_
 constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "openvario",
                                                               "nmea0183_air_data"};
 
+constexpr std::array<std::string_view, 8> kNmeaAttitudeAliases{
+    "attitude", "pashr", "psat_hpr", "ptnthpr", "ohpr", "oceanserver", "prdid", "nmea0183_attitude"};
 constexpr std::array<std::string_view, 2> kFixTextAliases{"fix", "pfthx"};
 constexpr std::array<std::string_view, 2> kMavlinkAliases{"ardusub", "mavlink2"};
 constexpr std::array<std::string_view, 5> kNovatelAliases{"oem6", "oem7", "novatel_oem7", "novatel_binary",
@@ -86,6 +89,8 @@ constexpr std::string_view kSbgDescription =
     "SBG Systems sbgECom with IMU_SHORT or IMU_DATA, GPS1_POS and GPS1_VEL, or GPS1_HDT";
 constexpr std::string_view kNovatelDescription =
     "NovAtel OEM6 and OEM7 binary: BESTPOS and BESTVEL, HEADING2 or DUALANTENNAHEADING";
+constexpr std::string_view kNmeaAttitudeDescription =
+    "headings of attitude sentences: PASHR, PSAT,HPR, PTNTHPR, OHPR and $C of OceanServer, PRDID";
 constexpr std::string_view kNoGreeting;
 
 const auto kProtocols = std::to_array<Protocol>({
@@ -165,6 +170,7 @@ const auto kProtocols = std::to_array<Protocol>({
      make_ascii_air_data, DeviceClock::none},
     {"nmea_air_data", kNmeaAirDataAliases, "air data as NMEA 0183 XDR, MWV, VWR or OpenVario $POV",
      make_nmea_air_data, DeviceClock::none},
+    {"nmea_attitude", kNmeaAttitudeAliases, kNmeaAttitudeDescription, make_nmea_attitude, DeviceClock::none},
     {"micromodem", kMicromodemAliases, "WHOI Micro-Modem ranges to modems and transponders", make_micromodem,
      DeviceClock::none},
     {"gpsd", kGpsdAliases, "reports of gpsd, JSON over TCP", make_gpsd, DeviceClock::none, kGpsdGreeting},

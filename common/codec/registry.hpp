@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "base/name.hpp"
 #include "codec/air/air_report.hpp"
 #include "codec/codec.hpp"
+#include "samples/heading.hpp"
 
 namespace fathom::codec {
 
@@ -67,6 +69,8 @@ struct CodecOptions {
   double ascii_offset = 0.0;
   /// Rotation of the recorded instrument axes about down onto the vehicle, for DVLs in instrument axes.
   double dvl_heading_alignment_rad = 0.0;
+  /// Attitude sentences: the north of those that do not say it; unset: that of their makers.
+  std::optional<North> untold_north{};
   int mavlink_system = 0;  ///< of the autopilot that counts; 0: of the first that is heard
   AirDataOptions air_data;
   BeaconOptions beacons;

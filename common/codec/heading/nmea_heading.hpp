@@ -7,6 +7,9 @@
 
 namespace fathom::codec {
 
+/// A field in degrees as heading, [0, 2 pi); kUnknown where empty.
+[[nodiscard]] double read_heading(FieldReader& fields, std::size_t index);
+
 /// HDT, HDM, HDG, THS.
 [[nodiscard]] bool is_heading(const Sentence& sentence);
 

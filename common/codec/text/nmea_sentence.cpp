@@ -22,8 +22,18 @@ std::string_view as_text(Bytes bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Where the fields end, or what is wrong with what comes before.
-Probe probe_body(std::string_view text, std::size_t from, bool require_checksum) {
+}  // namespace
+
+std::uint8_t nmea_checksum(std::string_view between_dollar_and_star) {
+  std::uint8_t sum = 0;
+  for (const char c : between_dollar_and_star) {
+    sum = static_cast<std::uint8_t>(sum ^ static_cast<std::uint8_t>(c));
+  }
+  return sum;
+}
+
+Probe probe_fields(Bytes front, std::size_t from, bool require_checksum) {
+  const std::string_view text = as_text(front);
   std::uint8_t sum = nmea_checksum(text.substr(1, from - 1));
   for (std::size_t i = from; i < text.size(); ++i) {
     const char c = text[i];
@@ -47,16 +57,6 @@ Probe probe_body(std::string_view text, std::size_t from, bool require_checksum)
   return Probe::need();
 }
 
-}  // namespace
-
-std::uint8_t nmea_checksum(std::string_view between_dollar_and_star) {
-  std::uint8_t sum = 0;
-  for (const char c : between_dollar_and_star) {
-    sum = static_cast<std::uint8_t>(sum ^ static_cast<std::uint8_t>(c));
-  }
-  return sum;
-}
-
 Probe probe_sentence(Bytes front, bool require_checksum) {
   if (!starts_sentence(front[0])) {
     std::size_t count = 1;
@@ -69,7 +69,7 @@ Probe probe_sentence(Bytes front, bool require_checksum) {
   if (end > kMaxAddress + 1) return Probe::skip(1);
   if (end == text.size()) return Probe::maybe();
   if (end - 1 < kMinAddress || (text[end] != ',' && text[end] != '*')) return Probe::skip(1);
-  return probe_body(text, end, require_checksum);
+  return probe_fields(front, end, require_checksum);
 }
 
 Sentence split_sentence(Bytes frame) {

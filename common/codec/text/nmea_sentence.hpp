@@ -29,6 +29,9 @@ struct Sentence {
 /// the line end, where the configuration allows that.
 [[nodiscard]] Probe probe_sentence(Bytes front, bool require_checksum);
 
+/// The rest of it: what follows `from` bytes that begin a sentence.
+[[nodiscard]] Probe probe_fields(Bytes front, std::size_t from, bool require_checksum);
+
 /// XOR of all bytes.
 [[nodiscard]] std::uint8_t nmea_checksum(std::string_view between_dollar_and_star);
 

@@ -45,7 +45,7 @@ std::string protocol_named(const std::string& text) {
 template <class Sensor>
 void require_checksum(Schema<Sensor>& s) {
   s.field("require_checksum", &Sensor::require_checksum, "NMEA 0183 sentences without a checksum are refused")
-      .only_for({"nmea0183", "psimssb", "psonlld"});
+      .only_for({"nmea0183", "nmea_attitude", "psimssb", "psonlld"});
 }
 
 }  // namespace
@@ -206,6 +206,11 @@ void describe(Schema<DepthSensorConfig>& s) {
 void describe(Schema<HeadingSensorConfig>& s) {
   s.include(&HeadingSensorConfig::sensor);
   require_checksum(s);
+  s.field("north", &HeadingSensorConfig::north,
+          "which north the heading is from where the sentence does not say it; null: magnetic of PTNTHPR, "
+          "OHPR and $C, true of PRDID")
+      .words({{"true", North::true_north}, {"magnetic", North::magnetic}})
+      .only_for({"nmea_attitude"});
 }
 
 void describe(Schema<UsblSensorConfig>& s) {

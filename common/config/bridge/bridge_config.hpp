@@ -121,6 +121,7 @@ struct AirTransducers {
 struct HeadingSensorConfig {
   SensorConfig sensor;
   bool require_checksum = true;
+  std::optional<North> north;  ///< of sentences that do not say it; none: that of their makers
 };
 
 struct UsblSensorConfig {

@@ -110,6 +110,7 @@ SensorPlan sensor_plan(const DepthSensorConfig& config) {
 SensorPlan sensor_plan(const HeadingSensorConfig& config) {
   SensorPlan out = plan_of(config.sensor);
   out.options.require_checksum = config.require_checksum;
+  out.options.untold_north = config.north;
   return out;
 }
 

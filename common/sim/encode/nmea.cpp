@@ -171,6 +171,14 @@ std::string nmea_heading(const HeadingSample& sample, std::string_view talker) {
                        east_west_text(sample.deviation_rad) + "," + east_west_text(sample.variation_rad));
 }
 
+std::string nmea_attitude(const HeadingSample& sample, TimeNs utc_ns) {
+  const std::string heading = decimal(turn_deg(sample.heading_rad), 3);
+  if (sample.north == North::magnetic) return nmea_sentence("OHPR," + heading + ",,,");
+  const std::string sigma = decimal(sample.sigma_rad * kDegPerRad, 3);
+  return nmea_sentence("PASHR," + time_text(civil_to_millisecond(utc_ns)) + "," + heading + ",T,,,,,," +
+                       sigma + (known(sample.heading_rad) ? ",2,1" : ",0,0"));
+}
+
 std::string nmea_rpm(const PropulsionSample& sample, std::string_view talker) {
   return nmea_sentence(std::string(talker) + "RPM,S,1," + decimal(sample.rpm, 2) + ",," +
                        (known(sample.rpm) ? 'A' : 'V'));

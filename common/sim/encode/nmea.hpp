@@ -24,6 +24,10 @@ namespace fathom::sim::encode {
 /// field.
 [[nodiscard]] std::string nmea_heading(const HeadingSample& sample, std::string_view talker = "HE");
 
+/// PASHR for true heading, OHPR for magnetic, which cannot say the variation. Neither says roll and pitch.
+/// Unknown heading is an empty field; `utc_ns` is when it was valid.
+[[nodiscard]] std::string nmea_attitude(const HeadingSample& sample, TimeNs utc_ns);
+
 /// RPM of shaft 1; unknown is sent with status V.
 [[nodiscard]] std::string nmea_rpm(const PropulsionSample& sample, std::string_view talker = "II");
 

@@ -46,6 +46,8 @@ Bytes SimulatedDevice<HeadingSample>::encode(const HeadingSample& heading, const
     const TimeNs stamp_ns = heading.header.stamp_ns;
     return encode::sbg_gps_heading(heading, stamp_ns, stamp_ns - device.power_on_ns);
   }
+  if (device.protocol == "nmea_attitude")
+    return bytes_of(encode::nmea_attitude(heading, heading.header.stamp_ns));
   return bytes_of(encode::nmea_heading(heading));
 }
 

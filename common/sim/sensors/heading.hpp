@@ -46,7 +46,8 @@ struct ModelOf<HeadingSample> {
 template <>
 class SimulatedDevice<HeadingSample> {
  public:
-  static constexpr std::array<std::string_view, 5> kProtocols{"nmea0183", "ubx", "novatel", "sbf", "sbg"};
+  static constexpr std::array<std::string_view, 6> kProtocols{"nmea0183", "ubx", "novatel",
+                                                              "sbf",      "sbg", "nmea_attitude"};
   [[nodiscard]] Bytes encode(const HeadingSample& heading, const DeviceCall& device);
 };
 

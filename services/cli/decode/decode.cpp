@@ -222,6 +222,14 @@ void add_decode(CLI::App& app, ExitCode& /*exit_code*/) {
       "--usbl-on-vehicle", [options] { options->codec.usbl.carrier = codec::UsblCarrier::vehicle; },
       "EvoLogics: the vehicle carries the head, not a station");
   command
+      ->add_option_function<std::string>(
+          "--north",
+          [options](const std::string& north) {
+            options->codec.untold_north = north == "true" ? North::true_north : North::magnetic;
+          },
+          "Attitude sentences that do not say it: true or magnetic")
+      ->check(CLI::IsMember({"true", "magnetic"}));
+  command
       ->add_option("--mavlink-system", options->codec.mavlink_system,
                    "MAVLink: system id of the autopilot; 0: of the first that is heard")
       ->check(CLI::Range(0, 255));

@@ -23,6 +23,7 @@
 #include "sim/encode/sbf.hpp"
 #include "sim/encode/ubx.hpp"
 #include "support/codec/novatel_seed.hpp"
+#include "support/codec/text_seeds.hpp"
 
 namespace fathom::test {
 namespace {
@@ -267,19 +268,6 @@ void air_data_sentences(ByteVector& stream, int frame) {
   append(stream, sim::encode::nmea_sentence("IIXDR,G,100.0,N,TAS"));
 }
 
-void gpsd_reports(ByteVector& stream, int frame) {
-  const std::string time = to_iso8601(instant(frame));
-  append(stream, R"({"class":"GST","device":"/dev/ttyS0","time":")" + time +
-                     R"(","lat":0.5,"lon":0.6,"alt":1.2})"
-                     "\r\n");
-  append(stream, R"({"class":"SKY","device":"/dev/ttyS0","hdop":0.90,"uSat":9,"satellites":[{"PRN":2}]})"
-                 "\r\n");
-  append(stream, R"({"class":"TPV","device":"/dev/ttyS0","mode":3,"time":")" + time +
-                     R"(","lat":36.4,"lon":-127.3)" + std::to_string(frame) +
-                     R"(,"altHAE":44.1,"altMSL":18.5,"track":12.5,"speed":1.25,"climb":-0.1,"eps":0.2})"
-                     "\r\n");
-}
-
 void telemetry(ByteVector& stream, int frame) {
   const mavlink::Sender autopilot{1, 1};
   const auto put = [&](const auto& message) {
@@ -364,12 +352,14 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     append(stream, sim::encode::ascii_air_data(air(frame), seed_options(protocol)));
   } else if (protocol == "nmea_air_data") {
     air_data_sentences(stream, frame);
+  } else if (protocol == "nmea_attitude") {
+    append(stream, attitude_sentences(heading_of_antennas(frame), instant(frame), frame));
   } else if (protocol == "micromodem") {
     append(stream, sim::encode::nmea_sentence("CAMPR,1" + std::to_string(frame % 3) + ",1,0.2500"));
     append(stream, sim::encode::nmea_sentence("SNTTA,0.1,,0.3," + std::to_string(frame) + ".5,120000.00"));
     append(stream, sim::encode::nmea_sentence("CAREV,120000,AUV,0.93.0.30"));
   } else if (protocol == "gpsd") {
-    gpsd_reports(stream, frame);
+    append(stream, gpsd_reports(instant(frame), frame));
   } else if (protocol == "mavlink") {
     telemetry(stream, frame);
   } else if (protocol == "fix_text") {

@@ -181,5 +181,29 @@ INSTANTIATE_TEST_SUITE_P(Folders, NmeaCaptures,
                            return name;
                          });
 
+/// Each PASHR of the recording as text, the columns cut here.
+TEST(AttitudeCaptures, AnInertialSystemOnTheRoadSaysItsHeadingAndHowGoodItIs) {
+  const auto file = root() / "nmea0183_depth_heading/rst39.log";
+  if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not there");
+  const Harvest run = decode("nmea_attitude", load(file));
+  EXPECT_TRUE(run.rejected.empty());
+  std::size_t count = 0;
+  for (const std::string& line : lines(file)) {
+    if (!line.starts_with("$PASHR,")) continue;
+    const auto columns = split(line, ',');
+    ASSERT_LT(count, run.samples.size());
+    const auto& got = std::get<HeadingSample>(run.samples[count].sample);
+    EXPECT_NEAR(got.heading_rad * kDegPerRad, std::stod(columns.at(2)), 1e-9) << line;
+    EXPECT_NEAR(got.sigma_rad * kDegPerRad, std::stod(columns.at(9)), 1e-9) << line;
+    EXPECT_EQ(got.north, North::true_north);
+    EXPECT_NEAR(to_seconds(run.samples[count].time.time_of_day_ns.value_or(0)),
+                (20 * 60 + 41) * 60 + std::stod(columns.at(1).substr(4)), 1e-6);
+    ++count;
+  }
+  EXPECT_EQ(count, 100U);
+  EXPECT_EQ(run.samples.size(), count);
+  report(file, run, 3 * count, 0);
+}
+
 }  // namespace
 }  // namespace fathom::codec::capture

@@ -16,8 +16,8 @@ struct Folder {
 };
 
 const std::vector<Folder>& folders() {
-  static const std::vector<Folder> all{{"nmea0183", {"nmea0183", "ubx"}},
-                                       {"nmea0183_depth_heading", {"nmea0183"}},
+  static const std::vector<Folder> all{{"nmea0183", {"nmea0183", "nmea_attitude", "ubx"}},
+                                       {"nmea0183_depth_heading", {"nmea0183", "nmea_attitude"}},
                                        {"ubx", {"ubx", "nmea0183"}},
                                        {"pd0", {"pd0"}},
                                        {"waterlinked_json", {"waterlinked"}},

@@ -114,7 +114,8 @@ TEST(BridgeConfig, AKeyOfAnotherProtocolIsRefused) {
        known_where("heading_alignment_deg: is 0, ", "protocol is waterlinked",
                    "protocol is one of pd0, pd6")},
       {refused<GpsBridgeConfig>("gps_bridge", {"sensors.0.protocol=ubx", "sensors.0.require_checksum=true"}),
-       known_where("require_checksum: is true, ", "protocol is ubx", "protocol is one of nmea0183, psimssb")},
+       known_where("require_checksum: is true, ", "protocol is ubx",
+                   "protocol is one of nmea0183, nmea_attitude, psimssb")},
       {refused<AirDataBridgeConfig>("air_data_bridge", {"sensors.0.transducers.total_pressure=P"}),
        known_where("transducers: is {\"total_pressure\":\"P\"}, ", "protocol is ascii_air_data",
                    "protocol is one of nmea_air_data")},
@@ -193,6 +194,20 @@ TEST(BridgeConfig, WhatAStim300DoesNotSayReachesItsCodec) {
   EXPECT_NE(mistake("sensors.0.stim300.increments_hz=100").find("250, 500, 1000 or 2000"), std::string::npos);
   EXPECT_NE(refused<ImuBridgeConfig>("imu_bridge", {"sensors.0.stim300.accel_range_g=5"})
                 .find("protocol is one of stim300"),
+            std::string::npos);
+}
+
+TEST(BridgeConfig, TheNorthOfASentenceThatDoesNotSayItReachesItsCodec) {
+  const auto plan = [](const std::string& set) {
+    return sensor_plans(shipped<HeadingBridgeConfig>("heading_bridge", {"sensors.0.protocol=pashr", set}))
+        .at(0)
+        .options.untold_north;
+  };
+  EXPECT_FALSE(plan("sensors.0.north=null"));
+  EXPECT_EQ(plan(R"(sensors.0.north="true")"), North::true_north);
+  EXPECT_EQ(plan("sensors.0.north=magnetic"), North::magnetic);
+  EXPECT_NE(refused<HeadingBridgeConfig>("heading_bridge", {"sensors.0.north=magnetic"})
+                .find("protocol is one of nmea_attitude"),
             std::string::npos);
 }
 

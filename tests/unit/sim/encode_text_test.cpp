@@ -137,6 +137,36 @@ TEST(EncodeNmeaHeading, TrueMagneticAndUnknown) {
   EXPECT_EQ(only<HeadingSample>(decode_whole("heading", bytes_of(nmea_heading(full_turn)))).heading_rad, 0.0);
 }
 
+TEST(EncodeNmeaAttitude, TrueWithItsSigmaMagneticAndUnknown) {
+  const auto read = [](const HeadingSample& sent) {
+    return decode_whole("nmea_attitude", bytes_of(nmea_attitude(sent, instant())));
+  };
+  HeadingSample sent;
+  sent.sigma_rad = 0.25 * kRadPerDeg;
+  for (double heading_deg = 0.0; heading_deg < 360.0; heading_deg += 7.3) {
+    sent.heading_rad = heading_deg * kRadPerDeg;
+    sent.north = North::true_north;
+    const DecodeRun run = read(sent);
+    EXPECT_EQ(run.samples.at(0).time.time_of_day_ns, 86'399 * kNsPerSecond + 500 * kNsPerMillisecond);
+    auto got = only<HeadingSample>(run);
+    EXPECT_EQ(got.north, North::true_north);
+    EXPECT_NEAR(got.heading_rad, sent.heading_rad, 1e-3 * kRadPerDeg);
+    EXPECT_NEAR(got.sigma_rad, sent.sigma_rad, 1e-3 * kRadPerDeg);
+    sent.north = North::magnetic;
+    got = only<HeadingSample>(read(sent));
+    EXPECT_EQ(got.north, North::magnetic);
+    EXPECT_NEAR(got.heading_rad, sent.heading_rad, 1e-3 * kRadPerDeg);
+  }
+  sent.heading_rad = kUnknown;
+  for (const North north : {North::true_north, North::magnetic}) {
+    sent.north = north;
+    const auto got = only<HeadingSample>(read(sent));
+    EXPECT_EQ(got.north, north);
+    EXPECT_FALSE(known(got.heading_rad));
+    EXPECT_FALSE(known(got.sigma_rad));
+  }
+}
+
 TEST(EncodeNmeaActuator, RpmAndFins) {
   PropulsionSample shaft;
   shaft.rpm = -1234.56;
