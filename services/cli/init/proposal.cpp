@@ -81,7 +81,7 @@ void add_model(SourceKind kind, const std::string& protocol, Proposal& out) {
     if (entry.kind == kind && entry.protocol == protocol) models.push_back(model);
   }
   if (models.empty()) return;
-  const bool own = protocol != "nmea0183" && !protocol.starts_with("ascii_");
+  const bool own = !protocol.starts_with("nmea") && !protocol.starts_with("ascii_");
   if (models.size() == 1 && own) {
     out.instrument["model"] = models.front();
     out.notes.push_back("its protocol is that of model " + models.front());
@@ -134,6 +134,10 @@ Proposal proposal_of(const Heard& heard, const SeenKind& kind, const std::string
   if (made.has_place) made.instrument["position_m"] = {0.0, 0.0, 0.0};
   if (key_of("mounting_rpy_deg", kind.kind).required) add_mounting(seen, made);
   if (kind.kind == SourceKind::depth) add_depth(seen, made);
+  if (seen.protocol == "nmea_attitude") {
+    made.notes.push_back(
+        "where its sentence does not say which north the heading is from, north of its bridge does");
+  }
   if (kind.kind == SourceKind::propulsion || kind.kind == SourceKind::fins) {
     made.instrument["fusion"] = {{"enabled", false}};
     made.notes.push_back("navigation does without it until fusion.enabled and what it means are said");

@@ -18,10 +18,11 @@ struct Demand {
 /// So soon behind the first sample comes what waited with it.
 constexpr DurationNs kGathered_ns = 50 * kNsPerMillisecond;
 
-/// The lower, the less likely it is that anything else looks like it.
+/// The lower, the less likely it is that anything else looks like it. A line of several NMEA sentences is
+/// nmea0183 before it is nmea_attitude: a position beside the attitude is not passed over.
 int rank_of(std::string_view protocol) {
   if (protocol == "nmea0183" || protocol == "pd6") return 1;
-  if (protocol == "nmea_air_data" || protocol == "paroscientific") return 2;
+  if (protocol == "nmea_air_data" || protocol == "nmea_attitude" || protocol == "paroscientific") return 2;
   if (protocol.starts_with("ascii_")) return 3;
   return 0;
 }

@@ -10,6 +10,7 @@
 #include "cli/init/proposal.hpp"
 #include "cli/init/recognizer.hpp"
 #include "geo/so3.hpp"
+#include "sim/encode/nmea.hpp"
 #include "support/codec/seed_streams.hpp"
 
 namespace fathom::cli {
@@ -94,6 +95,25 @@ TEST(Recognizer, WhatHadGatheredBeforeItWasHeardTellsNoRate) {
   EXPECT_NEAR(found->kinds.front().rate_hz, static_cast<double>(once), 0.01);
 }
 
+TEST(Recognizer, OfSeveralSentencesOnOneLineThePositionIsNotPassedOver) {
+  using sim::encode::nmea_sentence;
+  const auto protocol_of = [](const std::string& text) {
+    const auto found = recognised({text.begin(), text.end()});
+    return found ? found->protocol : "";
+  };
+  const std::string pashr = nmea_sentence("PASHR,163029.000,158.09,T,-0.3,0.3,0.0,0.029,0.029,0.059,1,1");
+  const std::string hdt = nmea_sentence("HEHDT,158.09,T");
+  EXPECT_EQ(protocol_of(hdt), "nmea0183");
+  EXPECT_EQ(protocol_of(pashr), "nmea_attitude");
+  for (const char* body : {"PSAT,HPR,102143.00,356.881,-0.387,-0.4,N", "PTNTHPR,85.9,N,-0.9,N,0.8,N",
+                           "OHPR,237.7,-14.3,175.5,30.1", "C320.5P0.2R-18.3T19.0", "PRDID,-1.25,+0.50,12.0"})
+    EXPECT_EQ(protocol_of(nmea_sentence(body)), "nmea_attitude") << body;
+  EXPECT_EQ(protocol_of(pashr + hdt + pashr + pashr), "nmea0183");
+  const std::string fix =
+      nmea_sentence("GPGGA,163029.00,4000.0000000,N,00130.0000000,E,1,10,1.0,3.0,M,0.0,M,,");
+  EXPECT_EQ(protocol_of(pashr + pashr + fix + pashr), "nmea0183");
+}
+
 TEST(Proposal, RatesAreThoseThatPeopleSet) {
   EXPECT_EQ(tidy_rate_hz(99.2, 600), 100.0);
   EXPECT_EQ(tidy_rate_hz(10.03, 600), 10.0);
@@ -165,12 +185,16 @@ TEST(Proposal, OfAnAutopilotOneBridgeIsTaken) {
 TEST(Proposal, NamesTheModelsThatSpeakSo) {
   const auto made = propose({heard(SourceKind::imu, 100.0, "vectornav", "/dev/a"),
                              heard(SourceKind::usbl, 1.0, "psimssb", "/dev/b"),
-                             heard(SourceKind::heading, 10.0, "nmea0183", "/dev/c")});
-  ASSERT_EQ(made.size(), 3U);
+                             heard(SourceKind::heading, 10.0, "nmea0183", "/dev/c"),
+                             heard(SourceKind::heading, 10.0, "nmea_attitude", "/dev/d")});
+  ASSERT_EQ(made.size(), 4U);
   EXPECT_FALSE(made[0].instrument.contains("model")) << "several speak so, with figures of their own";
   EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("vectornav_vn100, vectornav_vn200")));
   EXPECT_EQ(made[1].instrument["model"], "kongsberg_hipap");
   EXPECT_FALSE(made[2].instrument.contains("model"));
+  EXPECT_FALSE(made[3].instrument.contains("model")) << "its protocol is no maker's own";
+  EXPECT_THAT(made[3].notes, ::testing::Contains(HasSubstr("oceanserver_os5000")));
+  EXPECT_THAT(made[3].notes, ::testing::Contains(HasSubstr("which north")));
 }
 
 TEST(Ports, AreReadAsPeopleWriteThem) {
