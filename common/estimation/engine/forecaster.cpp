@@ -21,8 +21,10 @@ constexpr double kDeviation50 = 0.674489750196082;
 constexpr int kLeastMemory = 10;
 /// An aiding sensor is taken to give one independent measurement in each.
 constexpr double kStep_s = 1.0;
-/// The likely one, and from four instants of the memory, evenly apart.
-constexpr std::size_t kCoursesOfWheels = 5;
+/// The likely one, from four instants of the memory, evenly apart, and straight ahead at first.
+constexpr std::size_t kCoursesOfWheels = 6;
+/// A road may be straight so long anywhere.
+constexpr double kStraight_s = 20.0;
 
 struct Uncertainty {
   double within_95 = 0.0;
@@ -147,9 +149,12 @@ void Forecaster::begin() {
   if (likely_ < 0) likely_ = memory.likely_next();
   begin(courses_[0], likely_);
   // (FC-3)
-  const auto others = static_cast<int>(count_) - 1;
+  if (count_ == 1) return;
+  const auto others = static_cast<int>(count_) - 2;
   for (int i = 0; i < others; ++i)
     begin(courses_[static_cast<std::size_t>(i) + 1], i * memory.size() / others);
+  begin(courses_.back(), likely_);
+  courses_.back().straight_for_s = kStraight_s;
 }
 
 void Forecaster::begin(Course& course, int first) const {
@@ -158,7 +163,7 @@ void Forecaster::begin(Course& course, int first) const {
   course.state = navigator_.state();
   course.ahead_s = 0.0;
   course.first = course.second = first;
-  course.turned_rad = course.turn_of_pattern_rad = 0.0;
+  course.straight_for_s = course.turned_rad = course.turn_of_pattern_rad = 0.0;
   if (first >= 0) {
     const MotionMemory& memory = taken_.motion;
     course.turned_rad = course.turn_of_pattern_rad =
@@ -173,7 +178,7 @@ void Forecaster::begin(Course& course, int first) const {
 }
 
 const MotionMemory::Second& Forecaster::next_second(Course& course) const {
-  if (course.second < 0) return course.straight;
+  if (course.second < 0 || course.ahead_s < course.straight_for_s) return course.straight;
   const MotionMemory& memory = taken_.motion;
   if (course.second == memory.size()) {
     course.second = course.first;

@@ -56,7 +56,8 @@ class Forecaster {
     double ahead_s = 0.0;  ///< of the present
     /// Remembered seconds from the first on and over again, turned about the vertical; none: straight ahead.
     int first = -1;
-    int second = -1;  ///< the next one
+    int second = -1;              ///< the next one
+    double straight_for_s = 0.0;  ///< before those
     double turned_rad = 0.0;
     double turn_of_pattern_rad = 0.0;
     MotionMemory::Second straight;
