@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "codec/codec.hpp"
@@ -11,6 +12,11 @@
 namespace fathom::codec {
 
 using Bytes = std::span<const std::uint8_t>;
+
+/// The same bytes, for as long as they are there.
+[[nodiscard]] inline std::string_view text_of(Bytes bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
 
 /// What stands at the front of the unread bytes.
 struct Probe {

@@ -27,10 +27,6 @@ constexpr double kOldest_s = 600.0;
 constexpr double kLongestTravel_us = 70e6;
 constexpr double kTurn = 6.2832;  // rad, as four decimals write it
 
-std::string_view text_of(Bytes bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 /// Whether one of both begins with the other.
 bool may_become(std::string_view front, std::string_view word) {
   const std::size_t common = std::min(front.size(), word.size());

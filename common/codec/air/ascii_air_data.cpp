@@ -41,7 +41,7 @@ class AsciiAirData final : public Framer {
   }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
-    std::string_view line(reinterpret_cast<const char*>(frame.data()), frame.size());
+    std::string_view line = text_of(frame);
     const auto refused = [&](RejectReason reason) { return Outcome::refused(reason, frame.size()); };
     if (const auto reason = take_checksum(line)) return refused(*reason);
     if (!line.starts_with(options_.prefix.view())) return Outcome::ignored();

@@ -43,7 +43,7 @@ class AsciiDepth final : public Framer {
   [[nodiscard]] Probe probe(Bytes front) const override { return probe_depth_line(front); }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
-    const std::string_view line = line_text(frame);
+    const std::string_view line = text_of(frame);
     const auto refused = [&](RejectReason reason) { return Outcome::refused(reason, frame.size()); };
     if (!checksum_right(line)) return refused(RejectReason::checksum);
     if (!line.starts_with(prefix_)) return Outcome::ignored();

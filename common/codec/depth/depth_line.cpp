@@ -25,10 +25,6 @@ Probe probe_depth_line(Bytes front) {
   return Probe::need();
 }
 
-std::string_view line_text(Bytes frame) {
-  return {reinterpret_cast<const char*>(frame.data()), frame.size()};
-}
-
 std::optional<RejectReason> DepthScale::apply(double value, DepthSample& sample) const {
   const double quantity = value * unit + offset;
   if (value_is_depth) {

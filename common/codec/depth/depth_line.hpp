@@ -16,9 +16,6 @@ inline constexpr std::size_t kMaxDepthLine = 128;
 /// One line, from where the last one ended to its CR or LF. A line longer than kMaxDepthLine is refused.
 [[nodiscard]] Probe probe_depth_line(Bytes front);
 
-/// The line's text, without its end.
-[[nodiscard]] std::string_view line_text(Bytes frame);
-
 /// How a number becomes a depth.
 struct DepthScale {
   double unit = 1.0;    ///< of one count, metres or pascal

@@ -26,7 +26,7 @@ class Paroscientific final : public Framer {
   [[nodiscard]] Probe probe(Bytes front) const override { return probe_depth_line(front); }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
-    const std::string_view line = line_text(frame);
+    const std::string_view line = text_of(frame);
     const auto refused = [&](RejectReason reason) { return Outcome::refused(reason, frame.size()); };
     if (line.front() != '*' || line.find('*', 1) != std::string_view::npos) {
       return refused(RejectReason::structure);

@@ -65,7 +65,7 @@ class Pd6 final : public Framer {
   [[nodiscard]] Probe probe(Bytes front) const override { return probe_line(front); }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
-    const std::string_view text(reinterpret_cast<const char*>(frame.data()), frame.size());
+    const std::string_view text = text_of(frame);
     const std::optional<LineKind> kind = kind_of(text);
     if (!kind) return Outcome::ignored();
     Line line;

@@ -214,7 +214,7 @@ class NmeaAttitude final : public Framer {
     std::optional<RejectReason> refused;
     if (begins_tagged(frame)) {
       attitude.form = Form::tagged;
-      refused = parse_tagged({reinterpret_cast<const char*>(frame.data()), frame.size()}, attitude);
+      refused = parse_tagged(text_of(frame), attitude);
     } else {
       Sentence sentence = split_sentence(frame);
       trim(sentence);

@@ -244,7 +244,7 @@ class VectorNav : public Framer {
   }
 
   Outcome decode_text(Bytes frame, std::uint64_t offset, Sink& sink) {
-    const std::string_view whole(reinterpret_cast<const char*>(frame.data()), frame.size());
+    const std::string_view whole = text_of(frame);
     const std::string_view line = whole.substr(0, whole.find('*'));
     const std::string_view tag = line.substr(0, line.find(','));
     const bool attitude_first = tag == "$VNYMR";  // yaw pitch roll, magnetic, accel, rate

@@ -18,10 +18,6 @@ bool in_address(char c) {
   return is_digit(c) || (c >= 'A' && c <= 'Z');
 }
 
-std::string_view as_text(Bytes bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 }  // namespace
 
 std::uint8_t nmea_checksum(std::string_view between_dollar_and_star) {
@@ -33,7 +29,7 @@ std::uint8_t nmea_checksum(std::string_view between_dollar_and_star) {
 }
 
 Probe probe_fields(Bytes front, std::size_t from, bool require_checksum) {
-  const std::string_view text = as_text(front);
+  const std::string_view text = text_of(front);
   std::uint8_t sum = nmea_checksum(text.substr(1, from - 1));
   for (std::size_t i = from; i < text.size(); ++i) {
     const char c = text[i];
@@ -63,7 +59,7 @@ Probe probe_sentence(Bytes front, bool require_checksum) {
     while (count < front.size() && !starts_sentence(front[count])) ++count;
     return Probe::skip(count);
   }
-  const std::string_view text = as_text(front);
+  const std::string_view text = text_of(front);
   std::size_t end = 1;
   while (end < text.size() && end <= kMaxAddress + 1 && in_address(text[end])) ++end;
   if (end > kMaxAddress + 1) return Probe::skip(1);
@@ -73,7 +69,7 @@ Probe probe_sentence(Bytes front, bool require_checksum) {
 }
 
 Sentence split_sentence(Bytes frame) {
-  std::string_view text = as_text(frame).substr(1);
+  std::string_view text = text_of(frame).substr(1);
   text = text.substr(0, text.find('*'));
   Sentence sentence;
   std::size_t comma = text.find(',');

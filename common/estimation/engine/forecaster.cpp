@@ -6,8 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "estimation/aiding/constant_depth.hpp"
-#include "estimation/aiding/non_holonomic.hpp"
+#include "estimation/aiding/constraints.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -215,13 +214,9 @@ void Forecaster::step(Course& course, int lost, double dt_s) const {
 }
 
 void Forecaster::constrain(Course& course, const AidingState& state, double dt_s) const {
-  const ConstraintsConfig& config = setup_->config.constraints;
-  if (config.non_holonomic.enabled)
-    hold(*setup_, NonHolonomic(state, config.non_holonomic), config.non_holonomic.rate_hz * dt_s,
-         course.filter);
-  if (config.constant_depth.enabled)
-    hold(*setup_, ConstantDepth(state, config.constant_depth.sigma_m_s), config.constant_depth.rate_hz * dt_s,
-         course.filter);
+  for_each_constraint(setup_->config.constraints, [&](double rate_hz, const auto& model_of) {
+    hold(*setup_, model_of(state), rate_hz * dt_s, course.filter);
+  });
 }
 
 void Forecaster::aid(Course& course, int sensor, int instrument, const Instrument& known,

@@ -1,7 +1,6 @@
 #include "estimation/navigator/constraints.hpp"
 
-#include "estimation/aiding/constant_depth.hpp"
-#include "estimation/aiding/non_holonomic.hpp"
+#include "estimation/aiding/constraints.hpp"
 #include "estimation/aiding/zero_velocity.hpp"
 
 namespace fathom::estimation {
@@ -40,20 +39,16 @@ bool apply_zero_velocity(const Setup& setup, Estimate& estimate) {
 }  // namespace
 
 bool Constraints::apply(const Setup& setup, const ImuStep& step, Estimate& estimate) {
-  const ConstraintsConfig& config = setup.config.constraints;
   bool rested = false;
   if (estimate.now_ns < rest_until_ns_ && estimate.now_ns >= next_zero_velocity_ns_) {
     next_zero_velocity_ns_ = estimate.now_ns + kNsPerSecond;
     rested = apply_zero_velocity(setup, estimate);
   }
-  if (config.non_holonomic.enabled && step.passes_tick(from_seconds(1.0 / config.non_holonomic.rate_hz))) {
+  for_each_constraint(setup.config.constraints, [&](double rate_hz, const auto& model_of) {
+    if (!step.passes_tick(from_seconds(1.0 / rate_hz))) return;
     const AidingState state = estimate.aiding_state(setup);
-    constrain(setup, NonHolonomic(state, config.non_holonomic), estimate);
-  }
-  if (config.constant_depth.enabled && step.passes_tick(from_seconds(1.0 / config.constant_depth.rate_hz))) {
-    const AidingState state = estimate.aiding_state(setup);
-    constrain(setup, ConstantDepth(state, config.constant_depth.sigma_m_s), estimate);
-  }
+    constrain(setup, model_of(state), estimate);
+  });
   return rested;
 }
 

@@ -7,7 +7,7 @@
 #include "cli/bench/samples.hpp"
 #include "cli/bench/vehicle.hpp"
 #include "cli/command.hpp"
-#include "estimation/aiding/constant_depth.hpp"
+#include "estimation/aiding/constraints.hpp"
 #include "estimation/aiding/non_holonomic.hpp"
 #include "estimation/aiding/registry.hpp"
 #include "estimation/aiding/zero_velocity.hpp"

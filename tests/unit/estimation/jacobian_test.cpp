@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "estimation/aiding/constant_depth.hpp"
+#include "estimation/aiding/constraints.hpp"
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/aiding/non_holonomic.hpp"
 #include "estimation/aiding/registry.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimation/aiding/model.hpp"
+#include "estimation/aiding/non_holonomic.hpp"
 
 namespace fathom::estimation {
 
@@ -21,5 +22,17 @@ class ConstantDepth {
   const AidingState& s_;
   double sigma_m_s_;
 };
+
+/// What is known of the motion without an instrument, as configured. `visit` is given how often each holds
+/// (Hz) and a function that makes its model from the state of an instant.
+template <class Visit>
+void for_each_constraint(const ConstraintsConfig& config, Visit&& visit) {
+  if (config.non_holonomic.enabled)
+    visit(config.non_holonomic.rate_hz,
+          [&](const AidingState& state) { return NonHolonomic(state, config.non_holonomic); });
+  if (config.constant_depth.enabled)
+    visit(config.constant_depth.rate_hz,
+          [&](const AidingState& state) { return ConstantDepth(state, config.constant_depth.sigma_m_s); });
+}
 
 }  // namespace fathom::estimation
