@@ -69,9 +69,14 @@ Cell car(std::string_view name, Manoeuvres (*motion)(std::uint64_t), CellStart s
   return cell;
 }
 
-const std::array<Cell, 26>& cells() {
+Cell on_wheels(Cell cell) {
+  cell.on_wheels = true;
+  return cell;
+}
+
+const std::array<Cell, 29>& cells() {
   using namespace motions;
-  static const std::array<Cell, 26> all{
+  static const std::array<Cell, 29> all{
       submersible("auv_straight_tactical", survey_straight, CellStart::at_rest, kTacticalGrade, 36.0),
       submersible("auv_straight_industrial", survey_straight, CellStart::at_rest, kIndustrialGrade, 0.5),
       submersible("auv_lawn_navigation", survey_lawn, CellStart::given, kNavigation, 55.0),
@@ -97,7 +102,11 @@ const std::array<Cell, 26>& cells() {
       car("car_town_consumer", drive_town, CellStart::in_motion, kConsumerGrade, 30.0),
       car("car_highway_navigation", drive_highway, CellStart::gyrocompass, kNavigation, 55.0),
       car("car_highway_tactical", drive_highway, CellStart::at_rest, kTacticalGrade, 50.0),
-      car("car_mountain_industrial", drive_mountain, CellStart::in_motion, kIndustrialGrade, 46.0)};
+      car("car_mountain_industrial", drive_mountain, CellStart::in_motion, kIndustrialGrade, 46.0),
+      on_wheels(car("wheels_town_consumer", roll_through_town, CellStart::in_motion, kConsumerGrade, 30.0)),
+      on_wheels(car("wheels_highway_tactical", roll_on_highway, CellStart::at_rest, kTacticalGrade, 50.0)),
+      on_wheels(car("wheels_mountain_industrial", roll_in_mountains, CellStart::in_motion, kIndustrialGrade,
+                    46.0))};
   return all;
 }
 
@@ -117,6 +126,19 @@ estimation::SensorConfig told_dvl(const DvlFigures& figures) {
   dvl.sigma = {figures.noise_m_s, figures.noise_m_s, figures.noise_m_s};
   dvl.proportional_sigma = figures.per_speed;
   return dvl;
+}
+
+/// As deploy/config/solve/mems_car.json has it. Springs swing in step with the force that makes them swing: a
+/// scale of the accelerometers that is not estimated passes for a velocity.
+void tell_wheels(EngineConfig& config) {
+  config.groups.accel_scale = config.groups.mount_angles = config.groups.mount_lever = true;
+  config.states.mount_angle_sigma_rad = motions::kWheelsAskew_rad;
+  config.states.mount_lever_sigma_m = motions::kAxleKnown_m;
+  estimation::NonHolonomicConfig& wheels = config.constraints.non_holonomic;
+  wheels.enabled = true;
+  wheels.lever_B_m = {-motions::kAheadOfAxle_m, 0.0, 0.0};
+  wheels.lateral_sigma_m_s = wheels.vertical_sigma_m_s = motions::kWheels_m_s;
+  wheels.slip_time_s = motions::kWheelsLast_s;
 }
 
 void tell_start(const Cell& cell, estimation::AlignmentConfig& alignment) {
@@ -161,6 +183,7 @@ EngineConfig consistency_config(const Cell& cell, std::string_view configuration
   c.imu.nominal_rate_hz = cell.imu_rate_hz;
   tell_start(cell, c.alignment);
   c.forecast_limits.clear();
+  if (cell.on_wheels) tell_wheels(c);
 
   estimation::StateModelConfig& states = c.states;
   states.gps_bias_sigma_m = cell.gps.drift_m;

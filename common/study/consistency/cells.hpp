@@ -30,6 +30,7 @@ struct Cell {
   double height_m;
   double duration_s;
   bool under_water = false;    ///< DVL, depth and compass; GPS until the outage
+  bool on_wheels = false;      ///< and the filter is told so
   double outage_from_s = 0.0;  ///< GPS is gone from here to the end
   double forecast_at_s = 0.0;  ///< when the next minutes are forecast
   GpsFigures gps{};

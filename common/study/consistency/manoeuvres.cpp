@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -10,18 +11,18 @@ namespace fathom::study {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
+constexpr double kRolling_m_s = 2.0;  // slower, wheels slip and springs swing less
 
 }  // namespace
 
 Profile& Profile::step(double at_s, double over_s, double by) {
-  steps_.push_back({at_s, over_s, by});
-  std::stable_sort(steps_.begin(), steps_.end(),
-                   [](const Step& a, const Step& b) { return a.at_s < b.at_s; });
-  double done = 0.0;
-  double end_s = 0.0;
-  for (Step& step : steps_) {
-    step.done = done += step.by;
-    step.end_s = end_s = std::max(end_s, step.at_s + step.over_s);
+  const auto later = std::upper_bound(steps_.begin(), steps_.end(), at_s,
+                                      [](double t, const Step& step) { return t < step.at_s; });
+  Step before = later == steps_.begin() ? Step{} : *std::prev(later);
+  for (auto step = steps_.insert(later, {at_s, over_s, by}); step != steps_.end(); ++step) {
+    step->done = before.done + step->by;
+    step->end_s = std::max(before.end_s, step->at_s + step->over_s);
+    before = *step;
   }
   return *this;
 }
@@ -71,8 +72,11 @@ Movement Manoeuvres::at(double t_s) const {
                  Eigen::AngleAxisd(pitch_rad.at(t_s).value, Eigen::Vector3d::UnitY()) *
                  Eigen::AngleAxisd(bank, Eigen::Vector3d::UnitX()))
                     .toRotationMatrix();
-  const Eigen::Vector3d through_B(speed * std::cos(angle_of_attack_rad), -sway_per_turn_m * heading.rate,
-                                  speed * std::sin(angle_of_attack_rad));
+  const double rolls = speed * speed / (speed * speed + kRolling_m_s * kRolling_m_s);
+  const Eigen::Vector3d through_B(
+      speed * std::cos(angle_of_attack_rad),
+      speed * std::sin(crab_rad) + rolls * slip_m_s.at(t_s).value - sway_per_turn_m * heading.rate,
+      speed * std::sin(angle_of_attack_rad) + rolls * bounce_m_s.at(t_s).value);
   const double share = medium_share.at(t_s).value;
   out.velocity_N_m_s =
       out.axes_NB * through_B +

@@ -24,9 +24,9 @@ class Profile {
 
  private:
   struct Step {
-    double at_s;
-    double over_s;
-    double by;
+    double at_s = 0.0;
+    double over_s = 0.0;
+    double by = 0.0;
     double done = 0.0;   ///< sum of this step and all before it
     double end_s = 0.0;  ///< when they are over
   };
@@ -54,7 +54,10 @@ struct Manoeuvres {
   Profile speed_m_s;                       ///< through the medium
   bool coordinated = false;                ///< banks as its turn asks for
   double angle_of_attack_rad = 0.0;        ///< of the flow below the body's forward axis
+  double crab_rad = 0.0;                   ///< of the flow to the right of it
   double sway_per_turn_m = 0.0;            ///< sideways velocity by turn rate
+  Profile slip_m_s;                        ///< of wheels that roll: to the right
+  Profile bounce_m_s;                      ///< likewise, down
   Eigen::Vector2d medium_N_m_s{0.0, 0.0};  ///< current or wind
   Profile medium_share{1.0};               ///< how much of it acts
   Profile heave_m_s;                       ///< vertical velocity of the water that carries it

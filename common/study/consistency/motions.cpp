@@ -1,7 +1,9 @@
 #include "study/consistency/motions.hpp"
 
+#include <cmath>
 #include <numbers>
 
+#include "base/units.hpp"
 #include "sim/random.hpp"
 #include "study/instruments.hpp"
 
@@ -84,6 +86,33 @@ Manoeuvres car(Chance& chance, double slope_rad) {
   m.bank_rad.swing(0.4 * kRadPerDeg, 1.9, chance.phase());
   m.pitch_rad.swing(0.3 * kRadPerDeg, 1.3, chance.phase());
   return m;
+}
+
+/// Goes from one random height to the next: smooth, and with the spectrum of noise at its lowest frequencies.
+/// The root of its mean square is `rms`, its spectrum at zero that of noise of `rms` lasting `lasts_s`.
+void wander(Profile& out, sim::Random& random, double rms, double lasts_s) {
+  constexpr double kShare = 0.8096;  // mean of s^2 + (1 - s)^2, s the step of a profile
+  const double over_s = kShare * lasts_s;
+  const double sigma = rms / std::sqrt(kShare);
+  double height = 0.0;
+  for (double t = 0.0; t < kEver_s; t += over_s) {
+    const double next = random.normal(sigma);
+    out.step(t, over_s, next - height);
+    height = next;
+  }
+}
+
+/// A unit ahead of the rear axle and mounted askew, on springs. Slip and bounce are as large as the filter is
+/// told, and slip lasts as long; springs swing.
+void roll_on_wheels(Manoeuvres& m, std::uint64_t seed) {
+  sim::Random random(seed, "wheels");
+  wander(m.slip_m_s, random, kWheels_m_s, kWheelsLast_s);
+  for (const double period_s : {0.7, 0.9, 1.1})
+    m.bounce_m_s.swing(kWheels_m_s * std::sqrt(2.0 / 3.0), period_s,
+                       random.uniform(0.0, 2.0 * std::numbers::pi));
+  m.sway_per_turn_m = -(kAheadOfAxle_m + random.normal(kAxleKnown_m));
+  m.angle_of_attack_rad = random.normal(kWheelsAskew_rad);
+  m.crab_rad = random.normal(kWheelsAskew_rad);
 }
 
 void town_turns(Manoeuvres& m, Chance& chance, double from_s) {
@@ -220,6 +249,18 @@ Manoeuvres drive_highway(std::uint64_t seed) {
   return m;
 }
 
+Manoeuvres roll_through_town(std::uint64_t seed) {
+  Manoeuvres m = drive_town(seed);
+  roll_on_wheels(m, seed);
+  return m;
+}
+
+Manoeuvres roll_on_highway(std::uint64_t seed) {
+  Manoeuvres m = drive_highway(seed);
+  roll_on_wheels(m, seed);
+  return m;
+}
+
 Manoeuvres drive_mountain(std::uint64_t seed) {
   Chance chance(seed);
   Manoeuvres m = car(chance, 7.0 * kRadPerDeg);
@@ -229,6 +270,12 @@ Manoeuvres drive_mountain(std::uint64_t seed) {
     m.heading_rad.step(t, 12.0, side * 165.0 * kRadPerDeg);
     m.speed_m_s.step(t - 6.0, 6.0, -8.0).step(t + 13.0, 7.0, 8.0);
   }
+  return m;
+}
+
+Manoeuvres roll_in_mountains(std::uint64_t seed) {
+  Manoeuvres m = drive_mountain(seed);
+  roll_on_wheels(m, seed);
   return m;
 }
 

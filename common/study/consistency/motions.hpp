@@ -30,5 +30,14 @@ namespace fathom::study::motions {
 [[nodiscard]] Manoeuvres drive_town(std::uint64_t seed);
 [[nodiscard]] Manoeuvres drive_highway(std::uint64_t seed);
 [[nodiscard]] Manoeuvres drive_mountain(std::uint64_t seed);
+/// The same, with what wheels and springs do to a unit ahead of the rear axle.
+[[nodiscard]] Manoeuvres roll_through_town(std::uint64_t seed);
+[[nodiscard]] Manoeuvres roll_on_highway(std::uint64_t seed);
+[[nodiscard]] Manoeuvres roll_in_mountains(std::uint64_t seed);
+inline constexpr double kAheadOfAxle_m = 1.2;
+inline constexpr double kAxleKnown_m = 1.0;  ///< sigma of where it is
+inline constexpr double kWheels_m_s = 0.2;   ///< slip and bounce, root of the mean square
+inline constexpr double kWheelsLast_s = 0.8;
+inline constexpr double kWheelsAskew_rad = 0.035;
 
 }  // namespace fathom::study::motions
