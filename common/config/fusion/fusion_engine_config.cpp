@@ -27,6 +27,20 @@ void load_value(const nlohmann::json& json, VehicleModelConfig& out,
       load_hydro_coefficients((std::filesystem::path(place.file).parent_path() / named).string());
 }
 
+namespace {
+
+/// What its constraint cannot do without (AID-NHC-4). Said to be false, a group is left out all the same.
+void add_groups_of_wheels(estimation::StateGroups& groups) {
+  groups.accel_scale = groups.mount_angles = groups.mount_lever = true;
+}
+
+bool on_wheels(const nlohmann::json& engine) {
+  static const nlohmann::json::json_pointer kEnabled("/constraints/non_holonomic/enabled");
+  return engine.contains(kEnabled) && engine.at(kEnabled) == true;
+}
+
+}  // namespace
+
 void describe(Schema<EngineConfig>& s) {
   estimation::describe(s);
   s.check_values([](const EngineConfig& config) { return config.complaint(); });
@@ -38,6 +52,7 @@ void load_value(const nlohmann::json& json, EngineConfig& out, const Rules<Engin
     static_cast<void>(
         estimation::named_state_groups(json.at("configuration").get<std::string>(), out.groups));
   }
+  if (on_wheels(json)) add_groups_of_wheels(out.groups);
   schema_of<EngineConfig>().load(json, out, place);
 }
 

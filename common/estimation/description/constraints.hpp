@@ -11,7 +11,10 @@ namespace fathom::estimation {
 template <template <class> class Walk>
 void describe(Walk<NonHolonomicConfig>& s) {
   using C = NonHolonomicConfig;
-  s.field("enabled", &C::enabled, "the vehicle runs on wheels: no velocity sideways and upwards");
+  s.field(
+      "enabled", &C::enabled,
+      "the vehicle runs on wheels: no velocity sideways and upwards; groups accel_scale, mount_angles and "
+      "mount_lever are then estimated where nothing else is said");
   s.field("rate_hz", &C::rate_hz, "how often it is applied").unit("Hz").range(0.01, 1000);
   s.field("lever_B_m", &C::lever_B_m, "from the inertial unit to the point where it holds, the rear axle")
       .unit("m")

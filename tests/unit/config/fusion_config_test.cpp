@@ -136,6 +136,21 @@ TEST(FusionConfig, EachKindKnowsTheKeysThatTheSchemaLeavesIt) {
   EXPECT_EQ(kinds, items["properties"]["kind"]["enum"].size());
 }
 
+TEST(FusionConfig, AVehicleOnWheelsEstimatesWhatItsConstraintNeedsUnlessToldOtherwise) {
+  const auto groups_of = [](const std::string& engine) {
+    const File file(R"({"engine": {"imu": {}, "sensors": [], )" + engine + "}}");
+    return load_service_config<FusionConfig>({file.path(), {}}).value.engine.groups;
+  };
+  constexpr const char* kWheels = R"("constraints": {"non_holonomic": {"enabled": true}})";
+  const auto on_wheels = groups_of(R"("configuration": "gps_ins15", )" + std::string(kWheels));
+  EXPECT_TRUE(on_wheels.accel_scale && on_wheels.mount_angles && on_wheels.mount_lever);
+  const auto told = groups_of(R"("groups": {"mount_lever": false}, )" + std::string(kWheels));
+  EXPECT_TRUE(told.accel_scale && told.mount_angles && !told.mount_lever);
+  const auto none =
+      groups_of(R"("configuration": "gps_ins15", "constraints": {"non_holonomic": {"enabled": false}})");
+  EXPECT_FALSE(none.accel_scale || none.mount_angles || none.mount_lever);
+}
+
 TEST(FusionConfig, HashFollowsEveryEffectiveValue) {
   const File file(with_engine(""));
   const std::string plain = load_service_config<FusionConfig>({file.path(), {}}).hash;
