@@ -6,6 +6,7 @@
 #include "codec/acoustic/evologics.hpp"
 #include "codec/air/ascii_air_data.hpp"
 #include "codec/air/nmea_air_data.hpp"
+#include "codec/altimeter/ping.hpp"
 #include "codec/autopilot/mavlink.hpp"
 #include "codec/depth/ascii_depth.hpp"
 #include "codec/depth/paroscientific.hpp"
@@ -74,6 +75,8 @@ constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "
 
 constexpr std::array<std::string_view, 8> kNmeaAttitudeAliases{
     "attitude", "pashr", "psat_hpr", "ptnthpr", "ohpr", "oceanserver", "prdid", "nmea0183_attitude"};
+constexpr std::array<std::string_view, 5> kPingAliases{"ping1d", "ping2", "ping_protocol", "cerulean",
+                                                       "bluerobotics_ping"};
 constexpr std::array<std::string_view, 2> kFixTextAliases{"fix", "pfthx"};
 constexpr std::array<std::string_view, 2> kMavlinkAliases{"ardusub", "mavlink2"};
 constexpr std::array<std::string_view, 5> kNovatelAliases{"oem6", "oem7", "novatel_oem7", "novatel_binary",
@@ -91,6 +94,8 @@ constexpr std::string_view kNovatelDescription =
     "NovAtel OEM6 and OEM7 binary: BESTPOS and BESTVEL, HEADING2 or DUALANTENNAHEADING";
 constexpr std::string_view kNmeaAttitudeDescription =
     "headings of attitude sentences: PASHR, PSAT,HPR, PTNTHPR, OHPR and $C of OceanServer, PRDID";
+constexpr std::string_view kPingDescription =
+    "echo sounders of Blue Robotics (Ping1D, Ping2) and Cerulean (S500), Ping protocol";
 constexpr std::string_view kNoGreeting;
 
 const auto kProtocols = std::to_array<Protocol>({
@@ -173,6 +178,7 @@ const auto kProtocols = std::to_array<Protocol>({
     {"nmea_attitude", kNmeaAttitudeAliases, kNmeaAttitudeDescription, make_nmea_attitude, DeviceClock::none},
     {"micromodem", kMicromodemAliases, "WHOI Micro-Modem ranges to modems and transponders", make_micromodem,
      DeviceClock::none},
+    {"ping", kPingAliases, kPingDescription, make_ping, DeviceClock::none, kPingGreeting},
     {"gpsd", kGpsdAliases, "reports of gpsd, JSON over TCP", make_gpsd, DeviceClock::none, kGpsdGreeting},
     {"mavlink", kMavlinkAliases, "telemetry of an autopilot, MAVLink 1 and 2", make_mavlink,
      DeviceClock::counter},

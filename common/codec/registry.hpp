@@ -71,6 +71,8 @@ struct CodecOptions {
   double dvl_heading_alignment_rad = 0.0;
   /// Attitude sentences: the north of those that do not say it; unset: that of their makers.
   std::optional<North> untold_north{};
+  /// Ping protocol: below it the range is unknown, 0 to 100.
+  double least_confidence_percent = 50.0;
   int mavlink_system = 0;  ///< of the autopilot that counts; 0: of the first that is heard
   AirDataOptions air_data;
   BeaconOptions beacons;
@@ -105,7 +107,8 @@ struct Protocol {
   std::string_view description;
   std::unique_ptr<Codec> (*make)(const CodecOptions& options);
   DeviceClock clock;
-  /// What a client has to say on connecting by TCP, before anything is told; empty for most.
+  /// What has to be said to the device before it tells anything, by a client on connecting by TCP or on a
+  /// serial line; empty for most.
   std::string_view greeting{};
   Traits traits{};
 };

@@ -226,6 +226,7 @@ asio::awaitable<void> ByteSource::Impl::run() {
     }
     still_there = nullptr;
     break_connection = nullptr;
+    greet_again = nullptr;
     fail(reason);
     if (share) std::exchange(share, nullptr)->close();
     co_await wait(backoff.next_s());
@@ -247,9 +248,11 @@ asio::awaitable<void> ByteSource::Impl::watch() {
     // A USB adapter can vanish without an error on the open file.
     if (still_there && !still_there() && break_connection) {
       break_connection();
-    } else if (state == SourceState::connected) {
-      change(SourceState::silent, describe_source(config) + ": connected, but no bytes");
+      continue;
     }
+    if (state == SourceState::connected)
+      change(SourceState::silent, describe_source(config) + ": connected, but no bytes");
+    if (greet_again) greet_again();
   }
 }
 

@@ -36,9 +36,9 @@ struct ByteSourceConfig {
   std::string multicast;          ///< udp: group to join on `address`; empty: none
   Pace pace = Pace::original;     ///< file
   double bytes_per_s = 11'520.0;  ///< file, pace rate
-  std::string greeting;           ///< tcp_client: said once connected; of the protocol, not of a file
-  bool shared = false;            ///< all but file: others of this host read the same port
-  double silence_s = 0.0;         ///< connected without a byte for this long is worth saying; 0: never
+  std::string greeting;    ///< tcp_client, serial: said once connected and when silent; of the protocol
+  bool shared = false;     ///< all but file: others of this host read the same port
+  double silence_s = 0.0;  ///< connected without a byte for this long is worth saying; 0: never
   double backoff_first_s = 0.1;
   double backoff_most_s = 5.0;
 };

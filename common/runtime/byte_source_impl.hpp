@@ -62,6 +62,8 @@ struct ByteSource::Impl {
   /// Set by a transport that can be broken from outside: watch() calls it when the device has gone unnoticed.
   std::function<bool()> still_there;
   std::function<void()> break_connection;
+  /// watch() calls it while nothing comes: a device that was switched off and on waits to be asked again.
+  std::function<void()> greet_again;
 
   mutable std::mutex mutex;  ///< guards status and stopping
   std::condition_variable stop_signal;

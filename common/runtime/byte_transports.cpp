@@ -17,8 +17,10 @@
 #include <asio/write.hpp>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <termios.h>
+#include <unistd.h>
 
 #include "runtime/byte_source_impl.hpp"
 #include "runtime/serial/serial_holders.hpp"
@@ -77,6 +79,14 @@ void set_framing(asio::serial_port& port, Framing framing) {
     throw std::system_error(errno, std::generic_category(), "tcsetattr");
 }
 
+// Now or not at all: a line that takes no bytes must not hold up those that come.
+void say_at_once(int line, const std::string& text) {
+  pollfd ready{line, POLLOUT, 0};
+  if (text.empty() || poll(&ready, 1, 0) != 1 || (ready.revents & POLLOUT) == 0) return;
+  if (write(line, text.data(), text.size()) < 0 && errno != EAGAIN)
+    throw std::system_error(errno, std::generic_category(), "asking the device");
+}
+
 }  // namespace
 
 template <class Stream>
@@ -103,8 +113,10 @@ asio::awaitable<void> ByteSource::Impl::serve_serial() {
     claim.release();
     port.close();
   };
+  greet_again = [this, &port] { say_at_once(port.native_handle(), config.greeting); };
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": open");
+  greet_again();
   co_await read_all(port);
 }
 
@@ -134,6 +146,7 @@ asio::awaitable<void> ByteSource::Impl::serve_tcp_client() {
   change(SourceState::connected, describe_source(config) + ": connected");
   if (!config.greeting.empty())
     co_await asio::async_write(*socket, asio::buffer(config.greeting), asio::use_awaitable);
+  greet_again = [this, &socket] { say_at_once(socket->native_handle(), config.greeting); };
   co_await read_all(*socket);
 }
 

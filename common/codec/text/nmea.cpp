@@ -7,6 +7,7 @@
 #include "codec/acoustic/ship_pose.hpp"
 #include "codec/actuator/nmea_actuator.hpp"
 #include "codec/altimeter/nmea_altimeter.hpp"
+#include "codec/altimeter/valeport.hpp"
 #include "codec/framer.hpp"
 #include "codec/heading/nmea_heading.hpp"
 #include "codec/satellite/nmea_epoch.hpp"
@@ -22,13 +23,12 @@ enum class Scope : std::uint8_t { everything, psimssb, psonlld };
 class Nmea0183 final : public Framer {
  public:
   Nmea0183(const CodecOptions& options, Scope scope)
-      : Framer(kMaxSentence, LineEnds::belong_to_frames),
-        require_checksum_(options.require_checksum),
-        usbl_sigma_floor_m_(options.usbl.sigma_floor_m),
-        scope_(scope) {}
+      : Framer(kMaxSentence, LineEnds::belong_to_frames), options_(options), scope_(scope) {}
 
  protected:
-  [[nodiscard]] Probe probe(Bytes front) const override { return probe_sentence(front, require_checksum_); }
+  [[nodiscard]] Probe probe(Bytes front) const override {
+    return probe_sentence(front, options_.require_checksum);
+  }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
     const Sentence sentence = split_sentence(frame);
@@ -43,6 +43,7 @@ class Nmea0183 final : public Framer {
     }
     if (is_heading(sentence)) return decode_heading(sentence, frame.size(), offset, sink);
     if (is_altimeter(sentence)) return decode_altimeter(sentence, frame.size(), offset, sink);
+    if (sentence.type == "PRVAT") return decode_valeport(sentence, frame.size(), offset, sink);
     if (sentence.type == "RPM") return decode_rpm(sentence, frame.size(), offset, sink);
     if (sentence.type == "RSA" || sentence.type == "XDR") {
       return decode_fins(sentence, frame.size(), offset, sink);
@@ -88,6 +89,14 @@ class Nmea0183 final : public Framer {
     return Outcome::used();
   }
 
+  Outcome decode_valeport(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
+    ValeportReport report;
+    if (const auto reason = parse_valeport(sentence, options_, report)) return Outcome::refused(*reason);
+    emit(sink, report.altimeter, {}, offset, length);
+    if (report.depth) emit(sink, *report.depth, {}, offset, length);
+    return Outcome::used();
+  }
+
   Outcome decode_rpm(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
     PropulsionSample sample;
     bool followed = false;
@@ -112,7 +121,7 @@ class Nmea0183 final : public Framer {
     UsblSample sample;
     DeviceTime time;
     bool usable = false;
-    const auto reason = parse_psimssb(sentence, usbl_sigma_floor_m_, sample, time, usable);
+    const auto reason = parse_psimssb(sentence, options_.usbl.sigma_floor_m, sample, time, usable);
     if (reason) return Outcome::refused(*reason);
     if (!usable) return Outcome::ignored();
     ship_.give(sample, time.time_of_day_ns);
@@ -123,14 +132,13 @@ class Nmea0183 final : public Framer {
   Outcome decode_psonlld(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
     UsblSample sample;
     DeviceTime time;
-    if (const auto reason = parse_psonlld(sentence, usbl_sigma_floor_m_, sample, time))
+    if (const auto reason = parse_psonlld(sentence, options_.usbl.sigma_floor_m, sample, time))
       return Outcome::refused(*reason);
     emit(sink, sample, time, offset, length);
     return Outcome::used();
   }
 
-  bool require_checksum_;
-  double usbl_sigma_floor_m_;
+  CodecOptions options_;
   Scope scope_;
   ShipPose ship_;
   GpsEpochs epochs_;
@@ -141,7 +149,8 @@ class Nmea0183 final : public Framer {
 }  // namespace
 
 constinit const std::string_view kNmeaDescription =
-    "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, DPT DBT, PSIMSSB PSONLLD; any talker";
+    "NMEA 0183: GGA RMC VTG GST ZDA GNS, HDT HDM HDG THS, RPM RSA XDR, DPT DBT PRVAT, PSIMSSB PSONLLD; any "
+    "talker";
 
 std::unique_ptr<Codec> make_nmea0183(const CodecOptions& options) {
   return std::make_unique<Nmea0183>(options, Scope::everything);

@@ -9,6 +9,10 @@ void describe(Schema<AltimeterSensorConfig>& s) {
   s.include(&C::sensor);
   s.field("require_checksum", &C::require_checksum, "NMEA 0183 sentences without a checksum are refused");
   s.field("max_altitude_m", &C::max_altitude_m, "samples beyond are refused").unit("m").range(1, 12'000);
+  s.field("least_confidence_percent", &C::least_confidence_percent,
+          "ping: a range of which the device is less sure is unknown")
+      .unit("%")
+      .range(0, 100);
 }
 
 template LoadedConfig<AltimeterBridgeConfig> load_service_config(const LoadRequest& request);
@@ -21,6 +25,7 @@ ConfigKind altimeter_bridge_kind() {
 SensorPlan sensor_plan(const AltimeterSensorConfig& config) {
   SensorPlan out = plan_of(config.sensor);
   out.options.require_checksum = config.require_checksum;
+  out.options.least_confidence_percent = config.least_confidence_percent;
   out.limits.depth_m = config.max_altitude_m;
   return out;
 }

@@ -8,6 +8,7 @@ struct AltimeterSensorConfig {
   SensorConfig sensor;
   bool require_checksum = true;
   double max_altitude_m = 11'000.0;
+  double least_confidence_percent = 50.0;
 };
 using AltimeterBridgeConfig = BridgeConfig<AltimeterSensorConfig>;
 

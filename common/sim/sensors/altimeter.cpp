@@ -25,8 +25,8 @@ AltimeterSample AltimeterModel::sample(const TruthPoint& point) {
   return out;
 }
 
-Bytes SimulatedDevice<AltimeterSample>::encode(const AltimeterSample& altimeter,
-                                               const DeviceCall& /*device*/) {
+Bytes SimulatedDevice<AltimeterSample>::encode(const AltimeterSample& altimeter, const DeviceCall& device) {
+  if (device.protocol == "ping") return encode::ping_profile(altimeter, ++pings_);
   return bytes_of(encode::nmea_dpt(altimeter));
 }
 

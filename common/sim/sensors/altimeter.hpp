@@ -43,8 +43,11 @@ struct ModelOf<AltimeterSample> {
 template <>
 class SimulatedDevice<AltimeterSample> {
  public:
-  static constexpr std::array<std::string_view, 1> kProtocols{"nmea0183"};
+  static constexpr std::array<std::string_view, 2> kProtocols{"nmea0183", "ping"};
   [[nodiscard]] Bytes encode(const AltimeterSample& altimeter, const DeviceCall& device);
+
+ private:
+  std::uint32_t pings_ = 0;
 };
 
 }  // namespace fathom::sim

@@ -230,6 +230,10 @@ void add_decode(CLI::App& app, ExitCode& /*exit_code*/) {
           "Attitude sentences that do not say it: true or magnetic")
       ->check(CLI::IsMember({"true", "magnetic"}));
   command
+      ->add_option("--least-confidence", options->codec.least_confidence_percent,
+                   "Ping: a range of which the device is less sure is unknown, %")
+      ->check(CLI::Range(0.0, 100.0));
+  command
       ->add_option("--mavlink-system", options->codec.mavlink_system,
                    "MAVLink: system id of the autopilot; 0: of the first that is heard")
       ->check(CLI::Range(0, 255));

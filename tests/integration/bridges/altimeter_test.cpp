@@ -51,5 +51,36 @@ TEST(AltimeterBridge, DptAndDbtBecomeAltitudesAndNonsenseIsRefused) {
   EXPECT_EQ(static_cast<std::size_t>(dpt + dbt), all.size());
 }
 
+// A Ping1D tells nothing before it is asked, and forgets that it was when its supply fails.
+TEST(AltimeterBridge, AsksAnEchoSounderThatIsSilentUntilItIsAsked) {
+  constexpr int kDomain = 153;
+  const TemporaryFolder folder;
+  bus::Participant participant(test_participant(kDomain));
+  const Collector<AltimeterSample> altimeter(participant);
+  const SerialDevice device(folder / "ping");
+  const Process bridge("fathom-altimeter-bridge",
+                       bridge_arguments("altimeter", kDomain,
+                                        {"sensors.0.protocol=ping",
+                                         R"(sensors.0.source={"type":"serial","path":")" + (folder / "ping") +
+                                             R"(","backoff_most_s":0.2,"silence_s":0.4})"}),
+                       folder / "log");
+  ASSERT_TRUE(eventually([&] { return altimeter.matched(); })) << bridge.output();
+  const std::string request{"BR\x02\x00\x78\x05\x00\x00\x14\x05\x2C\x01", 12};
+  const auto is_asked = [&] { return device.heard().find(request) != std::string::npos; };
+  AltimeterSample bottom;
+  bottom.altitude_m = 7.515;
+  std::uint32_t number = 0;
+  for (int supply = 0; supply < 2; ++supply) {
+    ASSERT_TRUE(eventually(is_asked)) << bridge.output();
+    const std::size_t before = altimeter.count();
+    ASSERT_TRUE(eventually([&] {
+      device.send(sim::encode::ping_profile(bottom, ++number));
+      return altimeter.count() > before + 3;
+    })) << bridge.output();
+    (void)device.heard();
+  }
+  for (const AltimeterSample& sample : altimeter.all()) EXPECT_NEAR(sample.altitude_m, 7.515, 1e-12);
+}
+
 }  // namespace
 }  // namespace fathom::test

@@ -146,6 +146,12 @@ void SerialDevice::send(Bytes bytes) const {
   [[maybe_unused]] const auto written = write(master_, bytes.data(), bytes.size());
 }
 
+std::string SerialDevice::heard() const {
+  std::array<char, 1024> bytes{};
+  const auto size = read(master_, bytes.data(), bytes.size());
+  return {bytes.data(), size > 0 ? static_cast<std::size_t>(size) : 0U};
+}
+
 TcpDevice::TcpDevice(int port) {
   listener_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   const int yes = 1;

@@ -76,6 +76,8 @@ class SerialDevice {
   SerialDevice(const SerialDevice&) = delete;
   SerialDevice& operator=(const SerialDevice&) = delete;
   void send(Bytes bytes) const;
+  /// What was said to it since it was asked last.
+  [[nodiscard]] std::string heard() const;
 
  private:
   std::string path_;

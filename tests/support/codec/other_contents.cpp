@@ -12,6 +12,7 @@
 
 #include "base/bytes/big_endian.hpp"
 #include "base/bytes/little_endian.hpp"
+#include "codec/altimeter/ping.hpp"
 #include "codec/crc16.hpp"
 #include "codec/dvl/nortek.hpp"
 #include "codec/fletcher.hpp"
@@ -70,6 +71,9 @@ std::size_t sbg_length(Frame at) {
 std::size_t nortek_length(Frame at) {
   return at[0] == 0xA5 && at[1] == 10 ? 10 + load_le<std::uint16_t>(at, 4) : 0U;
 }
+std::size_t ping_length(Frame at) {
+  return at[0] == 'B' && at[1] == 'R' ? 10 + load_le<std::uint16_t>(at, 2) : 0U;
+}
 std::size_t mavlink_length(Frame at) {
   return at[0] == 0xFD && at[2] == 0 ? 12U + at[1] : 0U;
 }
@@ -106,6 +110,11 @@ constexpr std::array kSeals{
          [](Frame frame) {
            store_le<std::uint16_t>(frame, 6, codec::nortek::checksum(frame.subspan(10)));
            store_le<std::uint16_t>(frame, 8, codec::nortek::checksum(frame.first(8)));
+         }},
+    Seal{"ping", ping_length, 8,
+         [](Frame frame) {
+           const std::size_t sealed = frame.size() - 2;
+           store_le<std::uint16_t>(frame, sealed, codec::ping::checksum(frame.first(sealed)));
          }},
     Seal{"mavlink", mavlink_length, 10,
          [](Frame frame) {

@@ -8,6 +8,7 @@
 #include "mavlink/frame.hpp"
 #include "mavlink/messages.hpp"
 #include "sim/encode/air_data.hpp"
+#include "sim/encode/altimeter.hpp"
 #include "sim/encode/depth.hpp"
 #include "sim/encode/dvl/nortek.hpp"
 #include "sim/encode/dvl/pd0.hpp"
@@ -121,6 +122,7 @@ void nmea_frames(ByteVector& stream, int frame) {
   append(stream, sim::encode::nmea_rpm(shaft));
   append(stream, sim::encode::nmea_fins(fins));
   append(stream, sim::encode::nmea_sentence("SDDPT,2.4,0.5"));
+  append(stream, sim::encode::nmea_sentence("PRVAT,02.400,M,0015.250,dBar"));
 }
 
 ImuSample imu(int frame) {
@@ -354,6 +356,10 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     air_data_sentences(stream, frame);
   } else if (protocol == "nmea_attitude") {
     append(stream, attitude_sentences(heading_of_antennas(frame), instant(frame), frame));
+  } else if (protocol == "ping") {
+    AltimeterSample bottom;
+    if (frame % 4 != 3) bottom.altitude_m = 2.5 + frame;
+    append(stream, sim::encode::ping_profile(bottom, static_cast<std::uint32_t>(frame)));
   } else if (protocol == "micromodem") {
     append(stream, sim::encode::nmea_sentence("CAMPR,1" + std::to_string(frame % 3) + ",1,0.2500"));
     append(stream, sim::encode::nmea_sentence("SNTTA,0.1,,0.3," + std::to_string(frame) + ".5,120000.00"));

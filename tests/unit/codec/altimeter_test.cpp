@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/units.hpp"
 #include "nmea_text.hpp"
 
 namespace fathom::codec {
@@ -56,6 +57,38 @@ TEST(NmeaAltimeter, WithoutABottomItIsAliveAndKnowsNone) {
   EXPECT_TRUE(std::isnan(altimeter("SDDPT,,0.5").altitude_m));
   EXPECT_TRUE(std::isnan(altimeter("SDDPT,12.5,").transducer_offset_m));
   EXPECT_TRUE(std::isnan(altimeter("SDDBT,,f,,M,,F").altitude_m));
+}
+
+TEST(ValeportAltimeter, GivesRangeAndAbsolutePressure) {
+  // In air, from Valeport's manual: its sum is in lower case where it has letters.
+  const DecodeRun run = decode_text("nmea0183", "$PRVAT,00.115,M,0010.073,dBar*39\r\n");
+  ASSERT_EQ(run.samples.size(), 2U);
+  EXPECT_EQ(std::get<AltimeterSample>(run.samples[0].sample).altitude_m, 0.115);
+  const auto& depth = std::get<DepthSample>(run.samples[1].sample);
+  EXPECT_NEAR(depth.pressure_Pa, 100'730.0, 1e-6);
+  EXPECT_NEAR(depth.depth_m, -0.0595 * 1.0, 0.002);  // 595 Pa less than the standard atmosphere
+
+  CodecOptions options;
+  options.latitude_rad = 30.0 * kRadPerDeg;
+  options.atmosphere_Pa = 100'730.0;
+  const DecodeRun deep = decode_text("nmea0183", sentence("PRVAT,12.345,M,1010.073,dBar"), options);
+  ASSERT_EQ(deep.samples.size(), 2U);
+  EXPECT_NEAR(std::get<DepthSample>(deep.samples[1].sample).depth_m, 990.81, 0.02);
+  EXPECT_EQ(altimeter("PRVAT,07.500,M").altitude_m, 7.5);  // a model without pressure
+}
+
+TEST(ValeportAltimeter, KeepsTheOneWhereTheOtherCannotBe) {
+  const DecodeRun no_range = decode_text("nmea0183", sentence("PRVAT,x,M,0020.000,dBar"));
+  ASSERT_EQ(no_range.samples.size(), 2U);
+  EXPECT_TRUE(std::isnan(std::get<AltimeterSample>(no_range.samples[0].sample).altitude_m));
+  EXPECT_EQ(altimeter("PRVAT,07.500,M,0020.000,PSI").altitude_m, 7.5);
+  EXPECT_EQ(altimeter("PRVAT,07.500,M,99999,dBar").altitude_m, 7.5);
+  EXPECT_TRUE(std::isnan(altimeter("PRVAT,,M").altitude_m));
+  EXPECT_EQ(refused(sentence("PRVAT,07.500,F")), RejectReason::field);
+  EXPECT_EQ(refused(sentence("PRVAT,x,M,99999,dBar")), RejectReason::field);
+  EXPECT_EQ(refused(sentence("PRVAT,12000.1,M")), RejectReason::out_of_range);
+  EXPECT_EQ(refused(sentence("PRVAT,07.500,M,0020.000")), RejectReason::structure);
+  EXPECT_EQ(refused("$PRVAT,00.116,M,0010.073,dBar*39\r\n"), RejectReason::checksum);
 }
 
 TEST(NmeaAltimeter, DamageAndNonsenseAreRefused) {
