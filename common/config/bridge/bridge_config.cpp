@@ -179,7 +179,8 @@ void describe(Schema<GpsSensorConfig>& s) {
 
 void describe(Schema<DepthSensorConfig>& s) {
   s.include(&DepthSensorConfig::sensor);
-  s.field("unit", &DepthSensorConfig::unit, "unit of the sensor's number; m: it is a depth already")
+  s.field("unit", &DepthSensorConfig::unit,
+          "unit of the sensor's number where its protocol does not say it; m: it is a depth already")
       .words({{"m", DepthUnit::m},
               {"psi", DepthUnit::psi},
               {"dbar", DepthUnit::dbar},
@@ -187,7 +188,7 @@ void describe(Schema<DepthSensorConfig>& s) {
               {"mbar", DepthUnit::mbar},
               {"kPa", DepthUnit::kPa},
               {"Pa", DepthUnit::Pa}})
-      .required();
+      .required_for({"paroscientific", "ascii_depth"});
   s.field("latitude_deg", &DepthSensorConfig::latitude_rad, "of the area of operation, for gravity")
       .unit("deg")
       .range(-90, 90)

@@ -94,6 +94,7 @@ void add_model(SourceKind kind, const std::string& protocol, Proposal& out) {
 }
 
 void add_depth(const Recognition& seen, Proposal& out) {
+  if (seen.protocol != "paroscientific" && seen.protocol != "ascii_depth") return;  // others say their unit
   const auto unit = seen.depth_m ? unit_in_air(*seen.depth_m) : std::nullopt;
   out.instrument["bridge"] = {{"unit", unit.value_or("psi")}};
   if (seen.protocol == "ascii_depth") {

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "samples/depth.hpp"
 #include "sim/encode/altimeter.hpp"
+#include "sim/encode/nmea.hpp"
 #include "support.hpp"
 
 namespace fathom::test {
@@ -53,7 +55,7 @@ TEST(AltimeterBridge, DptAndDbtBecomeAltitudesAndNonsenseIsRefused) {
 
 // A Ping1D tells nothing before it is asked, and forgets that it was when its supply fails.
 TEST(AltimeterBridge, AsksAnEchoSounderThatIsSilentUntilItIsAsked) {
-  constexpr int kDomain = 153;
+  constexpr int kDomain = 156;
   const TemporaryFolder folder;
   bus::Participant participant(test_participant(kDomain));
   const Collector<AltimeterSample> altimeter(participant);
@@ -80,6 +82,36 @@ TEST(AltimeterBridge, AsksAnEchoSounderThatIsSilentUntilItIsAsked) {
     (void)device.heard();
   }
   for (const AltimeterSample& sample : altimeter.all()) EXPECT_NEAR(sample.altitude_m, 7.515, 1e-12);
+}
+
+// One line, two bridges.
+TEST(AltimeterBridge, ASentenceWithRangeAndPressureIsADepthAsWell) {
+  constexpr int kDomain = 157;
+  const TemporaryFolder folder;
+  bus::Participant participant(test_participant(kDomain));
+  const Collector<AltimeterSample> altimeter(participant);
+  const Collector<DepthSample> depth(participant);
+  const SerialDevice device(folder / "va500");
+  const auto sensor = [&](const std::string& name, const std::string& more) {
+    return R"(sensors=[{"name":")" + name +
+           R"(","protocol":"nmea0183","rate_hz":4,"time":{"mode":"arrival"},)" +
+           R"("source":{"type":"serial","path":")" + (folder / "va500") +
+           R"(","shared":true,"backoff_most_s":0.2})" + more + "}]";
+  };
+  const Process altimeter_bridge("fathom-altimeter-bridge",
+                                 bridge_arguments("altimeter", kDomain, {sensor("altimeter", "")}),
+                                 folder / "log1");
+  const Process depth_bridge("fathom-depth-bridge",
+                             bridge_arguments("depth", kDomain, {sensor("depth", R"(,"latitude_deg":30)")}),
+                             folder / "log2");
+  ASSERT_TRUE(eventually([&] {
+    const std::string text = sim::encode::nmea_sentence("PRVAT,12.345,M,1010.132,dBar");
+    device.send(std::vector<std::uint8_t>(text.begin(), text.end()));
+    return altimeter.count() > 2 && depth.count() > 2;
+  })) << altimeter_bridge.output()
+      << depth_bridge.output();
+  EXPECT_EQ(altimeter.all().back().altitude_m, 12.345);
+  EXPECT_NEAR(depth.all().back().depth_m, 990.81, 0.02);
 }
 
 }  // namespace

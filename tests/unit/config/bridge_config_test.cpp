@@ -164,6 +164,14 @@ TEST(BridgeConfig, TwoInstrumentsNeedTwoNames) {
             std::string::npos);
 }
 
+TEST(BridgeConfig, APressureWhoseSentenceSaysItsUnitNeedsNone) {
+  const std::string sensor =
+      R"("name":"d","source":{"type":"serial","path":"/dev/x"},"protocol":"nmea0183","time":{"mode":"arrival"},"rate_hz":1)";
+  const auto config =
+      shipped<DepthBridgeConfig>("depth_bridge", {"sensors=[{" + sensor + R"(,"latitude_deg":1}])"});
+  EXPECT_FALSE(sensor_plan(config.sensors.at(0)).options.value_is_depth);
+}
+
 TEST(BridgeConfig, DepthUnitsBecomePascal) {
   const auto plan = sensor_plans(shipped<DepthBridgeConfig>(
       "depth_bridge", {"sensors.0.protocol=ascii_depth", "sensors.0.unit=dbar",

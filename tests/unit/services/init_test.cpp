@@ -182,6 +182,14 @@ TEST(Proposal, OfAnAutopilotOneBridgeIsTaken) {
   EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("gps as well")));
 }
 
+TEST(Proposal, AsksForTheUnitOfAPressureOnlyWhereItsProtocolDoesNotSayIt) {
+  const auto made = propose({heard(SourceKind::depth, 8.0, "paroscientific", "/dev/a"),
+                             heard(SourceKind::depth, 4.0, "nmea0183", "/dev/b")});
+  ASSERT_EQ(made.size(), 2U);
+  EXPECT_TRUE(made[0].instrument.contains("bridge"));
+  EXPECT_FALSE(made[1].instrument.contains("bridge"));
+}
+
 TEST(Proposal, NamesTheModelsThatSpeakSo) {
   const auto made = propose({heard(SourceKind::imu, 100.0, "vectornav", "/dev/a"),
                              heard(SourceKind::usbl, 1.0, "psimssb", "/dev/b"),
