@@ -6,6 +6,7 @@
 #include "codec/acoustic/evologics.hpp"
 #include "codec/air/ascii_air_data.hpp"
 #include "codec/air/nmea_air_data.hpp"
+#include "codec/altimeter/ascii_altitude.hpp"
 #include "codec/altimeter/ping.hpp"
 #include "codec/autopilot/mavlink.hpp"
 #include "codec/depth/ascii_depth.hpp"
@@ -75,6 +76,7 @@ constexpr std::array<std::string_view, 3> kNmeaAirDataAliases{"air_data_nmea", "
 
 constexpr std::array<std::string_view, 8> kNmeaAttitudeAliases{
     "attitude", "pashr", "psat_hpr", "ptnthpr", "ohpr", "oceanserver", "prdid", "nmea0183_attitude"};
+constexpr std::array<std::string_view, 2> kAsciiAltitudeAliases{"altitude_line", "ascii_altimeter"};
 constexpr std::array<std::string_view, 5> kPingAliases{"ping1d", "ping2", "ping_protocol", "cerulean",
                                                        "bluerobotics_ping"};
 constexpr std::array<std::string_view, 2> kFixTextAliases{"fix", "pfthx"};
@@ -162,6 +164,9 @@ const auto kProtocols = std::to_array<Protocol>({
      DeviceClock::none},
     {"ascii_depth", kAsciiDepthAliases, "one depth or pressure a line, prefix, scale and offset configurable",
      make_ascii_depth, DeviceClock::none},
+    {"ascii_altitude", kAsciiAltitudeAliases,
+     "one height above the bottom a line, prefix, scale and offset configurable", make_ascii_altitude,
+     DeviceClock::none},
     {"psimssb", kPsimssbAliases, "Kongsberg $PSIMSSB acoustic positions", make_psimssb, DeviceClock::utc},
     {"psonlld", kPsonlldAliases, "Sonardyne $PSONLLD acoustic positions", make_psonlld, DeviceClock::utc},
     {"evologics",

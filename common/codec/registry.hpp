@@ -63,7 +63,8 @@ struct CodecOptions {
   double atmosphere_Pa = 101'325.0;     ///< pressure to depth
   double pressure_unit_Pa = 6'894.757;  ///< of one unit of a Paroscientific value (psi)
   bool value_is_depth = false;          ///< the value is metres of depth already
-  /// ASCII depth line: text before the number, the number's factor to metres (or to pascal) and its offset.
+  /// ASCII depth or altitude line: text before the number, the number's factor to metres (or to pascal) and
+  /// its offset.
   std::string_view ascii_prefix;
   double ascii_scale = 1.0;
   double ascii_offset = 0.0;

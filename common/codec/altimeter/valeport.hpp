@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "codec/depth/depth_line.hpp"
+#include "codec/depth/depth_scale.hpp"
 #include "codec/text/nmea_sentence.hpp"
 #include "samples/altimeter.hpp"
 #include "samples/depth.hpp"
@@ -18,7 +18,8 @@ struct ValeportReport {
 /// `PRVAT,range,M[,pressure,dBar]` of Valeport's altimeters (VA500): metres to the bottom, and the absolute
 /// pressure. An empty range is unknown: the instrument is alive and hears no bottom. Where one of the two
 /// cannot be, the other is kept: a range that cannot be is unknown, a pressure that cannot be gives no depth.
-/// Refused is what has neither, and other units.
+/// Nor does one in metres, because nothing says whether it begins at the surface. Refused is what has
+/// neither.
 [[nodiscard]] std::optional<RejectReason> parse_valeport(const Sentence& sentence,
                                                          const CodecOptions& options, ValeportReport& report);
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/units.hpp"
-#include "codec/depth/depth_line.hpp"
+#include "codec/depth/depth_scale.hpp"
 #include "codec/framer.hpp"
 #include "mavlink/frame.hpp"
 #include "mavlink/messages.hpp"

@@ -3,7 +3,8 @@
 #include <optional>
 #include <string_view>
 
-#include "codec/depth/depth_line.hpp"
+#include "codec/depth/depth_scale.hpp"
+#include "codec/text/number_line.hpp"
 #include "codec/text/numbers.hpp"
 
 namespace fathom::codec {
@@ -14,7 +15,7 @@ constexpr std::size_t kAddress = 5;  // `*DDSS`
 class Paroscientific final : public Framer {
  public:
   explicit Paroscientific(const CodecOptions& options)
-      : Framer(2 * kMaxDepthLine, LineEnds::belong_to_frames),
+      : Framer(2 * kMaxNumberLine, LineEnds::belong_to_frames),
         scale_{.unit = options.pressure_unit_Pa,
                .value_is_depth = options.value_is_depth,
                .atmosphere_Pa = options.atmosphere_Pa,
@@ -23,7 +24,7 @@ class Paroscientific final : public Framer {
   }
 
  protected:
-  [[nodiscard]] Probe probe(Bytes front) const override { return probe_depth_line(front); }
+  [[nodiscard]] Probe probe(Bytes front) const override { return probe_number_line(front); }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
     const std::string_view line = text_of(frame);

@@ -12,7 +12,9 @@ void describe(Schema<AltimeterSensorConfig>& s) {
   s.field("least_confidence_percent", &C::least_confidence_percent,
           "ping: a range of which the device is less sure is unknown")
       .unit("%")
-      .range(0, 100);
+      .range(0, 100)
+      .only_for({"ping"});
+  s.field("ascii", &C::ascii, "the line's shape; its unit is m").only_for({"ascii_altitude"});
 }
 
 template LoadedConfig<AltimeterBridgeConfig> load_service_config(const LoadRequest& request);
@@ -26,6 +28,9 @@ SensorPlan sensor_plan(const AltimeterSensorConfig& config) {
   SensorPlan out = plan_of(config.sensor);
   out.options.require_checksum = config.require_checksum;
   out.options.least_confidence_percent = config.least_confidence_percent;
+  out.options.ascii_scale = config.ascii.scale;
+  out.options.ascii_offset = config.ascii.offset;
+  out.ascii_prefix = config.ascii.prefix;
   out.limits.depth_m = config.max_altitude_m;
   return out;
 }

@@ -9,6 +9,7 @@ struct AltimeterSensorConfig {
   bool require_checksum = true;
   double max_altitude_m = 11'000.0;
   double least_confidence_percent = 50.0;
+  AsciiConfig ascii;
 };
 using AltimeterBridgeConfig = BridgeConfig<AltimeterSensorConfig>;
 

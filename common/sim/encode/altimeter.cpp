@@ -23,6 +23,10 @@ std::string nmea_dpt(const AltimeterSample& sample) {
   return nmea_sentence("SDDPT," + decimal(sample.altitude_m, 2) + "," + decimal(offset_m, 2));
 }
 
+std::string ascii_altitude(const AltimeterSample& sample) {
+  return decimal(known(sample.altitude_m) ? sample.altitude_m : 0.0, 3) + "m\r\n";
+}
+
 std::vector<std::uint8_t> ping_profile(const AltimeterSample& sample, std::uint32_t number) {
   const bool heard = known(sample.altitude_m);
   const double range_mm = heard ? std::max(0.0, std::round(1e3 * sample.altitude_m)) : 0.0;

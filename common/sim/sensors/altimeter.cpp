@@ -27,6 +27,7 @@ AltimeterSample AltimeterModel::sample(const TruthPoint& point) {
 
 Bytes SimulatedDevice<AltimeterSample>::encode(const AltimeterSample& altimeter, const DeviceCall& device) {
   if (device.protocol == "ping") return encode::ping_profile(altimeter, ++pings_);
+  if (device.protocol == "ascii_altitude") return bytes_of(encode::ascii_altitude(altimeter));
   return bytes_of(encode::nmea_dpt(altimeter));
 }
 

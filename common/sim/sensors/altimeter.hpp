@@ -43,7 +43,7 @@ struct ModelOf<AltimeterSample> {
 template <>
 class SimulatedDevice<AltimeterSample> {
  public:
-  static constexpr std::array<std::string_view, 2> kProtocols{"nmea0183", "ping"};
+  static constexpr std::array<std::string_view, 3> kProtocols{"nmea0183", "ping", "ascii_altitude"};
   [[nodiscard]] Bytes encode(const AltimeterSample& altimeter, const DeviceCall& device);
 
  private:

@@ -211,9 +211,10 @@ void add_decode(CLI::App& app, ExitCode& /*exit_code*/) {
       ->check(CLI::PositiveNumber);
   command->add_flag("--value-is-depth", options->codec.value_is_depth,
                     "Pressure: the value sent is metres of depth");
-  command->add_option("--prefix", options->ascii_prefix, "ASCII depth: text before the number");
-  command->add_option("--scale", options->codec.ascii_scale, "ASCII depth: factor to metres");
-  command->add_option("--offset", options->codec.ascii_offset, "ASCII depth: added after the factor");
+  command->add_option("--prefix", options->ascii_prefix, "ASCII depth, altitude: text before the number");
+  command->add_option("--scale", options->codec.ascii_scale, "ASCII depth, altitude: factor to metres");
+  command->add_option("--offset", options->codec.ascii_offset,
+                      "ASCII depth, altitude: added after the factor");
   command->add_option("--dvl-heading-alignment", options->heading_alignment_deg,
                       "DVL in instrument or beam axes: degrees from forward to beam 3, clockwise from above");
   command->add_option("--usbl-sigma-floor", options->codec.usbl.sigma_floor_m, "USBL: least sigma, m")

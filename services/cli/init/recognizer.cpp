@@ -92,7 +92,10 @@ struct Recognizer::Listener : codec::Sink {
 };
 
 Recognizer::Recognizer() {
-  for (const codec::Protocol& one : codec::protocols()) listeners_.push_back(std::make_unique<Listener>(one));
+  for (const codec::Protocol& one : codec::protocols()) {
+    // A number a line may be anything: that it is a height has to be said.
+    if (one.name != "ascii_altitude") listeners_.push_back(std::make_unique<Listener>(one));
+  }
 }
 Recognizer::~Recognizer() = default;
 

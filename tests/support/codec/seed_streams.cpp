@@ -356,9 +356,10 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     air_data_sentences(stream, frame);
   } else if (protocol == "nmea_attitude") {
     append(stream, attitude_sentences(heading_of_antennas(frame), instant(frame), frame));
-  } else if (protocol == "ping") {
+  } else if (protocol == "ping" || protocol == "ascii_altitude") {
     AltimeterSample bottom;
     if (frame % 4 != 3) bottom.altitude_m = 2.5 + frame;
+    if (protocol != "ping") return append(stream, sim::encode::ascii_altitude(bottom));
     append(stream, sim::encode::ping_profile(bottom, static_cast<std::uint32_t>(frame)));
   } else if (protocol == "micromodem") {
     append(stream, sim::encode::nmea_sentence("CAMPR,1" + std::to_string(frame % 3) + ",1,0.2500"));

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -75,6 +76,9 @@ TEST(ValeportAltimeter, GivesRangeAndAbsolutePressure) {
   ASSERT_EQ(deep.samples.size(), 2U);
   EXPECT_NEAR(std::get<DepthSample>(deep.samples[1].sample).depth_m, 990.81, 0.02);
   EXPECT_EQ(altimeter("PRVAT,07.500,M").altitude_m, 7.5);  // a model without pressure
+  const DecodeRun metres = decode_text("nmea0183", "$PRVAT,00.210,M,0007.497,Metres*3a\r\n");
+  ASSERT_EQ(metres.samples.size(), 1U);
+  EXPECT_EQ(std::get<AltimeterSample>(metres.samples[0].sample).altitude_m, 0.21);
 }
 
 TEST(ValeportAltimeter, KeepsTheOneWhereTheOtherCannotBe) {
@@ -89,6 +93,24 @@ TEST(ValeportAltimeter, KeepsTheOneWhereTheOtherCannotBe) {
   EXPECT_EQ(refused(sentence("PRVAT,12000.1,M")), RejectReason::out_of_range);
   EXPECT_EQ(refused(sentence("PRVAT,07.500,M,0020.000")), RejectReason::structure);
   EXPECT_EQ(refused("$PRVAT,00.116,M,0010.073,dBar*39\r\n"), RejectReason::checksum);
+}
+
+TEST(AsciiAltitude, PrefixNumberAndWhatMayFollow) {
+  const auto altitudes = [](const std::string& text, const CodecOptions& options) {
+    std::vector<double> out;
+    for (const auto& sample : decode_text("ascii_altitude", text, options).all<AltimeterSample>())
+      out.push_back(sample.altitude_m);
+    return out;
+  };
+  EXPECT_EQ(altitudes("012.345m\r\n007.5\r\n", {}), (std::vector{12.345, 7.5}));
+  CodecOptions feet;
+  feet.ascii_prefix = "R";
+  feet.ascii_scale = 0.3048;
+  feet.ascii_offset = 0.1;
+  EXPECT_DOUBLE_EQ(altitudes("status ok\r\nR100.0\r\n", feet).at(0), 30.58);
+  EXPECT_TRUE(std::isnan(altitudes("000.000m\r\n", {}).at(0)));  // no bottom
+  for (const char* bad : {"12.5x3\r\n", "nan\r\n", "-1.0m\r\n", "12000.1m\r\n"})
+    EXPECT_EQ(decode_text("ascii_altitude", bad).rejected.size(), 1U) << bad;
 }
 
 TEST(NmeaAltimeter, DamageAndNonsenseAreRefused) {

@@ -1,9 +1,6 @@
-#include "codec/depth/depth_line.hpp"
-
-#include <cmath>
+#include "codec/depth/depth_scale.hpp"
 
 #include "codec/depth/pressure.hpp"
-#include "codec/text/numbers.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -15,15 +12,6 @@ constexpr double kMinPressure_Pa = 1e4;
 constexpr double kMaxPressure_Pa = 1.3e8;
 
 }  // namespace
-
-Probe probe_depth_line(Bytes front) {
-  if (is_line_end(static_cast<char>(front[0]))) return Probe::skip(1);
-  for (std::size_t i = 0; i < front.size(); ++i) {
-    if (is_line_end(static_cast<char>(front[i]))) return Probe::frame(i);
-    if (i == kMaxDepthLine) return Probe::bad(RejectReason::length, i, i);
-  }
-  return Probe::need();
-}
 
 std::optional<RejectReason> DepthScale::apply(double value, DepthSample& sample) const {
   const double quantity = value * unit + offset;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string_view>
 
 #include "codec/framer.hpp"
 #include "codec/registry.hpp"
@@ -9,14 +8,7 @@
 
 namespace fathom::codec {
 
-/// What the text protocols of pressure sensors share: lines without checksum, and what their number means.
-
-inline constexpr std::size_t kMaxDepthLine = 128;
-
-/// One line, from where the last one ended to its CR or LF. A line longer than kMaxDepthLine is refused.
-[[nodiscard]] Probe probe_depth_line(Bytes front);
-
-/// How a number becomes a depth.
+/// How the number of a pressure sensor becomes a depth.
 struct DepthScale {
   double unit = 1.0;    ///< of one count, metres or pascal
   double offset = 0.0;  ///< added after scaling, metres or pascal
