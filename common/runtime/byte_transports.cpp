@@ -18,6 +18,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
@@ -79,12 +80,17 @@ void set_framing(asio::serial_port& port, Framing framing) {
     throw std::system_error(errno, std::generic_category(), "tcsetattr");
 }
 
-// Now or not at all: a line that takes no bytes must not hold up those that come.
-void say_at_once(int line, const std::string& text) {
-  pollfd ready{line, POLLOUT, 0};
+// Now or not at all: a line that takes no bytes must not hold up those that come. That it is broken is
+// noticed where it is read.
+void say_at_once(asio::serial_port& port, const std::string& text) {
+  pollfd ready{port.native_handle(), POLLOUT, 0};
   if (text.empty() || poll(&ready, 1, 0) != 1 || (ready.revents & POLLOUT) == 0) return;
-  if (write(line, text.data(), text.size()) < 0 && errno != EAGAIN)
-    throw std::system_error(errno, std::generic_category(), "asking the device");
+  [[maybe_unused]] const auto size = write(port.native_handle(), text.data(), text.size());
+}
+void say_at_once(tcp::socket& socket, const std::string& text) {
+  if (text.empty()) return;
+  [[maybe_unused]] const auto size =
+      send(socket.native_handle(), text.data(), text.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
 }
 
 }  // namespace
@@ -113,7 +119,7 @@ asio::awaitable<void> ByteSource::Impl::serve_serial() {
     claim.release();
     port.close();
   };
-  greet_again = [this, &port] { say_at_once(port.native_handle(), config.greeting); };
+  greet_again = [this, &port] { say_at_once(port, config.greeting); };
   last_byte_ns = clock.monotonic_ns();
   change(SourceState::connected, describe_source(config) + ": open");
   greet_again();
@@ -146,7 +152,7 @@ asio::awaitable<void> ByteSource::Impl::serve_tcp_client() {
   change(SourceState::connected, describe_source(config) + ": connected");
   if (!config.greeting.empty())
     co_await asio::async_write(*socket, asio::buffer(config.greeting), asio::use_awaitable);
-  greet_again = [this, &socket] { say_at_once(socket->native_handle(), config.greeting); };
+  greet_again = [this, &socket] { say_at_once(*socket, config.greeting); };
   co_await read_all(*socket);
 }
 

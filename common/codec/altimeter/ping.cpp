@@ -62,7 +62,8 @@ std::size_t longest(std::uint16_t identifier) {
   const Layout* layout = find_layout(identifier);
   return layout == nullptr ? kLongestOther : layout->length + layout->element * kMostElements;
 }
-constexpr std::size_t kMaxFrame = kHeader + 66 + 2 * kMostElements + kSum;
+constexpr std::size_t kMaxFrame =
+    kHeader + kLayouts.back().length + kLayouts.back().element * kMostElements + kSum;
 
 struct Told {
   double range_m = 0.0;

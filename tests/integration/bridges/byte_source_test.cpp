@@ -58,6 +58,25 @@ TEST(ByteSource, StaleInputOfASerialPortIsDropped) {
   EXPECT_FALSE(listener.heard("stale"));
 }
 
+// While it is silent, and however long that is.
+TEST(ByteSource, ASilentDeviceIsAskedAgain) {
+  const test::TemporaryFolder folder;
+  ByteSourceConfig serial = quick(SourceType::serial);
+  serial.path = folder / "device";
+  serial.greeting = "tell";
+  const test::SerialDevice line(serial.path);
+  const Listener reads_line(serial);
+  test::TcpDevice peer;
+  ByteSourceConfig tcp = quick(SourceType::tcp_client);
+  tcp.port = peer.port();
+  tcp.greeting = "tell";
+  const Listener reads_peer(tcp);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(eventually([&] { return line.heard().find("tell") != std::string::npos; }));
+    EXPECT_TRUE(eventually([&] { return peer.heard().find("tell") != std::string::npos; }));
+  }
+}
+
 TEST(ByteSource, SilenceIsAStateAndEndsWithTheNextByte) {
   const test::TemporaryFolder folder;
   ByteSourceConfig config = quick(SourceType::serial);

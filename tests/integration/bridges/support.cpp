@@ -167,12 +167,22 @@ TcpDevice::~TcpDevice() {
   close(listener_);
 }
 
-void TcpDevice::send(Bytes bytes) {
+void TcpDevice::take_waiting() {
   const int next = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
-  if (next >= 0) {
-    if (peer_ >= 0) close(peer_);
-    peer_ = next;
-  }
+  if (next < 0) return;
+  if (peer_ >= 0) close(peer_);
+  peer_ = next;
+}
+
+std::string TcpDevice::heard() {
+  take_waiting();
+  std::array<char, 1024> bytes{};
+  const auto size = peer_ < 0 ? 0 : recv(peer_, bytes.data(), bytes.size(), MSG_DONTWAIT);
+  return {bytes.data(), size > 0 ? static_cast<std::size_t>(size) : 0U};
+}
+
+void TcpDevice::send(Bytes bytes) {
+  take_waiting();
   if (peer_ >= 0) ::send(peer_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
 }
 

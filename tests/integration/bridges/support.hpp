@@ -94,8 +94,12 @@ class TcpDevice {
   [[nodiscard]] int port() const { return port_; }
   /// Sends to whoever is connected; takes a waiting connection first.
   void send(Bytes bytes);
+  /// What was said to it since it was asked last.
+  [[nodiscard]] std::string heard();
 
  private:
+  void take_waiting();
+
   int listener_ = -1;
   int peer_ = -1;
   int port_ = 0;
