@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/bytes/little_endian.hpp"
+#include "codec/altimeter/deepest.hpp"
 #include "codec/framer.hpp"
 
 namespace fathom::codec {
@@ -22,7 +23,6 @@ constexpr std::size_t kHeader = 8;
 constexpr std::size_t kSum = 2;
 
 constexpr double kMillimetresPerMetre = 1e3;
-constexpr double kFarthest_m = 12'000.0;
 constexpr double kSurest_percent = 100.0;
 
 /// So many other messages behind one that numbers its pings distance_simple counts again.
@@ -119,7 +119,7 @@ class Decoder final : public Framer {
     told.confidence_percent = layout.confidence_bytes == 1
                                   ? contents[layout.confidence_at]
                                   : load_le<std::uint16_t>(contents, layout.confidence_at);
-    if (told.range_m < 0.0 || told.range_m > kFarthest_m || told.confidence_percent > kSurest_percent)
+    if (told.range_m < 0.0 || told.range_m > kDeepestBottom_m || told.confidence_percent > kSurest_percent)
       return RejectReason::out_of_range;
     return std::nullopt;
   }

@@ -1,11 +1,11 @@
 #include "codec/altimeter/valeport.hpp"
 
 #include "base/unknown.hpp"
+#include "codec/altimeter/deepest.hpp"
 
 namespace fathom::codec {
 namespace {
 
-constexpr double kFarthestBottom_m = 12'000.0;
 constexpr double kPascalPerDecibar = 1e4;
 constexpr double kHighest_dbar = 13'000.0;
 
@@ -26,7 +26,7 @@ std::optional<RejectReason> parse_valeport(const Sentence& sentence, const Codec
   report = {};
   if (sentence.fields != 2 && sentence.fields != 4) return RejectReason::structure;
   FieldReader range(sentence);
-  report.altimeter.altitude_m = range.number(0, 0.0, kFarthestBottom_m);
+  report.altimeter.altitude_m = range.number(0, 0.0, kDeepestBottom_m);
   (void)range.letter(1, "M");
   if (range.refused()) report.altimeter.altitude_m = kUnknown;
   if (sentence.fields == 2) return range.refused();

@@ -35,14 +35,19 @@ Probe probe_number_line(Bytes front) {
   return Probe::need();
 }
 
-LineNumber number_of_line(std::string_view line, std::string_view prefix) {
-  if (!checksum_right(line)) return {{}, RejectReason::checksum};
-  if (!line.starts_with(prefix)) return {};
-  const std::string_view text = trimmed(line.substr(prefix.size()));
+Outcome NumberLines::decode(Bytes frame, std::uint64_t offset, Sink& sink) {
+  const std::string_view line = text_of(frame);
+  const auto refused = [&](RejectReason reason) { return Outcome::refused(reason, frame.size()); };
+  if (!checksum_right(line)) return refused(RejectReason::checksum);
+  if (!line.starts_with(prefix_)) return Outcome::ignored();
+  const std::string_view text = trimmed(line.substr(prefix_.size()));
   const std::size_t length = std::min(text.find_first_not_of("+-.0123456789"), text.size());
   const std::optional<double> number = parse_decimal(text.substr(0, length));
-  if (!number || !may_follow(text.substr(length))) return {{}, RejectReason::field};
-  return {number, {}};
+  if (!number || !may_follow(text.substr(length))) return refused(RejectReason::field);
+  AnySample sample;
+  if (const auto reason = read(*number, sample)) return refused(*reason);
+  emit(sink, sample, {}, offset, frame.size());
+  return Outcome::used();
 }
 
 }  // namespace fathom::codec
