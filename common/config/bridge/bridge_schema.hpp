@@ -20,6 +20,7 @@ namespace fathom::config {
          " reads from it as well; where one line carries both, the same port with shared: true in each";
 }
 
+void describe(Schema<AsciiConfig>& s);
 void describe(Schema<BeaconConfig>& s);
 
 template <class Sensor>

@@ -15,6 +15,7 @@ constexpr std::uint16_t kProfile = 1300;
 constexpr std::uint16_t kStrengths = 200;
 constexpr std::size_t kHeader = 8;
 constexpr std::uint32_t kScan_mm = 100'000;
+constexpr double kOfStrength_mm = static_cast<double>(kScan_mm) / kStrengths;
 
 }  // namespace
 
@@ -43,8 +44,8 @@ std::vector<std::uint8_t> ping_profile(const AltimeterSample& sample, std::uint3
   append_le<std::uint32_t>(out, 3);  // gain
   append_le<std::uint16_t>(out, kStrengths);
   for (int i = 0; i < kStrengths; ++i) {
-    const double away = std::abs((i + 0.5) * kScan_mm / kStrengths - range_mm);
-    out.push_back(heard && away < kScan_mm / kStrengths ? 255 : 10);
+    const double away = std::abs((i + 0.5) * kOfStrength_mm - range_mm);
+    out.push_back(heard && away < kOfStrength_mm ? 255 : 10);
   }
   store_le<std::uint16_t>(out, 2, static_cast<std::uint16_t>(out.size() - kHeader));
   append_le<std::uint16_t>(out, std::accumulate(out.begin(), out.end(), std::uint16_t{0}));
