@@ -61,13 +61,13 @@ TEST(NmeaAltimeter, WithoutABottomItIsAliveAndKnowsNone) {
 }
 
 TEST(ValeportAltimeter, GivesRangeAndAbsolutePressure) {
-  // In air, from Valeport's manual: its sum is in lower case where it has letters.
+  // As published, of an instrument in air.
   const DecodeRun run = decode_text("nmea0183", "$PRVAT,00.115,M,0010.073,dBar*39\r\n");
   ASSERT_EQ(run.samples.size(), 2U);
   EXPECT_EQ(std::get<AltimeterSample>(run.samples[0].sample).altitude_m, 0.115);
   const auto& depth = std::get<DepthSample>(run.samples[1].sample);
   EXPECT_NEAR(depth.pressure_Pa, 100'730.0, 1e-6);
-  EXPECT_NEAR(depth.depth_m, -0.0595 * 1.0, 0.002);  // 595 Pa less than the standard atmosphere
+  EXPECT_NEAR(depth.depth_m, -0.0592, 1e-4);  // 595 Pa less than the standard atmosphere
 
   CodecOptions options;
   options.latitude_rad = 30.0 * kRadPerDeg;
@@ -76,7 +76,7 @@ TEST(ValeportAltimeter, GivesRangeAndAbsolutePressure) {
   ASSERT_EQ(deep.samples.size(), 2U);
   EXPECT_NEAR(std::get<DepthSample>(deep.samples[1].sample).depth_m, 990.81, 0.02);
   EXPECT_EQ(altimeter("PRVAT,07.500,M").altitude_m, 7.5);  // a model without pressure
-  const DecodeRun metres = decode_text("nmea0183", "$PRVAT,00.210,M,0007.497,Metres*3a\r\n");
+  const DecodeRun metres = decode_text("nmea0183", "$PRVAT,00.210,M,0007.497,Metres*3a\r\n");  // likewise
   ASSERT_EQ(metres.samples.size(), 1U);
   EXPECT_EQ(std::get<AltimeterSample>(metres.samples[0].sample).altitude_m, 0.21);
 }
