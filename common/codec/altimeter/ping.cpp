@@ -2,20 +2,16 @@
 
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "base/bytes/little_endian.hpp"
 #include "codec/altimeter/deepest.hpp"
+#include "codec/byte_sum.hpp"
 #include "codec/framer.hpp"
 
 namespace fathom::codec {
 
 namespace ping {
-
-std::uint16_t checksum(std::span<const std::uint8_t> bytes) {
-  return std::accumulate(bytes.begin(), bytes.end(), std::uint16_t{0});
-}
 
 namespace {
 
@@ -41,8 +37,7 @@ struct Layout {
   std::size_t confidence_bytes;
   std::optional<std::size_t> number_at;  ///< of the ping
 };
-constexpr std::uint16_t kDistanceSimple = 1211;
-constexpr std::array<Layout, 5> kLayouts{{{kDistanceSimple, 5, 0, 0, 0, true, 4, 1, std::nullopt},
+constexpr std::array<Layout, 5> kLayouts{{{1211, 5, 0, 0, 0, true, 4, 1, std::nullopt},
                                           {1212, 24, 0, 0, 0, true, 4, 2, 8},
                                           {1300, 26, 24, 1, 0, true, 4, 2, 8},
                                           {1223, 16, 0, 0, 0, true, 10, 1, 12},
@@ -84,7 +79,7 @@ class Decoder final : public Framer {
       return Probe::bad(RejectReason::length, kHeader);
     const std::size_t total = kHeader + contents + kSum;
     if (front.size() < total) return Probe::need(total);
-    if (checksum(front.first(total - kSum)) != load_le<std::uint16_t>(front, total - kSum))
+    if (byte_sum(front.first(total - kSum)) != load_le<std::uint16_t>(front, total - kSum))
       return Probe::bad(RejectReason::checksum, total);
     return Probe::frame(total);
   }

@@ -6,22 +6,11 @@
 namespace fathom::codec {
 namespace {
 
-constexpr double kPascalPerDecibar = 1e4;
 constexpr double kHighest_dbar = 13'000.0;
-
-/// None where there is no pressure, or one that cannot be.
-std::optional<DepthSample> depth_of(double pressure_dbar, const CodecOptions& options) {
-  const DepthScale scale{.unit = kPascalPerDecibar,
-                         .atmosphere_Pa = options.atmosphere_Pa,
-                         .latitude_rad = options.latitude_rad};
-  DepthSample out;
-  if (!known(pressure_dbar) || scale.apply(pressure_dbar, out)) return std::nullopt;
-  return out;
-}
 
 }  // namespace
 
-std::optional<RejectReason> parse_valeport(const Sentence& sentence, const CodecOptions& options,
+std::optional<RejectReason> parse_valeport(const Sentence& sentence, const DepthScale& dbar,
                                            ValeportReport& report) {
   report = {};
   if (sentence.fields != 2 && sentence.fields != 4) return RejectReason::structure;
@@ -33,7 +22,8 @@ std::optional<RejectReason> parse_valeport(const Sentence& sentence, const Codec
   FieldReader pressure(sentence);
   const double pressure_dbar = pressure.number(2, 0.0, kHighest_dbar);
   if (pressure.text(3) != "dBar") pressure.refuse(RejectReason::field);
-  if (!pressure.refused()) report.depth = depth_of(pressure_dbar, options);
+  DepthSample depth;
+  if (!pressure.refused() && known(pressure_dbar) && !dbar.apply(pressure_dbar, depth)) report.depth = depth;
   return report.depth ? std::nullopt : range.refused();
 }
 

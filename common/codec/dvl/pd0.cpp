@@ -1,6 +1,7 @@
 #include "codec/dvl/pd0.hpp"
 
 #include "base/bytes/little_endian.hpp"
+#include "codec/byte_sum.hpp"
 #include "codec/dvl/pd0_ensemble.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
 #include "codec/dvl/pd0_layout.hpp"
@@ -12,12 +13,6 @@ namespace {
 // Long enough for profilers with all their cells and inserted text; short enough that a damaged length field
 // does not hold back a live stream for more than seconds.
 constexpr std::size_t kMaxEnsemble = std::size_t{12} * 1024;
-
-std::uint16_t byte_sum(Bytes bytes) {
-  std::uint32_t sum = 0;
-  for (const std::uint8_t byte : bytes) sum += byte;
-  return static_cast<std::uint16_t>(sum);
-}
 
 class Pd0 : public Framer {
  public:

@@ -17,18 +17,24 @@
 namespace fathom::codec {
 namespace {
 
+constexpr double kPascalPerDecibar = 1e4;
+
 /// Whose sentences give samples.
 enum class Scope : std::uint8_t { everything, psimssb, psonlld };
 
 class Nmea0183 final : public Framer {
  public:
   Nmea0183(const CodecOptions& options, Scope scope)
-      : Framer(kMaxSentence, LineEnds::belong_to_frames), options_(options), scope_(scope) {}
+      : Framer(kMaxSentence, LineEnds::belong_to_frames),
+        require_checksum_(options.require_checksum),
+        usbl_sigma_floor_m_(options.usbl.sigma_floor_m),
+        dbar_{.unit = kPascalPerDecibar,
+              .atmosphere_Pa = options.atmosphere_Pa,
+              .latitude_rad = options.latitude_rad},
+        scope_(scope) {}
 
  protected:
-  [[nodiscard]] Probe probe(Bytes front) const override {
-    return probe_sentence(front, options_.require_checksum);
-  }
+  [[nodiscard]] Probe probe(Bytes front) const override { return probe_sentence(front, require_checksum_); }
 
   Outcome decode(Bytes frame, std::uint64_t offset, Sink& sink) override {
     const Sentence sentence = split_sentence(frame);
@@ -91,7 +97,7 @@ class Nmea0183 final : public Framer {
 
   Outcome decode_valeport(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
     ValeportReport report;
-    if (const auto reason = parse_valeport(sentence, options_, report)) return Outcome::refused(*reason);
+    if (const auto reason = parse_valeport(sentence, dbar_, report)) return Outcome::refused(*reason);
     emit(sink, report.altimeter, {}, offset, length);
     if (report.depth) emit(sink, *report.depth, {}, offset, length);
     return Outcome::used();
@@ -121,7 +127,7 @@ class Nmea0183 final : public Framer {
     UsblSample sample;
     DeviceTime time;
     bool usable = false;
-    const auto reason = parse_psimssb(sentence, options_.usbl.sigma_floor_m, sample, time, usable);
+    const auto reason = parse_psimssb(sentence, usbl_sigma_floor_m_, sample, time, usable);
     if (reason) return Outcome::refused(*reason);
     if (!usable) return Outcome::ignored();
     ship_.give(sample, time.time_of_day_ns);
@@ -132,13 +138,15 @@ class Nmea0183 final : public Framer {
   Outcome decode_psonlld(const Sentence& sentence, std::size_t length, std::uint64_t offset, Sink& sink) {
     UsblSample sample;
     DeviceTime time;
-    if (const auto reason = parse_psonlld(sentence, options_.usbl.sigma_floor_m, sample, time))
+    if (const auto reason = parse_psonlld(sentence, usbl_sigma_floor_m_, sample, time))
       return Outcome::refused(*reason);
     emit(sink, sample, time, offset, length);
     return Outcome::used();
   }
 
-  CodecOptions options_;
+  bool require_checksum_;
+  double usbl_sigma_floor_m_;
+  DepthScale dbar_;
   Scope scope_;
   ShipPose ship_;
   GpsEpochs epochs_;

@@ -12,7 +12,7 @@
 
 #include "base/bytes/big_endian.hpp"
 #include "base/bytes/little_endian.hpp"
-#include "codec/altimeter/ping.hpp"
+#include "codec/byte_sum.hpp"
 #include "codec/crc16.hpp"
 #include "codec/dvl/nortek.hpp"
 #include "codec/fletcher.hpp"
@@ -93,9 +93,8 @@ constexpr std::array kSeals{
          [](Frame frame) { store_le<std::uint16_t>(frame, 2, codec::crc16_ccitt(frame.subspan(4))); }},
     Seal{"pd0", pd0_length, 6,
          [](Frame frame) {
-           std::uint16_t sum = 0;
-           for (const std::uint8_t byte : frame.first(frame.size() - 2)) sum += byte;
-           store_le<std::uint16_t>(frame, frame.size() - 2, sum);
+           const std::size_t sealed = frame.size() - 2;
+           store_le<std::uint16_t>(frame, sealed, codec::byte_sum(frame.first(sealed)));
          }},
     Seal{"xsens", xsens_length, 4,
          [](Frame frame) { frame.back() = codec::xsens::checksum(frame.subspan(1, frame.size() - 2)); }},
@@ -114,7 +113,7 @@ constexpr std::array kSeals{
     Seal{"ping", ping_length, 8,
          [](Frame frame) {
            const std::size_t sealed = frame.size() - 2;
-           store_le<std::uint16_t>(frame, sealed, codec::ping::checksum(frame.first(sealed)));
+           store_le<std::uint16_t>(frame, sealed, codec::byte_sum(frame.first(sealed)));
          }},
     Seal{"mavlink", mavlink_length, 10,
          [](Frame frame) {
