@@ -20,11 +20,17 @@ std::optional<RejectReason> parse_valeport(const Sentence& sentence, const Depth
   if (range.refused()) report.altimeter.altitude_m = kUnknown;
   if (sentence.fields == 2) return range.refused();
   FieldReader pressure(sentence);
-  const double pressure_dbar = pressure.number(2, 0.0, kHighest_dbar);
-  if (pressure.text(3) != "dBar") pressure.refuse(RejectReason::field);
-  DepthSample depth;
-  if (!pressure.refused() && known(pressure_dbar) && !dbar.apply(pressure_dbar, depth)) report.depth = depth;
-  return report.depth ? std::nullopt : range.refused();
+  const double number = pressure.number(2, 0.0, kHighest_dbar);
+  const std::string_view unit = pressure.text(3);
+  if (unit != "dBar" && unit != "Metres") pressure.refuse(RejectReason::field);
+  std::optional<RejectReason> wrong = pressure.refused();
+  if (!wrong && known(number) && unit == "dBar") {
+    DepthSample depth;
+    wrong = dbar.apply(number, depth);
+    if (!wrong) report.depth = depth;
+  }
+  if (report.depth || known(report.altimeter.altitude_m)) return std::nullopt;
+  return range.refused() ? range.refused() : wrong;
 }
 
 }  // namespace fathom::codec

@@ -19,7 +19,7 @@ struct ValeportReport {
 /// pressure. An empty range is unknown: the instrument is alive and hears no bottom. Where one of the two
 /// cannot be, the other is kept: a range that cannot be is unknown, a pressure that cannot be gives no depth.
 /// Nor does one in metres, because nothing says whether it begins at the surface. Refused is what has
-/// neither. `dbar` makes a depth of a pressure in decibar.
+/// neither and says something that cannot be. `dbar` makes a depth of a pressure in decibar.
 [[nodiscard]] std::optional<RejectReason> parse_valeport(const Sentence& sentence, const DepthScale& dbar,
                                                          ValeportReport& report);
 

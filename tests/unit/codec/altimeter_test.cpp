@@ -91,6 +91,10 @@ TEST(ValeportAltimeter, KeepsTheOneWhereTheOtherCannotBe) {
   EXPECT_EQ(refused(sentence("PRVAT,07.500,F")), RejectReason::field);
   EXPECT_EQ(refused(sentence("PRVAT,x,M,99999,dBar")), RejectReason::field);
   EXPECT_EQ(refused(sentence("PRVAT,12000.1,M")), RejectReason::out_of_range);
+  EXPECT_EQ(refused(sentence("PRVAT,,M,99999,dBar")), RejectReason::out_of_range);
+  EXPECT_EQ(refused(sentence("PRVAT,,M,0000.100,dBar")), RejectReason::out_of_range);
+  EXPECT_EQ(refused(sentence("PRVAT,,M,0020.000,PSI")), RejectReason::field);
+  EXPECT_TRUE(std::isnan(altimeter("PRVAT,,M,0007.497,Metres").altitude_m));
   EXPECT_EQ(refused(sentence("PRVAT,07.500,M,0020.000")), RejectReason::structure);
   EXPECT_EQ(refused("$PRVAT,00.116,M,0010.073,dBar*39\r\n"), RejectReason::checksum);
 }
