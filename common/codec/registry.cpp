@@ -16,6 +16,7 @@
 #include "codec/dvl/pd6.hpp"
 #include "codec/dvl/waterlinked.hpp"
 #include "codec/heading/nmea_attitude.hpp"
+#include "codec/imu/kvh.hpp"
 #include "codec/imu/microstrain.hpp"
 #include "codec/imu/sbg.hpp"
 #include "codec/imu/stim300.hpp"
@@ -64,6 +65,7 @@ constexpr std::array<std::string_view, 3> kSbgAliases{"sbgecom", "sbg_ecom", "sb
 constexpr std::array<std::string_view, 4> kMicroStrainAliases{"mip", "microstrain_mip", "lord_microstrain",
                                                               "3dm"};
 constexpr std::array<std::string_view, 2> kStim300Aliases{"stim", "sensonor_stim300"};
+constexpr std::array<std::string_view, 4> kKvhAliases{"kvh_1750", "kvh_1775", "kvh_1725", "kvh_imu"};
 constexpr std::array<std::string_view, 4> kParoscientificAliases{"pressure", "digiquartz", "paros",
                                                                  "pressure_paroscientific"};
 constexpr std::array<std::string_view, 3> kAsciiDepthAliases{"ascii", "depth_line", "ascii_line"};
@@ -159,6 +161,8 @@ const auto kProtocols = std::to_array<Protocol>({
      kNoGreeting,
      {.fixes_have_utc = true, .heading_by_antennas = true}},
     {"stim300", kStim300Aliases, "Safran Sensonor STIM300, rate and acceleration or increments", make_stim300,
+     DeviceClock::none},
+    {"kvh", kKvhAliases, "KVH 1725, 1750, 1775: acceleration, and rates or delta angles", make_kvh,
      DeviceClock::none},
     {"paroscientific", kParoscientificAliases, "Paroscientific Digiquartz pressure", make_paroscientific,
      DeviceClock::none},

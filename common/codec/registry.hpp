@@ -56,6 +56,16 @@ struct Stim300Options {
   double increments_hz = 0.0;  ///< incremental angle and velocity at this rate; 0: angular rate, acceleration
 };
 
+/// How a KVH unit gives its temperature: in degrees or in hundredths of them.
+enum class KvhTemperature : std::uint8_t { celsius, celsius_100, fahrenheit, fahrenheit_100 };
+
+/// What the messages of a KVH unit do not say of themselves.
+struct KvhOptions {
+  double increments_hz = 0.0;  ///< delta angles at this rate; 0: rates of rotation
+  bool degrees = false;        ///< of rotation, not radians
+  KvhTemperature temperature = KvhTemperature::celsius;
+};
+
 /// What a codec needs to be told because the bytes do not say it. Each protocol reads the fields it knows.
 struct CodecOptions {
   bool require_checksum = true;         ///< NMEA 0183, ASCII air data
@@ -79,6 +89,7 @@ struct CodecOptions {
   BeaconOptions beacons;
   UsblOptions usbl;
   Stim300Options stim300;
+  KvhOptions kvh;
 };
 
 /// What a protocol's frames say of time beside their arrival. It decides how a bridge stamps its samples

@@ -7,6 +7,7 @@
 #include "base/bytes/big_endian.hpp"
 #include "base/units.hpp"
 #include "base/unknown.hpp"
+#include "codec/crc32.hpp"
 #include "codec/framer.hpp"
 
 namespace fathom::codec {
@@ -82,14 +83,8 @@ double velocity_unit_m_s(double range_g) {
 }
 
 std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
-  constexpr std::uint32_t kPolynomial = 0x04C1'1DB7U;
-  std::uint32_t crc = 0xFFFF'FFFFU;
   const std::size_t padded = (bytes.size() + 3) / 4 * 4;
-  for (std::size_t i = 0; i < padded; ++i) {
-    if (i < bytes.size()) crc ^= static_cast<std::uint32_t>(bytes[i]) << 24U;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc & 0x8000'0000U) != 0 ? crc << 1U ^ kPolynomial : crc << 1U;
-  }
-  return crc;
+  return crc32_mpeg2(bytes, padded - bytes.size());
 }
 
 }  // namespace stim300

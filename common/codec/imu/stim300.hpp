@@ -80,8 +80,8 @@ inline constexpr std::size_t kConfigurationLength = 26;
 [[nodiscard]] double velocity_unit_m_s(double range_g);
 inline constexpr double kTemperatureUnit_degC = 1.0 / 256.0;
 
-/// The last four bytes: polynomial 0x04C11DB7, initially all ones, not reflected, over the bytes before them
-/// and as many zeros, which are not sent, as fill up the last four.
+/// The last four bytes: crc32_mpeg2 of the bytes before them and of as many zeros, which are not sent, as
+/// fill up the last four.
 [[nodiscard]] std::uint32_t crc32(std::span<const std::uint8_t> bytes);
 
 }  // namespace stim300

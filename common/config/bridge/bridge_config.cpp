@@ -135,6 +135,20 @@ void describe(Schema<codec::Stim300Options>& s) {
   });
 }
 
+void describe(Schema<KvhConfig>& s) {
+  using T = codec::KvhTemperature;
+  s.field(
+       "rotation", &KvhConfig::rotation,
+       "what =ROTFMT was set to: rates, or the angles turned since the message before, which is as long ago "
+       "as rate_hz says; the unit gives delta until it is told otherwise")
+      .words({{"rate", KvhRotation::rate}, {"delta", KvhRotation::delta}});
+  s.field("rotation_unit", &KvhConfig::angle, "what =ROTUNITS was set to")
+      .words({{"rad", KvhAngle::radian}, {"deg", KvhAngle::degree}});
+  s.field("temperature_unit", &KvhConfig::temperature, "what =TEMPUNITS was set to")
+      .words(
+          {{"C", T::celsius}, {"C_100", T::celsius_100}, {"F", T::fahrenheit}, {"F_100", T::fahrenheit_100}});
+}
+
 void describe(Schema<ImuSensorConfig>& s) {
   s.include(&ImuSensorConfig::sensor);
   s.field("mounting", &ImuSensorConfig::mounting, "how its axes lie in the vehicle").required();
@@ -147,6 +161,8 @@ void describe(Schema<ImuSensorConfig>& s) {
       .range(10, 1e6);
   s.field("stim300", &ImuSensorConfig::stim300, "what its datagrams do not say of themselves")
       .only_for({"stim300"});
+  s.field("kvh", &ImuSensorConfig::kvh, "how the unit was set, which its messages do not say")
+      .only_for({"kvh"});
   s.check([](const ImuSensorConfig& c) -> Violation {
     const codec::Protocol* protocol = codec::find_protocol(c.sensor.protocol);
     if (protocol == nullptr || !protocol->traits.turns_axes || c.mounting.frame != MountingFrame::flu)

@@ -44,12 +44,26 @@ struct MountingConfig {
   [[nodiscard]] std::array<double, 9> rotation() const;
 };
 
+enum class KvhRotation : std::uint8_t {
+  rate = 0,
+  delta = 1,  ///< angles turned since the message before, which come at SensorConfig::rate_hz
+};
+enum class KvhAngle : std::uint8_t { radian = 0, degree = 1 };
+
+/// How a KVH unit was set, which its messages do not say.
+struct KvhConfig {
+  KvhRotation rotation = KvhRotation::rate;
+  KvhAngle angle = KvhAngle::radian;
+  codec::KvhTemperature temperature = codec::KvhTemperature::celsius;
+};
+
 struct ImuSensorConfig {
   SensorConfig sensor;
   MountingConfig mounting;
   double max_angular_rate_rad_s = 35.0;
   double max_specific_force_m_s2 = 400.0;
   codec::Stim300Options stim300;
+  KvhConfig kvh;
 };
 
 struct DvlSensorConfig {

@@ -37,6 +37,17 @@ double pascal(DepthUnit unit) {
   return 1.0;
 }
 
+/// At which a KVH unit sends that was measured or told to send at about this rate: one of those it can be set
+/// to (=DR), or just the rate where it is far from all, as of a unit that is triggered (=MSYNC,EXT).
+double kvh_rate_hz(double rate_hz) {
+  constexpr double kFar = 0.01;
+  for (const double own :
+       {1.0, 5.0, 10.0, 25.0, 50.0, 100.0, 250.0, 500.0, 750.0, 1'000.0, 3'600.0, 5'000.0}) {
+    if (std::abs(rate_hz - own) < kFar * own) return own;
+  }
+  return rate_hz;
+}
+
 }  // namespace
 
 SensorPlan plan_of(const SensorConfig& sensor) {
@@ -74,6 +85,10 @@ SensorPlan sensor_plan(const ImuSensorConfig& config) {
   SensorPlan out = plan_of(config.sensor);
   out.R_BS = config.mounting.rotation();
   out.options.stim300 = config.stim300;
+  out.options.kvh.increments_hz =
+      config.kvh.rotation == KvhRotation::delta ? kvh_rate_hz(config.sensor.rate_hz) : 0.0;
+  out.options.kvh.degrees = config.kvh.angle == KvhAngle::degree;
+  out.options.kvh.temperature = config.kvh.temperature;
   out.limits.angular_rate_rad_s = config.max_angular_rate_rad_s;
   out.limits.specific_force_m_s2 = config.max_specific_force_m_s2;
   return out;

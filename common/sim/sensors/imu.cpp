@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geo/so3.hpp"
+#include "sim/encode/imu/kvh.hpp"
 #include "sim/encode/imu/microstrain.hpp"
 #include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/imu/stim300.hpp"
@@ -102,6 +103,7 @@ Bytes SimulatedDevice<ImuSample>::encode(const ImuSample& imu, const DeviceCall&
     frame.counter = static_cast<std::uint8_t>(since_power_on_ns / kStimSample_ns);
     return encode::stim300(imu, frame);
   }
+  if (device.protocol == "kvh") return encode::kvh(imu, {.sequence = counter_++});
   return encode::vectornav(imu, since_power_on_ns);
 }
 

@@ -87,8 +87,8 @@ struct ModelOf<ImuSample> {
 template <>
 class SimulatedDevice<ImuSample> {
  public:
-  static constexpr std::array<std::string_view, 5> kProtocols{"vectornav", "xsens", "microstrain", "sbg",
-                                                              "stim300"};
+  static constexpr std::array<std::string_view, 6> kProtocols{"vectornav", "xsens",   "microstrain",
+                                                              "sbg",       "stim300", "kvh"};
   [[nodiscard]] Bytes encode(const ImuSample& imu, const DeviceCall& device);
 
  private:

@@ -246,6 +246,11 @@ void add_decode(CLI::App& app, ExitCode& /*exit_code*/) {
       ->add_option("--stim300-increments-hz", options->codec.stim300.increments_hz,
                    "STIM300: sample rate where it gives increments; 0: it gives rates and accelerations")
       ->check(CLI::IsMember({0.0, 125.0, 250.0, 500.0, 1000.0, 2000.0}));
+  command
+      ->add_option("--kvh-increments-hz", options->codec.kvh.increments_hz,
+                   "KVH: messages per second where it gives delta angles; 0: it gives rates of rotation")
+      ->check(CLI::Range(0.0, 5000.0));
+  command->add_flag("--kvh-degrees", options->codec.kvh.degrees, "KVH: rotation is in degrees, not radians");
   command->callback([options] { run(*options); });
 }
 

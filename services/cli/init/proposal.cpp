@@ -108,6 +108,14 @@ void add_depth(const Recognition& seen, Proposal& out) {
   }
 }
 
+/// What a unit of KVH does unless it was set otherwise: at rest nothing in its messages says it.
+void add_kvh(Proposal& out) {
+  out.instrument["bridge"] = {{"kvh", {{"rotation", "delta"}}}};
+  out.notes.push_back(
+      "it is taken to give delta angles in radians, as it does unless it was set otherwise; say rotation and "
+      "rotation_unit in bridge.kvh if it was (=ROTFMT, =ROTUNITS)");
+}
+
 void add_mounting(const Recognition& seen, Proposal& out) {
   const auto upright = seen.mean_force_S ? upright_rpy_deg(*seen.mean_force_S) : std::nullopt;
   out.has_mounting = true;
@@ -135,6 +143,7 @@ Proposal proposal_of(const Heard& heard, const SeenKind& kind, const std::string
   if (made.has_place) made.instrument["position_m"] = {0.0, 0.0, 0.0};
   if (key_of("mounting_rpy_deg", kind.kind).required) add_mounting(seen, made);
   if (kind.kind == SourceKind::depth) add_depth(seen, made);
+  if (seen.protocol == "kvh") add_kvh(made);
   if (seen.protocol == "nmea_attitude") {
     made.notes.push_back(
         "where its sentence does not say which north the heading is from, north of its bridge does");

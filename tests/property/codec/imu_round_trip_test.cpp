@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "base/units.hpp"
+#include "codec/imu/kvh.hpp"
 #include "codec/imu/microstrain.hpp"
 #include "codec/imu/sbg.hpp"
 #include "codec/imu/stim300.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/xsens.hpp"
 #include "round_trip.hpp"
+#include "sim/encode/imu/kvh.hpp"
 #include "sim/encode/imu/microstrain.hpp"
 #include "sim/encode/imu/sbg.hpp"
 #include "sim/encode/imu/stim300.hpp"
@@ -240,6 +242,47 @@ TEST_F(ImuRoundTrip, Stim300KeepsHalfACount) {
       EXPECT_NEAR(push_read[i], push[i], 0.501 * push_unit);
     }
     EXPECT_EQ(known(r.delta_time_s), increments);
+  }
+}
+
+TEST_F(ImuRoundTrip, KvhKeepsSinglePrecisionAsItIsSet) {
+  using codec::kvh::Format;
+  for (int run = 0; run < kRuns; ++run) {
+    sim::encode::KvhMessage message;
+    message.format = run % 3 == 0 ? Format::a : run % 3 == 1 ? Format::b : Format::c;
+    message.sequence = static_cast<std::uint16_t>(draw(0.0, 60'000.0));
+    message.clock_us = static_cast<std::uint32_t>(draw(0.0, 4e9));
+    message.options.increments_hz = chance(0.5) ? draw(1.0, 5'000.0) : 0.0;
+    message.options.degrees = chance(0.5);
+    message.options.temperature = static_cast<codec::KvhTemperature>(static_cast<int>(draw(0.0, 4.0)));
+    ImuSample s;
+    s.angular_rate_B_rad_s = draw3(8.0);
+    s.specific_force_B_m_s2 = draw3(90.0);
+    s.temperature_degC = draw(-40.0, 75.0);
+    const auto lost = static_cast<std::size_t>(draw(0.0, 5.0));  // an axis of the gyros; from 3 on none
+    if (lost < 3) s.angular_rate_B_rad_s[lost] = kUnknown;
+
+    codec::CodecOptions reading;
+    reading.kvh = message.options;
+    const auto got = read(codec::make_kvh(reading), sim::encode::kvh(s, message));
+    ASSERT_EQ(got.size(), 1U);
+    const auto& r = std::get<ImuSample>(got[0].sample);
+    EXPECT_EQ(got[0].time.clock_ns.has_value(), message.format == Format::b);
+    if (message.format == Format::b) {
+      EXPECT_EQ(got[0].time.clock_ns, message.clock_us * 1'000LL);
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_EQ(known(r.angular_rate_B_rad_s[i]), i != lost);
+      if (i != lost) {
+        EXPECT_NEAR(r.angular_rate_B_rad_s[i], s.angular_rate_B_rad_s[i], 1e-6);
+      }
+    }
+    expect_same3(s.specific_force_B_m_s2, r.specific_force_B_m_s2, 6e-8, 0.0);
+    const bool has_temperature = message.format != Format::c || message.sequence % 4 == 0;
+    ASSERT_EQ(known(r.temperature_degC), has_temperature);
+    if (has_temperature) {
+      EXPECT_NEAR(r.temperature_degC, s.temperature_degC, message.format == Format::c ? 1e-4 : 0.51);
+    }
   }
 }
 

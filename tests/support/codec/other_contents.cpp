@@ -14,6 +14,7 @@
 #include "base/bytes/little_endian.hpp"
 #include "codec/byte_sum.hpp"
 #include "codec/crc16.hpp"
+#include "codec/crc32.hpp"
 #include "codec/dvl/nortek.hpp"
 #include "codec/fletcher.hpp"
 #include "codec/imu/sbg.hpp"
@@ -77,6 +78,13 @@ std::size_t ping_length(Frame at) {
 std::size_t mavlink_length(Frame at) {
   return at[0] == 0xFD && at[2] == 0 ? 12U + at[1] : 0U;
 }
+std::size_t kvh_length(Frame at) {
+  if (at[0] != 0xFE || at[1] != 0x81 || at[2] != 0xFF) return 0;
+  return at[3] == 0x55 ? 36U : at[3] == 0x56 ? 40U : at[3] == 0x57 ? 38U : 0U;
+}
+void put_be32(Frame frame, std::size_t at, std::uint32_t value) {
+  for (std::size_t i = 0; i < 4; ++i) frame[at + i] = static_cast<std::uint8_t>(value >> (24U - 8U * i));
+}
 /// Their frames do not say how long they are: these are found by their samples.
 std::size_t says_none(Frame /*at*/) {
   return 0;
@@ -132,12 +140,15 @@ constexpr std::array kSeals{
            frame[sealed] = static_cast<std::uint8_t>(crc >> 8U);
            frame[sealed + 1] = static_cast<std::uint8_t>(crc & 0xFFU);
          }},
+    Seal{"kvh", kvh_length, 4,
+         [](Frame frame) {
+           const std::size_t sealed = frame.size() - 4;
+           put_be32(frame, sealed, codec::crc32_mpeg2(frame.first(sealed)));
+         }},
     Seal{"stim300", says_none, 1,
          [](Frame frame) {
            const std::size_t sealed = frame.size() - 4;
-           const std::uint32_t crc = codec::stim300::crc32(frame.first(sealed));
-           for (std::size_t i = 0; i < 4; ++i)
-             frame[sealed + i] = static_cast<std::uint8_t>(crc >> (24U - 8U * i));
+           put_be32(frame, sealed, codec::stim300::crc32(frame.first(sealed)));
          }},
 };
 

@@ -23,6 +23,7 @@
 #include "sim/encode/nmea.hpp"
 #include "sim/encode/sbf.hpp"
 #include "sim/encode/ubx.hpp"
+#include "support/codec/kvh_seed.hpp"
 #include "support/codec/novatel_seed.hpp"
 #include "support/codec/text_seeds.hpp"
 
@@ -344,6 +345,8 @@ void append_frame(ByteVector& stream, std::string_view protocol, int frame) {
     sbg_logs(stream, frame);
   } else if (protocol == "stim300") {
     stim300_datagrams(stream, frame);
+  } else if (protocol == "kvh") {
+    append(stream, kvh_messages(imu(frame), frame));
   } else if (protocol == "microstrain") {
     append(stream, sim::encode::microstrain(imu(frame), since_power_on(frame), some_utc(frame)));
     append(stream, sim::encode::microstrain_gnss(gps(frame), instant(frame), frame % 3 == 0 ? 0x81 : 0x91));

@@ -205,6 +205,28 @@ TEST(BridgeConfig, WhatAStim300DoesNotSayReachesItsCodec) {
             std::string::npos);
 }
 
+TEST(BridgeConfig, HowAKvhUnitWasSetReachesItsCodec) {
+  const auto plan = [](const std::string& rate_hz, const std::string& keys) {
+    return sensor_plans(
+               shipped<ImuBridgeConfig>(
+                   "imu_bridge", {"sensors.0.protocol=kvh_1750", "sensors.0.rate_hz=" + rate_hz,
+                                  "sensors.0.time={\"mode\":\"arrival\"}", "sensors.0.kvh={" + keys + "}"}))
+        .at(0)
+        .options.kvh;
+  };
+  EXPECT_EQ(plan("100", "").increments_hz, 0.0);
+  EXPECT_FALSE(plan("100", "").degrees);
+  EXPECT_TRUE(plan("100", R"("rotation_unit":"deg")").degrees);
+  EXPECT_EQ(plan("100", R"("temperature_unit":"F_100")").temperature, codec::KvhTemperature::fahrenheit_100);
+  // A rate that was measured is that of the unit that is near; one of its own is kept.
+  EXPECT_EQ(plan("998.7", R"("rotation":"delta")").increments_hz, 1'000.0);
+  EXPECT_EQ(plan("248", R"("rotation":"delta")").increments_hz, 250.0);
+  EXPECT_EQ(plan("200", R"("rotation":"delta")").increments_hz, 200.0);
+  EXPECT_NE(
+      refused<ImuBridgeConfig>("imu_bridge", {"sensors.0.kvh.rotation=delta"}).find("protocol is one of kvh"),
+      std::string::npos);
+}
+
 TEST(BridgeConfig, TheNorthOfASentenceThatDoesNotSayItReachesItsCodec) {
   const auto plan = [](const std::string& set) {
     return sensor_plans(shipped<HeadingBridgeConfig>("heading_bridge", {"sensors.0.protocol=pashr", set}))

@@ -190,6 +190,15 @@ TEST(Proposal, AsksForTheUnitOfAPressureOnlyWhereItsProtocolDoesNotSayIt) {
   EXPECT_FALSE(made[1].instrument.contains("bridge"));
 }
 
+TEST(Proposal, OfAKvhUnitItIsSaidHowItIsTakenToBeSet) {
+  const auto made = propose({heard(SourceKind::imu, 999.4, "kvh", "/dev/a")});
+  ASSERT_EQ(made.size(), 1U);
+  EXPECT_EQ(made[0].instrument["rate_hz"], 1'000.0);
+  EXPECT_EQ(made[0].instrument["bridge"]["kvh"]["rotation"], "delta");
+  EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("=ROTFMT")));
+  EXPECT_THAT(made[0].notes, ::testing::Contains(HasSubstr("kvh_1725, kvh_1750, kvh_1775")));
+}
+
 TEST(Proposal, NamesTheModelsThatSpeakSo) {
   const auto made = propose({heard(SourceKind::imu, 100.0, "vectornav", "/dev/a"),
                              heard(SourceKind::usbl, 1.0, "psimssb", "/dev/b"),
