@@ -1,6 +1,5 @@
 #include "codec/imu/kvh.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -13,6 +12,11 @@
 #include "codec/wrapping_clock.hpp"
 
 namespace fathom::codec {
+
+double kvh::rotation_unit_rad_s(const KvhOptions& options) {
+  const double angle = options.degrees ? kRadPerDeg : 1.0;
+  return options.increments_hz > 0.0 ? angle * options.increments_hz : angle;
+}
 
 double kvh::to_degC(double reading, KvhTemperature unit) {
   const bool hundredths = unit == KvhTemperature::celsius_100 || unit == KvhTemperature::fahrenheit_100;
@@ -104,7 +108,7 @@ class Kvh : public Framer {
       return Outcome::refused(RejectReason::structure);
 
     ImuSample s;
-    s.angular_rate_B_rad_s = triad(message, kvh::kRotation, rotation_unit(), status);
+    s.angular_rate_B_rad_s = triad(message, kvh::kRotation, kvh::rotation_unit_rad_s(options_), status);
     s.specific_force_B_m_s2 =
         triad(message, kvh::kAcceleration, kStandardGravity_m_s2, status >> kvh::kFirstAccelerometer);
     s.temperature_degC = temperature(message, format, status_at);
@@ -118,12 +122,6 @@ class Kvh : public Framer {
     return Outcome::used();
   }
 
-  /// Of the rotation in rad/s.
-  [[nodiscard]] double rotation_unit() const {
-    const double angle = options_.degrees ? kRadPerDeg : 1.0;
-    return options_.increments_hz > 0.0 ? angle * options_.increments_hz : angle;
-  }
-
   /// Three numbers in their unit; axes that `valid` does not call so, from bit 0 on, are unknown.
   [[nodiscard]] static KvhVector triad(Bytes message, std::size_t at, double unit, unsigned valid) {
     KvhVector out{};
@@ -134,12 +132,9 @@ class Kvh : public Framer {
 
   /// Unknown where the message has none, and where it cannot be: it is no reason to lose the rest.
   [[nodiscard]] double temperature(Bytes message, kvh::Format format, std::size_t status_at) const {
-    double reading = kUnknown;
-    if (format != kvh::Format::c) {
-      reading = load_be<std::int16_t>(message, status_at + 2);
-    } else if (message[status_at + 1] % 4 == 0) {
-      reading = load_be<float>(message, kvh::kRest);
-    }
+    if (!kvh::has_temperature(format, message[status_at + 1])) return kUnknown;
+    const double reading = format == kvh::Format::c ? load_be<float>(message, kvh::kRest)
+                                                    : load_be<std::int16_t>(message, status_at + 2);
     const double degC = kvh::to_degC(reading, options_.temperature);
     return degC >= kColdestKvh_degC && degC <= kHottestKvh_degC ? degC : kUnknown;
   }

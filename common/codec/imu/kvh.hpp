@@ -8,7 +8,7 @@
 
 namespace fathom::codec {
 
-/// KVH 1725, 1750, 1760 and 1775: messages of the normal mode in the formats A, B and C (1775 IMU interface
+/// KVH 1725, 1750 and 1775: messages of the normal mode in the formats A, B and C (1775 IMU interface
 /// control document 56-0298, tables 5-1 to 5-9). Results of built-in tests (5.3) are ignored. Formats may
 /// change in the middle of a stream.
 ///
@@ -21,8 +21,7 @@ namespace fathom::codec {
 /// reads +1 g, so forces are specific forces. Lying on its base the unit has z up: where x is forward, its
 /// axes are forward, left, up, and its bridge or vehicle turns them.
 ///
-/// Status: axes that the unit does not call valid are unknown, as those of the gyros for a second or so after
-/// it is switched on.
+/// Status: axes that the unit does not call valid are unknown, as its gyros are when it was just switched on.
 ///
 /// Temperature: format C has it in every fourth message, the magnetic field in the others, which is ignored.
 ///
@@ -52,12 +51,19 @@ inline constexpr std::size_t kRotation = 4;
 inline constexpr std::size_t kAcceleration = 16;
 inline constexpr std::size_t kRest = 28;
 
-/// The status that calls every axis valid: gyros from bit 0, accelerometers from bit 4.
-inline constexpr unsigned kAllValid = 0x77;
+// A bit of the status for each valid axis: gyros from bit 0, accelerometers from this one on.
 inline constexpr unsigned kFirstAccelerometer = 4;
 inline constexpr std::uint8_t kSequences = 128;
 
-/// Of the unit's temperature, from °C and to it.
+/// Whether a message has the temperature: in format C one of four has it.
+[[nodiscard]] constexpr bool has_temperature(Format format, std::uint8_t sequence) {
+  return format != Format::c || sequence % 4 == 0;
+}
+
+/// What 1 in a message means, rad/s.
+[[nodiscard]] double rotation_unit_rad_s(const KvhOptions& options);
+
+/// The reading of the temperature in °C, and back.
 [[nodiscard]] double to_degC(double reading, KvhTemperature unit);
 [[nodiscard]] double from_degC(double temperature_degC, KvhTemperature unit);
 

@@ -37,8 +37,8 @@ double pascal(DepthUnit unit) {
   return 1.0;
 }
 
-/// At which a KVH unit sends that was measured or told to send at about this rate: one of those it can be set
-/// to (=DR), or just the rate where it is far from all, as of a unit that is triggered (=MSYNC,EXT).
+/// The message rate of a KVH unit. A rate that was measured stands for the one of the unit's own (=DR) that
+/// is within 1 % of it. Where none is, the rate counts as it is: such a unit is triggered (=MSYNC,EXT).
 double kvh_rate_hz(double rate_hz) {
   constexpr double kFar = 0.01;
   for (const double own :

@@ -31,20 +31,19 @@ unsigned put_kvh_triad(std::vector<std::uint8_t>& out, const std::array<double, 
 std::vector<std::uint8_t> kvh(const ImuSample& s, const KvhMessage& message) {
   using kvh_layout::Format;
   const codec::KvhOptions& options = message.options;
-  const double angle = options.degrees ? kRadPerDeg : 1.0;
-  const double per_interval = options.increments_hz > 0.0 ? options.increments_hz : 1.0;
   const auto sequence = static_cast<std::uint8_t>(message.sequence % kvh_layout::kSequences);
   const double reading =
       known(s.temperature_degC) ? kvh_layout::from_degC(s.temperature_degC, options.temperature) : 0.0;
 
   std::vector<std::uint8_t> out{kvh_layout::kFirst, kvh_layout::kSecond, kvh_layout::kData,
                                 static_cast<std::uint8_t>(message.format)};
-  unsigned valid = put_kvh_triad(out, s.angular_rate_B_rad_s, angle * per_interval);
+  unsigned valid = put_kvh_triad(out, s.angular_rate_B_rad_s, kvh_layout::rotation_unit_rad_s(options));
   valid |= put_kvh_triad(out, s.specific_force_B_m_s2, kStandardGravity_m_s2)
            << kvh_layout::kFirstAccelerometer;
   if (message.format == Format::b) append_be<std::uint32_t>(out, message.clock_us);
   if (message.format == Format::c)
-    append_be<float>(out, sequence % 4 == 0 ? static_cast<float>(reading) : 0.0F);
+    append_be<float>(
+        out, kvh_layout::has_temperature(message.format, sequence) ? static_cast<float>(reading) : 0.0F);
   out.push_back(static_cast<std::uint8_t>(valid));
   out.push_back(sequence);
   if (message.format != Format::c) {
