@@ -86,10 +86,11 @@ template <class T>
 void make_room(std::vector<T>& rows, const CsvReader& csv) {
   constexpr std::size_t kRowsToJudgeBy = 4'096;
   constexpr double kMargin = 1.05;
+  constexpr double kMostGrowth = 64.0;  // at once, whatever the file promises
   if (rows.size() < rows.capacity() || rows.size() < kRowsToJudgeBy) return;
   const auto count = static_cast<double>(rows.size());
   const double expected = kMargin * count / std::max(csv.part_read(), 0.01);
-  rows.reserve(static_cast<std::size_t>(std::clamp(expected, 1.1 * count, 4.0 * count)));
+  rows.reserve(static_cast<std::size_t>(std::clamp(expected, 1.1 * count, kMostGrowth * count)));
 }
 
 template <class T>
