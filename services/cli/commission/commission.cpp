@@ -16,6 +16,7 @@
 #include "cli/commission/assume.hpp"
 #include "cli/commission/page.hpp"
 #include "cli/commission/patch.hpp"
+#include "cli/large_pages.hpp"
 #include "cli/log.hpp"
 #include "cli/outputs.hpp"
 #include "config/fusion/fusion_config.hpp"
@@ -187,6 +188,7 @@ void add_commission(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--page", options->page, "write a page of HTML with plots, complete in itself");
   command->add_flag("--apply", options->apply, "write what was found into the file of --vehicle or --config");
   command->callback([options, &exit_code] {
+    use_large_pages();
     refuse_same_files(
         {{"the input", options->log, true}, {"--config", options->config}, {"--vehicle", options->vehicle}},
         {{"--page", options->page}});

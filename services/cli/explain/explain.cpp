@@ -13,6 +13,7 @@
 #include "cli/command.hpp"
 #include "cli/explain/live.hpp"
 #include "cli/explain/read.hpp"
+#include "cli/large_pages.hpp"
 #include "cli/recording.hpp"
 #include "explain/account.hpp"
 
@@ -137,6 +138,7 @@ void add_explain(CLI::App& app, ExitCode& exit_code) {
   options->bus.low_priority = true;
   add_bus_options(*command, options->bus, "recorder");
   command->callback([options, &exit_code] {
+    if (!options->live) use_large_pages();
     if (options->files.empty() && !options->live)
       throw Failure(ExitCode::bad_configuration, "explain: expected a recording (.mcap), or --live");
     const explain::History history = read(*options);

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
+#include "cli/large_pages.hpp"
 #include "cli/log.hpp"
 #include "cli/outputs.hpp"
 #include "cli/report/gather.hpp"
@@ -85,6 +86,7 @@ void add_report(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--start", options->start, "\"reference\": from the first row of reference.csv")
       ->check(CLI::IsMember({"reference"}));
   command->callback([options, &exit_code] {
+    use_large_pages();
     refuse_same_files({{"the input", options->directory, true},
                        {"--vehicle", options->config.vehicle},
                        {"--config", options->config.own}},

@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/command.hpp"
+#include "cli/large_pages.hpp"
 #include "cli/log.hpp"
 #include "cli/outputs.hpp"
 #include "cli/solve/calibrate.hpp"
@@ -19,7 +20,6 @@
 #include "cli/solve/fixes.hpp"
 #include "cli/solve/metrics.hpp"
 #include "cli/solve/outage.hpp"
-#include "cli/solve/relay.hpp"
 #include "cli/solve/run.hpp"
 #include "cli/solve/smooth.hpp"
 #include "config/fusion/fusion_config.hpp"
@@ -242,15 +242,12 @@ SolveReport solve(const SolveOptions& options) {
   } else {
     HeadingWatch heading(loaded.value, data.of<GpsSample>());
     NavDetail detail;
-    // What is made of the states is as much work as navigating.
-    Relay<NavState> relay(take);
     solve_run.on_state = [&](const NavState& state, const estimation::FusionEngine& engine) {
-      relay.give(state);
+      take(state);
       if (heading.wants_detail(state)) engine.fill(detail);
       heading.add(state, detail);
     };
     report.result = run(solve_run);
-    relay.finish();
     solve_run.on_state = {};
     report.heading = heading.figures();
     report.heading.reference = heading_errors;
@@ -362,6 +359,7 @@ void add_solve(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--page", options->compare_page, "of --compare: one page (HTML)")->needs(other);
   command->add_flag("--json", options->json, "print the metrics, or the comparison, as JSON");
   command->callback([options, other, out, &exit_code] {
+    use_large_pages();
     refuse_same_files({{"the input", options->directory, true},
                        {"--vehicle", options->config.vehicle},
                        {"--config", options->config.own},

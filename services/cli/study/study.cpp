@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
+#include "cli/large_pages.hpp"
 #include "cli/progress.hpp"
 #include "cli/study/scenarios.hpp"
 #include "config/registry.hpp"
@@ -171,7 +172,10 @@ void add_study(CLI::App& app, ExitCode&) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--json", options->json, "file for the rows as JSON; - for standard output");
-  command->callback([options] { run(*options); });
+  command->callback([options] {
+    use_large_pages();
+    run(*options);
+  });
 }
 
 }  // namespace fathom::cli
