@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include <zlib.h>
 
@@ -53,23 +54,53 @@ char* whole_before(char* end, std::uint64_t value) {
   return digits_before(end, value, value >= 10 ? 2 : 1);
 }
 
+/// Writes so many digits of a whole number, in parts that do not wait for each other.
+template <int kCount>
+void put_digits(char* at, std::uint64_t value) {
+  if constexpr (kCount == 1) {
+    *at = static_cast<char>('0' + value);
+  } else if constexpr (kCount == 2) {
+    std::memcpy(at, &kPairs[2 * value], 2);
+  } else {
+    constexpr int kLow = kCount > 8 ? 8 : kCount > 4 ? 4 : 2;
+    constexpr std::uint64_t kPower = kLow == 8 ? 100'000'000 : kLow == 4 ? 10'000 : 100;
+    put_digits<kCount - kLow>(at, value / kPower);
+    put_digits<kLow>(at + kCount - kLow, value % kPower);
+  }
+}
+
 /// What std::to_chars writes with a fixed count of decimals, several times faster: one product, rounded to a
 /// whole number. Written before `end`, returns where it begins; `end` where the product's own rounding might
 /// have decided.
-char* quick_fixed(double value, int decimals, char* end) {
-  if (decimals < 1 || decimals >= static_cast<int>(kPowersOfTen.size())) return end;
-  const double scaled = std::abs(value) * kPowersOfTen[static_cast<std::size_t>(decimals)];
+template <int kDecimals>
+char* quick_fixed(double value, char* end) {
+  constexpr auto kPower = static_cast<std::uint64_t>(kPowersOfTen[kDecimals]);
+  const double scaled = std::abs(value) * kPowersOfTen[kDecimals];
   if (!(scaled < kMostScaled)) return end;
   // NOLINTNEXTLINE(bugprone-incorrect-roundings): what is in doubt is sent back below
   const auto whole = static_cast<std::int64_t>(scaled + 0.5);
   const double off = std::abs(scaled - static_cast<double>(whole));
   if (off > 0.5 - kDoubtful) return end;
-  auto rounded = static_cast<std::uint64_t>(whole);
-  char* at = digits_before(end, rounded, static_cast<std::size_t>(decimals));
+  const auto rounded = static_cast<std::uint64_t>(whole);
+  char* at = end - kDecimals;
+  put_digits<kDecimals>(at, rounded % kPower);
   *--at = '.';
-  at = whole_before(at, rounded);
+  at = whole_before(at, rounded / kPower);
   if (std::signbit(value)) *--at = '-';
   return at;
+}
+
+/// By the count of decimals, of those that are written the quick way.
+template <int... kDecimals>
+constexpr std::array<char* (*)(double, char*), sizeof...(kDecimals)> quick_of(
+    std::integer_sequence<int, kDecimals...>) {
+  return {&quick_fixed<kDecimals + 1>...};
+}
+constexpr auto kQuick = quick_of(std::make_integer_sequence<int, 12>());
+
+char* quick_fixed(double value, int decimals, char* end) {
+  if (decimals < 1 || decimals > static_cast<int>(kQuick.size())) return end;
+  return kQuick[static_cast<std::size_t>(decimals - 1)](value, end);
 }
 
 }  // namespace
