@@ -38,23 +38,8 @@ constexpr std::array<char, 200> kPairs = [] {
   return pairs;
 }();
 
-/// Writes the last `count` digits of a whole number before `end`; returns where they begin.
-char* digits_before(char* end, std::uint64_t& value, std::size_t count) {
-  for (; count >= 2; count -= 2, value /= 100) std::memcpy(end -= 2, &kPairs[2 * (value % 100)], 2);
-  if (count == 1) {
-    *--end = static_cast<char>('0' + value % 10);
-    value /= 10;
-  }
-  return end;
-}
-
-/// Writes a whole number before `end`, without leading zeros; returns where it begins.
-char* whole_before(char* end, std::uint64_t value) {
-  while (value >= 100) end = digits_before(end, value, 2);
-  return digits_before(end, value, value >= 10 ? 2 : 1);
-}
-
-/// Writes so many digits of a whole number, in parts that do not wait for each other.
+/// Writes a whole number of so many digits, leading zeros among them: in parts that do not wait for each
+/// other.
 template <int kCount>
 void put_digits(char* at, std::uint64_t value) {
   if constexpr (kCount == 1) {
@@ -69,11 +54,22 @@ void put_digits(char* at, std::uint64_t value) {
   }
 }
 
+/// Writes a whole number before `end`, without leading zeros; returns where it begins.
+char* whole_before(char* end, std::uint64_t value) {
+  for (; value >= 100; value /= 100) put_digits<2>(end -= 2, value % 100);
+  if (value < 10) {
+    put_digits<1>(--end, value);
+  } else {
+    put_digits<2>(end -= 2, value);
+  }
+  return end;
+}
+
 /// What std::to_chars writes with a fixed count of decimals, several times faster: one product, rounded to a
 /// whole number. Written before `end`, returns where it begins; `end` where the product's own rounding might
 /// have decided.
 template <int kDecimals>
-char* quick_fixed(double value, char* end) {
+char* quick_fixed_of(double value, char* end) {
   constexpr auto kPower = static_cast<std::uint64_t>(kPowersOfTen[kDecimals]);
   const double scaled = std::abs(value) * kPowersOfTen[kDecimals];
   if (!(scaled < kMostScaled)) return end;
@@ -90,17 +86,15 @@ char* quick_fixed(double value, char* end) {
   return at;
 }
 
-/// By the count of decimals, of those that are written the quick way.
-template <int... kDecimals>
-constexpr std::array<char* (*)(double, char*), sizeof...(kDecimals)> quick_of(
-    std::integer_sequence<int, kDecimals...>) {
-  return {&quick_fixed<kDecimals + 1>...};
-}
-constexpr auto kQuick = quick_of(std::make_integer_sequence<int, 12>());
-
+/// The same for a count that is given when it runs; `end` where it is none of those that are compiled.
 char* quick_fixed(double value, int decimals, char* end) {
-  if (decimals < 1 || decimals > static_cast<int>(kQuick.size())) return end;
-  return kQuick[static_cast<std::size_t>(decimals - 1)](value, end);
+  constexpr int kMostDecimals = 12;
+  constexpr auto kOf = []<int... kLess>(std::integer_sequence<int, kLess...>) {
+    return std::array{&quick_fixed_of<kLess + 1>...};
+  }
+  (std::make_integer_sequence<int, kMostDecimals>());
+  return decimals < 1 || decimals > kMostDecimals ? end
+                                                  : kOf[static_cast<std::size_t>(decimals - 1)](value, end);
 }
 
 }  // namespace
@@ -163,10 +157,10 @@ CsvWriter& CsvWriter::seconds(DurationNs duration) {
   constexpr std::uint64_t kPerSecond = kNsPerSecond;
   std::array<char, 32> digits;
   char* const end = digits.data() + digits.size();
-  constexpr std::size_t kDecimals = 9;
-  constexpr std::size_t kLeastDecimals = 2;
-  std::uint64_t below = magnitude % kPerSecond;
-  char* begin = digits_before(end, below, kDecimals);
+  constexpr int kDecimals = 9;
+  constexpr int kLeastDecimals = 2;
+  char* begin = end - kDecimals;
+  put_digits<kDecimals>(begin, magnitude % kPerSecond);
   const char* const least = begin + kLeastDecimals;
   *--begin = '.';
   begin = whole_before(begin, magnitude / kPerSecond);

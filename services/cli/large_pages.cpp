@@ -22,14 +22,15 @@ void use_large_pages() {
   if (mallopt(M_ARENA_MAX, 1) == 0 || mallopt(M_MMAP_THRESHOLD, kMapped_bytes) == 0 ||
       mallopt(M_TRIM_THRESHOLD, kStep_bytes) == 0 || mallopt(M_TOP_PAD, kStep_bytes) == 0)
     return;
-  const auto end_of_heap = [] { return reinterpret_cast<std::uintptr_t>(sbrk(0)); };
-  const std::uintptr_t begin = (end_of_heap() + kPage_bytes - 1) / kPage_bytes * kPage_bytes;
+  const auto end_of_heap = [] { return static_cast<std::byte*>(sbrk(0)); };
+  std::byte* const before = end_of_heap();
   constexpr std::size_t kMoreThanIsLeft_bytes = 1024 * 1024;
   void* volatile grows = std::malloc(kMoreThanIsLeft_bytes);  // volatile: a pair that is not optimised away
   std::free(grows);
-  const std::uintptr_t end = end_of_heap();
+  const std::byte* const end = end_of_heap();
+  std::byte* const begin = before + (kPage_bytes - reinterpret_cast<std::uintptr_t>(before) % kPage_bytes);
   // A kernel without large pages refuses, and nothing is lost.
-  if (end > begin) static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE));
+  if (end > begin) static_cast<void>(madvise(begin, static_cast<std::size_t>(end - begin), MADV_HUGEPAGE));
 }
 
 #else

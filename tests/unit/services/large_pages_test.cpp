@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#if defined(__GLIBC__) && !defined(FATHOM_SANITIZED)  // sanitizers bring an allocator of their own
+
 namespace fathom::cli {
 namespace {
 
@@ -40,12 +42,11 @@ long faults_of_a_block() {
   std::_Exit(again < kSmallPages / 10 && by_another_thread < kSmallPages / 10 ? 0 : 1);
 }
 
-#if defined(__GLIBC__) && !defined(FATHOM_SANITIZED)  // sanitizers bring an allocator of their own
 TEST(LargePages, TheHeapKeepsWhatIsFreedForAllThreads) {
   testing::FLAGS_gtest_death_test_style = "threadsafe";
   EXPECT_EXIT(use_and_count(), testing::ExitedWithCode(0), "again");
 }
-#endif
 
 }  // namespace
 }  // namespace fathom::cli
+#endif
