@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "bus/detail/endpoint.hpp"
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "base/time.hpp"
+#include "bus/detail/reader_core.hpp"
+#include "bus/detail/topic_ops.hpp"
 #include "bus/participant.hpp"
 
 namespace fathom::bus {
@@ -27,7 +29,7 @@ struct SampleInfo {
   TimeNs reception_ns = 0;  ///< this host's clock at arrival
 };
 
-/// Receives plain samples of type T from the topic of T. Instantiated for every topic's type.
+/// Receives plain samples of type T from the topic of T.
 template <class T>
 class Reader {
  public:
@@ -36,16 +38,20 @@ class Reader {
   /// `handler` runs on a thread of the bus, one sample at a time per reader, until the destructor returns. It
   /// must be quick, because other topics of this participant wait, or hand over to another thread. It must
   /// not throw, and must not destroy the reader. Throws BusError.
-  Reader(Participant& participant, Handler handler, const ReaderOptions& options = {});
-  ~Reader();
+  Reader(Participant& participant, Handler handler, const ReaderOptions& options = {})
+      : core_(
+            participant, detail::topic_ops<T>(),
+            [handler = std::move(handler)](const void* sample, const SampleInfo& info) {
+              handler(*static_cast<const T*>(sample), info);
+            },
+            options) {}
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
 
-  [[nodiscard]] int matched_writers() const;
+  [[nodiscard]] int matched_writers() const { return core_.matched_writers(); }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  detail::ReaderCore core_;
 };
 
 }  // namespace fathom::bus

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "bus/detail/endpoint.hpp"
 #include "bus/detail/topic_ops.hpp"
 #include "samples/alignment_status.hpp"
 #include "samples/command.hpp"

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "base/time.hpp"
+#include "bus/detail/topic_ops.hpp"
+#include "bus/detail/writer_core.hpp"
 #include "bus/participant.hpp"
 
 namespace fathom::bus {
@@ -27,26 +28,24 @@ struct WriterOptions {
   std::uint64_t successor_after = 250'000;
 };
 
-/// Publishes plain samples of type T on the topic of T (bus/topics/). Instantiated for every topic's type;
-/// thread-safe.
+/// Publishes plain samples of type T on the topic of T (bus/topics/). Thread-safe.
 template <class T>
 class Writer {
  public:
   /// Throws BusError.
-  Writer(Participant& participant, const WriterOptions& options = {});
-  ~Writer();
+  explicit Writer(Participant& participant, const WriterOptions& options = {})
+      : core_(participant, detail::topic_ops<T>(), options) {}
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
   /// False when the sample could not be handed to the network within the profile's blocking time (counted).
-  bool write(const T& sample);
-  [[nodiscard]] int matched_readers() const;
+  bool write(const T& sample) { return core_.write(&sample); }
+  [[nodiscard]] int matched_readers() const { return core_.matched_readers(); }
   /// The identity in SampleInfo. A successor has another one.
-  [[nodiscard]] WriterGuid guid() const;
+  [[nodiscard]] WriterGuid guid() const { return core_.guid(); }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  detail::WriterCore core_;
 };
 
 }  // namespace fathom::bus

@@ -29,32 +29,23 @@ void write_text(const std::string& path, const std::string& text);
 //
 //   void add_NAME(CLI::App& app, ExitCode& exit_code);
 //
-// declared below and called in commands.cpp. It adds the sub-command with its options and a callback that
+// declared below and called in main.cpp. It adds the sub-command with its options and a callback that
 // does the work. Option values live in a std::shared_ptr that the callback holds. The callback throws
 // Failure, or sets `exit_code` where the answer is not plain success ("no", "unhealthy").
 
 void add_decode(CLI::App& app, ExitCode& exit_code);
-void add_status(CLI::App& app, ExitCode& exit_code);
 void add_solve(CLI::App& app, ExitCode& exit_code);
 void add_commission(CLI::App& app, ExitCode& exit_code);
 void add_simulate(CLI::App& app, ExitCode& exit_code);
 void add_study(CLI::App& app, ExitCode& exit_code);
 void add_bench(CLI::App& app, ExitCode& exit_code);
-void add_fix(CLI::App& app, ExitCode& exit_code);
-void add_doctor(CLI::App& app, ExitCode& exit_code);
 void add_config(CLI::App& app, ExitCode& exit_code);
 void add_init(CLI::App& app, ExitCode& exit_code);
 void add_run(CLI::App& app, ExitCode& exit_code);
 void add_keygen(CLI::App& app, ExitCode& exit_code);
 void add_import(CLI::App& app, ExitCode& exit_code);
 void add_export(CLI::App& app, ExitCode& exit_code);
-void add_explain(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);
 void add_plot(CLI::App& app, ExitCode& exit_code);
-void add_record(CLI::App& app, ExitCode& exit_code);
-void add_replay(CLI::App& app, ExitCode& exit_code);
-
-/// All of them. No option takes a number that is none, is endless or does not fit, and none an empty text.
-void add_commands(CLI::App& app, ExitCode& exit_code);
 
 }  // namespace fathom::cli

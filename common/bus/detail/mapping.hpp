@@ -17,11 +17,8 @@
 
 #include "base/name.hpp"
 #include "bus/cdr.hpp"
-#include "bus/detail/endpoint.hpp"
 #include "bus/detail/topic_ops.hpp"
 #include "bus/detail/versions/cdr.hpp"
-#include "bus/reader.hpp"
-#include "bus/writer.hpp"
 #include "samples/header.hpp"
 
 namespace fathom::bus::detail {
@@ -265,49 +262,6 @@ const TopicOps& topic_ops() {
 namespace fathom::bus {
 
 template <class T>
-struct Writer<T>::Impl {
-  detail::WriterCore core;
-};
-
-template <class T>
-Writer<T>::Writer(Participant& participant, const WriterOptions& options)
-    : impl_(new Impl{detail::WriterCore(participant, detail::topic_ops<T>(), options)}) {}
-template <class T>
-Writer<T>::~Writer() = default;
-template <class T>
-bool Writer<T>::write(const T& sample) {
-  return impl_->core.write(&sample);
-}
-template <class T>
-int Writer<T>::matched_readers() const {
-  return impl_->core.matched_readers();
-}
-template <class T>
-WriterGuid Writer<T>::guid() const {
-  return impl_->core.guid();
-}
-
-template <class T>
-struct Reader<T>::Impl {
-  detail::ReaderCore core;
-};
-
-template <class T>
-Reader<T>::Reader(Participant& participant, Handler handler, const ReaderOptions& options)
-    : impl_(new Impl{detail::ReaderCore(
-          participant, detail::topic_ops<T>(),
-          [handler = std::move(handler)](const void* sample, const SampleInfo& info) {
-            handler(*static_cast<const T*>(sample), info);
-          },
-          options)}) {}
-template <class T>
-Reader<T>::~Reader() = default;
-template <class T>
-int Reader<T>::matched_writers() const {
-  return impl_->core.matched_writers();
-}
-
-template <class T>
 std::vector<std::uint8_t> to_cdr(const T& sample) {
   return detail::encode(detail::topic_ops<T>(), &sample);
 }
@@ -324,8 +278,6 @@ std::optional<T> from_cdr(std::span<const std::uint8_t> bytes) {
 #define FATHOM_BUS_TOPIC(T)                                             \
   namespace fathom::bus {                                               \
   template const detail::TopicOps& detail::topic_ops<T>();              \
-  template class Writer<T>;                                             \
-  template class Reader<T>;                                             \
   template std::vector<std::uint8_t> to_cdr<T>(const T&);               \
   template std::optional<T> from_cdr<T>(std::span<const std::uint8_t>); \
   }

@@ -1,8 +1,8 @@
+#include "bus/detail/reader_core.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <functional>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -15,13 +15,13 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 
 #include "base/clock.hpp"
-#include "bus/detail/endpoint.hpp"
 #include "bus/detail/in_order.hpp"
 #include "bus/detail/key_deadlines.hpp"
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
+#include "bus/reader.hpp"
 
 namespace fathom::bus::detail {
 using rtps::InstanceHandle_t;

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "samples/header.hpp"
 
@@ -36,5 +38,17 @@ struct TopicOps {
 /// The operations of the topic of T, instantiated in bus/topics/.
 template <class T>
 const TopicOps& topic_ops();
+
+/// The operations of every topic, in the order of all_topics().
+[[nodiscard]] const std::vector<const TopicOps*>& all_topic_ops();
+
+/// Behind to_cdr and from_cdr.
+std::vector<std::uint8_t> encode(const TopicOps& ops, const void* sample);
+bool decode(const TopicOps& ops, std::span<const std::uint8_t> bytes, void* sample);
+
+/// Bytes written; 0 when they do not fit.
+std::size_t encode_into(const TopicOps& ops, const void* sample, std::span<char> into);
+/// As decode(). Nothing is written to the bytes: Fast CDR asks for what it only reads.
+bool decode_from(const TopicOps& ops, std::span<char> bytes, void* sample);
 
 }  // namespace fathom::bus::detail

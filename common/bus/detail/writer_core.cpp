@@ -1,3 +1,5 @@
+#include "bus/detail/writer_core.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -17,12 +19,13 @@
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 
-#include "bus/detail/endpoint.hpp"
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
+#include "bus/detail/topic_ops.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
 #include "bus/detail/workarounds/scheduling.hpp"
+#include "bus/writer.hpp"
 
 namespace fathom::bus::detail {
 namespace {

@@ -1,8 +1,11 @@
+#include "cli/explain/explain.hpp"
+
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -11,7 +14,6 @@
 #include "base/iso8601.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
-#include "cli/explain/live.hpp"
 #include "cli/explain/read.hpp"
 #include "cli/large_pages.hpp"
 #include "cli/recording.hpp"
@@ -32,7 +34,7 @@ struct ExplainOptions {
   bool json = false;
 };
 
-explain::History read(const ExplainOptions& options) {
+explain::History read(const ExplainOptions& options, const ReadLive& read_live) {
   if (options.live) {
     LiveOptions live;
     live.bus = options.bus;
@@ -100,7 +102,7 @@ explain::Question question(const ExplainOptions& options, const explain::History
 
 }  // namespace
 
-void add_explain(CLI::App& app, ExitCode& exit_code) {
+void add_explain(CLI::App& app, ExitCode& exit_code, ReadLive read_live) {
   auto options = std::make_shared<ExplainOptions>();
   CLI::App* command = app.add_subcommand(
       "explain",
@@ -137,11 +139,11 @@ void add_explain(CLI::App& app, ExitCode& exit_code) {
   options->bus.name = "fathom_explain";
   options->bus.low_priority = true;
   add_bus_options(*command, options->bus, "recorder");
-  command->callback([options, &exit_code] {
+  command->callback([options, &exit_code, read_live = std::move(read_live)] {
     if (!options->live) use_large_pages();
     if (options->files.empty() && !options->live)
       throw Failure(ExitCode::bad_configuration, "explain: expected a recording (.mcap), or --live");
-    const explain::History history = read(*options);
+    const explain::History history = read(*options, read_live);
     const explain::Answer answer = explain::answer(history, question(*options, history));
     if (options->json) {
       std::printf("%s\n", explain::to_json(history, answer)

@@ -4,7 +4,6 @@
 
 #include <fastcdr/Cdr.h>
 
-#include "bus/detail/endpoint.hpp"
 #include "bus/network_map.hpp"
 #include "bus/writer.hpp"
 #include "samples/dvl.hpp"

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "cli/doctor/checks.hpp"
-#include "cli/doctor/host.hpp"
+#include "live/doctor/checks.hpp"
+#include "live/doctor/host.hpp"
 
 namespace fathom::cli {
 namespace {

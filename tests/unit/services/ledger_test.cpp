@@ -1,4 +1,4 @@
-#include "cli/record/ledger.hpp"
+#include "live/record/ledger.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Whether what fusion published follows from what it took.
 
-#include "cli/record/proof.hpp"
+#include "live/record/proof.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -13,8 +13,8 @@
 #include <gtest/gtest.h>
 
 #include "archive/digest.hpp"
-#include "cli/record/spans.hpp"
 #include "config/fusion/fusion_config.hpp"
+#include "live/record/spans.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom {

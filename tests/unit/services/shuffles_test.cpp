@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/record/difference.hpp"
 #include "config/fusion/fusion_config.hpp"
+#include "live/record/difference.hpp"
 #include "support/vehicles/survey_run.hpp"
 
 namespace fathom {

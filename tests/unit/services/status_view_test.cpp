@@ -10,7 +10,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "cli/status/table.hpp"
+#include "live/status/table.hpp"
 #include "status/json.hpp"
 #include "status/judgement.hpp"
 

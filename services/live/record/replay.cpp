@@ -12,8 +12,10 @@
 #include "blackbox/player.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
-#include "cli/record/verify.hpp"
+#include "cli/live_commands.hpp"
 #include "cli/recording.hpp"
+#include "live/command.hpp"
+#include "live/record/verify.hpp"
 #include "record/reader.hpp"
 #include "samples/kinds.hpp"
 
@@ -91,8 +93,7 @@ ExitCode replay(const ReplayOptions& options) {
 void add_replay(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<ReplayOptions>();
   options->bus.name = "fathom_replay";
-  auto* command =
-      app.add_subcommand("replay", "Publishes a recording on the vehicle network again, as it arrived.");
+  auto* command = app.add_subcommand(kReplay.name, kReplay.description);
   command->add_option("file", options->files, "recording (MCAP); several that follow one another")
       ->required();
   auto* speed = command->add_option("--speed", options->speed, "times as fast; 0: as fast as it goes")

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "cli/doctor/checks.hpp"
+#include "live/doctor/checks.hpp"
 
 namespace fathom::cli {
 

@@ -17,6 +17,8 @@
 #include "bus/writer.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
+#include "cli/live_commands.hpp"
+#include "live/command.hpp"
 #include "orders/telling.hpp"
 #include "samples/nav_state.hpp"
 
@@ -159,8 +161,7 @@ ExitCode run(const FixOptions& options) {
 void add_fix(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<FixOptions>();
   options->bus.name = "fathom_fix";
-  CLI::App* command = app.add_subcommand(
-      "fix", "Tells the vehicle where it was: a position by hand, minutes old if need be.");
+  CLI::App* command = app.add_subcommand(kFix.name, kFix.description);
   command->footer("Exit code: 0 used, 1 not used; the line says why.");
   command->add_option("--lat", options->lat_deg, "Latitude in degrees, north positive")
       ->check(CLI::Range(-90.0, 90.0))

@@ -12,9 +12,11 @@
 #include <unistd.h>
 
 #include "cli/command.hpp"
-#include "cli/security_options.hpp"
-#include "cli/status/listener.hpp"
-#include "cli/status/table.hpp"
+#include "cli/live_commands.hpp"
+#include "live/command.hpp"
+#include "live/security_options.hpp"
+#include "live/status/listener.hpp"
+#include "live/status/table.hpp"
 #include "status/json.hpp"
 #include "status/judgement.hpp"
 
@@ -130,7 +132,7 @@ void add_status(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<StatusOptions>();
   options->bus.name = "fathom_status";
   options->bus.low_priority = true;
-  CLI::App* command = app.add_subcommand("status", "Shows how the vehicle and its navigation are.");
+  CLI::App* command = app.add_subcommand(kStatus.name, kStatus.description);
   command->footer("Exit code: 0 healthy, 1 degraded, 2 no navigation.");
   command->add_flag("--watch", options->watch, "Keep showing until interrupted");
   command->add_flag("--json", options->json, "One line of JSON, with --watch one each period");

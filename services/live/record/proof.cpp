@@ -1,4 +1,4 @@
-#include "cli/record/proof.hpp"
+#include "live/record/proof.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -14,10 +14,12 @@
 #include "bus/network_map.hpp"
 #include "bus/reader.hpp"
 #include "cli/command.hpp"
-#include "cli/doctor/checks.hpp"
-#include "cli/doctor/host.hpp"
-#include "cli/security_options.hpp"
+#include "cli/live_commands.hpp"
 #include "health/writers/service_watch.hpp"
+#include "live/command.hpp"
+#include "live/doctor/checks.hpp"
+#include "live/doctor/host.hpp"
+#include "live/security_options.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -128,8 +130,7 @@ ExitCode run(const DoctorOptions& options) {
 void add_doctor(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<DoctorOptions>();
   options->bus.name = "fathom_doctor";
-  CLI::App* command =
-      app.add_subcommand("doctor", "Checks the vehicle network and this host, and says what to do.");
+  CLI::App* command = app.add_subcommand(kDoctor.name, kDoctor.description);
   command->footer("Exit code: 0 nothing wrong (notes are allowed), 1 a problem was found.");
   command->add_flag("--clean", options->clean, "Remove what Fast DDS left in /dev/shm and nobody uses");
   command->add_flag("--json", options->json, "One line of JSON");

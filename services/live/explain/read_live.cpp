@@ -1,4 +1,4 @@
-#include "cli/explain/live.hpp"
+#include "live/explain/read_live.hpp"
 
 #include <algorithm>
 #include <csignal>

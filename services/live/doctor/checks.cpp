@@ -1,4 +1,4 @@
-#include "cli/doctor/checks.hpp"
+#include "live/doctor/checks.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/record/spans.hpp"
+#include "live/record/spans.hpp"
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "cli/record/difference.hpp"
+#include "live/record/difference.hpp"
 
 namespace fathom::cli {
 

@@ -1,4 +1,4 @@
-#include "cli/record/verify.hpp"
+#include "live/record/verify.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -13,10 +13,10 @@
 #include "archive/checkpoint.hpp"
 #include "bus/cdr.hpp"
 #include "cli/command.hpp"
-#include "cli/record/proof.hpp"
-#include "cli/record/spans.hpp"
-#include "cli/record/state_pool.hpp"
 #include "cli/recording.hpp"
+#include "live/record/proof.hpp"
+#include "live/record/spans.hpp"
+#include "live/record/state_pool.hpp"
 #include "runtime/build_info.hpp"
 #include "samples/status/health.hpp"
 

@@ -17,8 +17,10 @@
 #include "blackbox/tap.hpp"
 #include "cli/bus_options.hpp"
 #include "cli/command.hpp"
+#include "cli/live_commands.hpp"
 #include "cli/recording.hpp"
 #include "config/vehicle/catalogue.hpp"
+#include "live/command.hpp"
 #include "record/reader.hpp"
 #include "record/recover.hpp"
 #include "runtime/build_info.hpp"
@@ -134,8 +136,7 @@ void add_record(CLI::App& app, ExitCode& exit_code) {
   auto options = std::make_shared<RecordOptions>();
   options->bus.name = "fathom_record";
   options->bus.low_priority = true;
-  auto* command = app.add_subcommand(
-      "record", "Records everything that is said on the vehicle network into an MCAP file, until Ctrl-C.");
+  auto* command = app.add_subcommand(kRecord.name, kRecord.description);
   command->add_option("--out", options->out, "file to write; default: fathom-UTC.mcap");
   command->add_option("--duration", options->duration_s, "seconds; default: until Ctrl-C")
       ->check(CLI::Range(0.1, 1e7));

@@ -1,4 +1,4 @@
-#include "cli/record/difference.hpp"
+#include "live/record/difference.hpp"
 
 #include <array>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "cli/record/state_pool.hpp"
+#include "live/record/state_pool.hpp"
 
 #include "archive/digest.hpp"
 

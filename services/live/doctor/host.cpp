@@ -1,4 +1,4 @@
-#include "cli/doctor/host.hpp"
+#include "live/doctor/host.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,4 +1,4 @@
-#include "cli/status/listener.hpp"
+#include "live/status/listener.hpp"
 
 #include <mutex>
 #include <utility>

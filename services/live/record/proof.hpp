@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "cli/record/ledger.hpp"
-#include "cli/record/state_pool.hpp"
 #include "config/fusion/fusion_config.hpp"
 #include "estimation/engine/fusion_engine.hpp"
+#include "live/record/ledger.hpp"
+#include "live/record/state_pool.hpp"
 #include "samples/command.hpp"
 #include "samples/kinds.hpp"
 #include "samples/nav_state.hpp"

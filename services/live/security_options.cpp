@@ -1,4 +1,4 @@
-#include "cli/security_options.hpp"
+#include "live/security_options.hpp"
 
 #include <CLI/CLI.hpp>
 

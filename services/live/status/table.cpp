@@ -1,4 +1,4 @@
-#include "cli/status/table.hpp"
+#include "live/status/table.hpp"
 
 #include <algorithm>
 #include <array>
