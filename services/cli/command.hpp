@@ -29,7 +29,7 @@ void write_text(const std::string& path, const std::string& text);
 //
 //   void add_NAME(CLI::App& app, ExitCode& exit_code);
 //
-// declared below and called in main.cpp. It adds the sub-command with its options and a callback that
+// declared below and listed in main.cpp. It adds the sub-command with its options and a callback that
 // does the work. Option values live in a std::shared_ptr that the callback holds. The callback throws
 // Failure, or sets `exit_code` where the answer is not plain success ("no", "unhealthy").
 

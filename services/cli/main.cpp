@@ -1,3 +1,5 @@
+#include <vector>
+
 #include "cli/command.hpp"
 #include "cli/explain/explain.hpp"
 #include "cli/live_commands.hpp"
@@ -6,34 +8,41 @@
 namespace fathom::cli {
 namespace {
 
-void add_commands(CLI::App& app, ExitCode& exit_code, char** argv) {
-  add_decode(app, exit_code);
-  add_live_command(app, kStatus, argv);
-  add_live_command(app, kFix, argv);
-  add_solve(app, exit_code);
-  add_commission(app, exit_code);
-  add_simulate(app, exit_code);
-  add_study(app, exit_code);
-  add_bench(app, exit_code);
-  add_live_command(app, kDoctor, argv);
-  add_config(app, exit_code);
-  add_init(app, exit_code);
-  add_run(app, exit_code);
-  add_keygen(app, exit_code);
-  add_import(app, exit_code);
-  add_export(app, exit_code);
-  add_explain(app, exit_code, [argv](const LiveOptions&) -> explain::History { hand_over(argv); });
-  add_report(app, exit_code);
-  add_plot(app, exit_code);
-  add_live_command(app, kRecord, argv);
-  add_live_command(app, kReplay, argv);
+std::vector<Command> commands(char** argv) {
+  const auto live = [argv](const LiveCommand& command) {
+    return Command{command.name,
+                   [argv, &command](CLI::App& app, ExitCode&) { add_live_command(app, command, argv); }};
+  };
+  return {
+      {"decode", add_decode},
+      live(kStatus),
+      live(kFix),
+      {"solve", add_solve},
+      {"commission", add_commission},
+      {"simulate", add_simulate},
+      {"study", add_study},
+      {"bench", add_bench},
+      live(kDoctor),
+      {"config", add_config},
+      {"init", add_init},
+      {"run", add_run},
+      {"keygen", add_keygen},
+      {"import", add_import},
+      {"export", add_export},
+      {"explain",
+       [argv](CLI::App& app, ExitCode& exit_code) {
+         add_explain(app, exit_code, [argv](const LiveOptions&) -> explain::History { hand_over(argv); });
+       }},
+      {"report", add_report},
+      {"plot", add_plot},
+      live(kRecord),
+      live(kReplay),
+  };
 }
 
 }  // namespace
 }  // namespace fathom::cli
 
 int main(int argc, char** argv) {
-  return fathom::cli::run_program(argc, argv, [argv](CLI::App& app, fathom::ExitCode& exit_code) {
-    fathom::cli::add_commands(app, exit_code, argv);
-  });
+  return fathom::cli::run_program(argc, argv, fathom::cli::commands(argv));
 }

@@ -81,12 +81,19 @@ void check_values(CLI::App& app) {
 
 }  // namespace
 
-int run_program(int argc, char** argv, const std::function<void(CLI::App& app, ExitCode& exit_code)>& add) {
+int run_program(int argc, char** argv, const std::vector<Command>& commands) {
   CLI::App app{"Navigation as services on a vehicle network.", "fathom"};
   app.set_version_flag("--version", "fathom " + std::string(runtime::version()));
   app.require_subcommand(1);
   ExitCode exit_code = ExitCode::done;
-  add(app, exit_code);
+  const auto asked = std::find_if(commands.begin(), commands.end(), [&](const Command& command) {
+    return argc > 1 && command.name == argv[1];
+  });
+  if (asked != commands.end()) {
+    asked->add(app, exit_code);
+  } else {
+    for (const Command& command : commands) command.add(app, exit_code);
+  }
   check_values(app);
 
   try {
