@@ -63,6 +63,22 @@ Quaternion from_matrix(const Eigen::Matrix3d& c) {
   return normalized(q);
 }
 
+Quaternion turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  constexpr double kOpposite = 1e-12;
+  const Eigen::Vector3d a = from.normalized();
+  const Eigen::Vector3d b = to.normalized();
+  const double cosine = b.dot(a);
+  if (cosine < -1.0 + kOpposite) {
+    int least = 0;
+    a.cwiseAbs().minCoeff(&least);
+    const Eigen::Vector3d axis = cross(a, Eigen::Vector3d::Unit(least)).normalized();
+    return {0.0, axis.x(), axis.y(), axis.z()};
+  }
+  const double twice_w = std::sqrt((1.0 + cosine) * 2.0);  // half-angle formula
+  const Eigen::Vector3d v = cross(a, b) * (1.0 / twice_w);
+  return {twice_w * 0.5, v.x(), v.y(), v.z()};
+}
+
 Quaternion from_rpy(const Eigen::Vector3d& rpy_rad) {
   const double cr = std::cos(0.5 * rpy_rad.x());
   const double sr = std::sin(0.5 * rpy_rad.x());

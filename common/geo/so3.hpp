@@ -45,6 +45,9 @@ struct Quaternion {
   return c;
 }
 [[nodiscard]] Quaternion from_matrix(const Eigen::Matrix3d& rotation);
+/// The shortest turn of one direction into another; of opposite ones half a turn about an axis across them.
+/// Neither vector is zero.
+[[nodiscard]] Quaternion turn_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 [[nodiscard]] Quaternion from_rpy(const Eigen::Vector3d& rpy_rad);
 /// Pitch in [-pi/2, pi/2], roll and yaw in (-pi, pi]. At a pitch of a right angle roll is 0.
 [[nodiscard]] Eigen::Vector3d to_rpy(const Quaternion& q);

@@ -215,8 +215,7 @@ std::optional<AccelerationFit::Solution> AccelerationFit::best() const {
   const Vector3d up = (mark(n_ - 1).v_N_m_s - mark(0).v_N_m_s) / t_s - in_.gravity_N_m_s2;
   if (!felt.allFinite() || !up.allFinite()) return std::nullopt;
   if (std::min(felt.norm(), up.norm()) < kLeastMeanForce_m_s2) return std::nullopt;
-  const Matrix3d level =
-      Eigen::Quaterniond::FromTwoVectors(felt.normalized(), up.normalized()).toRotationMatrix();
+  const Matrix3d level = geo::to_matrix(geo::turn_between(felt.normalized(), up.normalized()));
   std::array<Solution, kBeginnings> all;
   std::size_t best = 0;
   for (std::size_t i = 0; i < kBeginnings; ++i) {

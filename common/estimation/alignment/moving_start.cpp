@@ -19,15 +19,10 @@ constexpr double kLeastForward = 0.26;
 /// How much of a turn about the force is a turn of the heading.
 constexpr double kLeastYaw = 0.2;
 
-/// Rotation that takes one unit vector into another.
-Matrix3d between(const Vector3d& from, const Vector3d& to) {
-  return Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
-}
-
 /// Attitude of the start axes: the force points along `up_N`, and this axis has this heading.
 std::optional<Matrix3d> attitude(const Vector3d& up_start, const Vector3d& up_N, const Vector3d& axis_start,
                                  double heading_rad) {
-  const Matrix3d c = between(up_start, up_N);
+  const Matrix3d c = geo::to_matrix(geo::turn_between(up_start, up_N));
   const Vector3d w = c * axis_start;
   const Vector3d along = up_N * up_N.dot(w);
   const Vector3d across = w - along;

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -133,6 +134,20 @@ TEST(So3, SkewIsTheCrossProduct) {
   const Vector3d b = random.vector(2.0);
   EXPECT_LT((skew(a) * b - cross(a, b)).norm(), 1e-15);
   EXPECT_NEAR(cross(a, b).dot(a), 0.0, 1e-14);
+}
+
+TEST(So3, TheShortestTurnTakesOneDirectionIntoAnother) {
+  const Vector3d up(0.0, 0.0, 2.0);
+  for (const Vector3d& to : {Vector3d(0.3, -0.4, 0.7), Vector3d(0.0, 0.0, 5.0), Vector3d(1e-9, 0.0, -1.0),
+                             Vector3d(0.0, 0.0, -1.0), Vector3d(1.0, 0.0, 0.0)}) {
+    for (const auto& [a, b] : {std::pair{up, to}, {to, up}, {Vector3d(-to), to}}) {
+      const Quaternion q = turn_between(a, b);
+      EXPECT_NEAR(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z, 1.0, 1e-14);
+      EXPECT_LT((to_matrix(q) * a.normalized() - b.normalized()).norm(), 1e-8) << a << " " << b;
+      const double angle_rad = std::atan2(cross(a, b).norm(), a.dot(b));
+      EXPECT_NEAR(log(q).norm(), angle_rad, 2e-8);
+    }
+  }
 }
 
 TEST(Gravity, IsTheGradientOfTheNormalPotentialAtEveryAltitude) {
