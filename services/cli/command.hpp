@@ -2,8 +2,10 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "base/exit_code.hpp"
+#include "cli/program.hpp"
 
 namespace CLI {
 class App;
@@ -29,7 +31,7 @@ void write_text(const std::string& path, const std::string& text);
 //
 //   void add_NAME(CLI::App& app, ExitCode& exit_code);
 //
-// declared below and listed in main.cpp. It adds the sub-command with its options and a callback that
+// declared below and listed in commands.cpp. It adds the sub-command with its options and a callback that
 // does the work. Option values live in a std::shared_ptr that the callback holds. The callback throws
 // Failure, or sets `exit_code` where the answer is not plain success ("no", "unhealthy").
 
@@ -47,5 +49,8 @@ void add_import(CLI::App& app, ExitCode& exit_code);
 void add_export(CLI::App& app, ExitCode& exit_code);
 void add_report(CLI::App& app, ExitCode& exit_code);
 void add_plot(CLI::App& app, ExitCode& exit_code);
+
+/// Those of fathom. `argv`, which is that of main(), goes to fathom-live where a command joins the network.
+[[nodiscard]] std::vector<SubCommand> commands(char** argv);
 
 }  // namespace fathom::cli

@@ -81,20 +81,20 @@ void check_values(CLI::App& app) {
 
 }  // namespace
 
-int run_program(int argc, char** argv, const std::vector<Command>& commands) {
+void add(CLI::App& app, const std::vector<SubCommand>& commands, ExitCode& exit_code) {
+  for (const SubCommand& command : commands) command.add(app, exit_code);
+  check_values(app);
+}
+
+int run_program(int argc, char** argv, const std::vector<SubCommand>& commands) {
   CLI::App app{"Navigation as services on a vehicle network.", "fathom"};
   app.set_version_flag("--version", "fathom " + std::string(runtime::version()));
   app.require_subcommand(1);
   ExitCode exit_code = ExitCode::done;
-  const auto asked = std::find_if(commands.begin(), commands.end(), [&](const Command& command) {
+  const auto asked = std::find_if(commands.begin(), commands.end(), [&](const SubCommand& command) {
     return argc > 1 && command.name == argv[1];
   });
-  if (asked != commands.end()) {
-    asked->add(app, exit_code);
-  } else {
-    for (const Command& command : commands) command.add(app, exit_code);
-  }
-  check_values(app);
+  add(app, asked == commands.end() ? commands : std::vector<SubCommand>{*asked}, exit_code);
 
   try {
     app.parse(argc, argv);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <vector>
+
 #include "base/exit_code.hpp"
+#include "cli/program.hpp"
 
 namespace CLI {
 class App;
@@ -15,5 +18,8 @@ void add_fix(CLI::App& app, ExitCode& exit_code);
 void add_doctor(CLI::App& app, ExitCode& exit_code);
 void add_record(CLI::App& app, ExitCode& exit_code);
 void add_replay(CLI::App& app, ExitCode& exit_code);
+
+/// Those of fathom-live.
+[[nodiscard]] std::vector<SubCommand> live_commands();
 
 }  // namespace fathom::cli

@@ -7,19 +7,24 @@
 #include <gtest/gtest.h>
 
 #include "cli/command.hpp"
+#include "live/command.hpp"
 
 namespace fathom::cli {
 namespace {
 
-/// The whole command line, as main() has it.
+/// The whole command line, as both programs have it.
 class Commands : public ::testing::Test {
  protected:
-  Commands() { add_commands(app_, exit_code_); }
+  Commands() {
+    add(app_, commands(nullptr), exit_code_);
+    add(live_, live_commands(), exit_code_);
+  }
 
   /// Every option of every sub-command whose value is of this type, by the name "solve --rate".
   std::vector<std::pair<std::string, CLI::Option*>> options_of(const std::string& type) {
     std::vector<std::pair<std::string, CLI::Option*>> out;
     gather(app_, "", type, out);
+    gather(live_, "", type, out);
     return out;
   }
   static bool takes(CLI::Option& option, const std::string& value) {
@@ -46,6 +51,7 @@ class Commands : public ::testing::Test {
   }
 
   CLI::App app_{"", "fathom"};
+  CLI::App live_{"", "fathom"};
   ExitCode exit_code_ = ExitCode::done;
 };
 
