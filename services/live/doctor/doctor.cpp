@@ -13,13 +13,13 @@
 #include "base/clock.hpp"
 #include "bus/network_map.hpp"
 #include "bus/reader.hpp"
+#include "cli/bus_options.hpp"
 #include "cli/command.hpp"
 #include "cli/live_commands.hpp"
 #include "health/writers/service_watch.hpp"
 #include "live/command.hpp"
 #include "live/doctor/checks.hpp"
 #include "live/doctor/host.hpp"
-#include "live/security_options.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -134,17 +134,7 @@ void add_doctor(CLI::App& app, ExitCode& exit_code) {
   command->footer("Exit code: 0 nothing wrong (notes are allowed), 1 a problem was found.");
   command->add_flag("--clean", options->clean, "Remove what Fast DDS left in /dev/shm and nobody uses");
   command->add_flag("--json", options->json, "One line of JSON");
-  command->add_option("--domain", options->bus.domain, "DDS domain of the vehicle")
-      ->check(CLI::Range(0, 232))
-      ->capture_default_str();
-  command->add_option("--interface", options->bus.interfaces, "Addresses of this host to use")
-      ->capture_default_str();
-  command->add_option("--peer", options->bus.peers, "Addresses to look for the vehicle at")
-      ->capture_default_str();
-  command->add_option("--discovery-server", options->bus.discovery_servers,
-                      "address:port of each fathom-discovery, where the vehicle uses them");
-  command->add_option("--profiles", options->bus.profiles_dir, "Folder of the QoS XML files");
-  add_security_options(*command, options->bus.security);
+  add_bus_options(*command, options->bus, "cli");
   command->add_option("--seconds", options->seconds, "How long to listen")
       ->check(CLI::Range(0.5, 600.0))
       ->capture_default_str();

@@ -11,10 +11,10 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "cli/bus_options.hpp"
 #include "cli/command.hpp"
 #include "cli/live_commands.hpp"
 #include "live/command.hpp"
-#include "live/security_options.hpp"
 #include "live/status/listener.hpp"
 #include "live/status/table.hpp"
 #include "status/json.hpp"
@@ -136,18 +136,8 @@ void add_status(CLI::App& app, ExitCode& exit_code) {
   command->footer("Exit code: 0 healthy, 1 degraded, 2 no navigation.");
   command->add_flag("--watch", options->watch, "Keep showing until interrupted");
   command->add_flag("--json", options->json, "One line of JSON, with --watch one each period");
-  command->add_option("--domain", options->bus.domain, "DDS domain of the vehicle")
-      ->check(CLI::Range(0, 232))
-      ->capture_default_str();
   command->add_option("--vehicle", options->vehicle, "Name of the vehicle; default: the first one heard");
-  command->add_option("--interface", options->bus.interfaces, "Addresses of this host to use")
-      ->capture_default_str();
-  command->add_option("--peer", options->bus.peers, "Addresses to look for the vehicle at")
-      ->capture_default_str();
-  command->add_option("--discovery-server", options->bus.discovery_servers,
-                      "address:port of each fathom-discovery, where the vehicle uses them");
-  command->add_option("--profiles", options->bus.profiles_dir, "Folder of the QoS XML files");
-  add_security_options(*command, options->bus.security);
+  add_bus_options(*command, options->bus, "cli");
   command->add_option("--timeout", options->timeout_s, "Seconds to listen at most")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();
