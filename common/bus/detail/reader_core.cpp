@@ -15,12 +15,14 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 
 #include "base/clock.hpp"
+#include "bus/detail/arrival_of.hpp"
 #include "bus/detail/in_order.hpp"
 #include "bus/detail/key_deadlines.hpp"
 #include "bus/detail/participant_impl.hpp"
 #include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
+#include "bus/detail/workarounds/take_pace.hpp"
 #include "bus/reader.hpp"
 
 namespace fathom::bus::detail {
@@ -29,6 +31,7 @@ using rtps::InstanceHandle_t;
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kRest(30);              // from one renewal of a reader to the next
 constexpr DurationNs kSlowest_ns = 10 * kNsPerSecond;  // the longest deadline that a reader follows
@@ -38,18 +41,7 @@ constexpr int kRenew = 0;
 constexpr int kHandOver = 1;
 constexpr int kHandOverAtLast = 2;
 constexpr int kFollow = 3;
-
-Arrival arrival_of(const WriterGuid& guid, const dds::SampleInfo& info) {
-  const auto number = [](const rtps::SampleIdentity& identity) {
-    return static_cast<std::uint64_t>(identity.sequence_number().to64long());
-  };
-  Arrival arrival{{guid, number(info.sample_identity)}};
-  const rtps::SampleIdentity& after = info.related_sample_identity;
-  if (after.writer_guid() != rtps::GUID_t()) {
-    arrival.after = Arrival::Place{to_guid(after.writer_guid()), number(after)};
-  }
-  return arrival;
-}
+constexpr int kTakeMore = 4;
 
 }  // namespace
 
@@ -139,7 +131,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   /// Another Fast DDS reader in the place of one that hands nothing over. Not too often, for whoever can make
   /// a reader deaf may go on doing so, and the topic's other writers have to find the new one.
   void renew() {
-    const auto now = std::chrono::steady_clock::now();
+    const auto now = steady_clock::now();
     if (renewed && now - *renewed < kRest) return;
     renewed = now;
     replace();
@@ -209,7 +201,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   /// back does not wait for who takes. Whoever is taking looks again.
   void receive(dds::DataReader* from) {
     arrived = true;
-    while (arrived && handler_mutex.try_lock()) {
+    while (arrived && !pace.rests(steady_clock::now()) && handler_mutex.try_lock()) {
       const std::lock_guard lock(handler_mutex, std::adopt_lock);
       arrived = false;
       take_all(*from);
@@ -219,7 +211,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   /// Precondition: handler_mutex held.
   void take_all(dds::DataReader& from) {
     dds::SampleInfo info;
-    while (!closed && done(from.take_next_sample(&slot, &info))) {
+    auto began = steady_clock::now();
+    for (; !closed && done(from.take_next_sample(&slot, &info)); began = steady_clock::now()) {
       const WriterGuid guid = to_guid(info.sample_identity.writer_guid());
       bus.delivery_watch->heard(this, guid);
       if (!info.valid_data) continue;  // an instance ended
@@ -233,6 +226,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
           {guid, info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()}, info.instance_handle, {}};
       if (is_next(arrival_of(guid, info), now)) hand_over(now, slot.sample);
     }
+    const milliseconds rest = pace.found_nothing(began, steady_clock::now());
+    if (rest > milliseconds(0)) hand_over_later(kTakeMore, rest);
     hand_over_held();
   }
 
@@ -283,7 +278,6 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     return order.keeps() ? order.next(clock.monotonic_ns()) : std::nullopt;
   }
 
-  /// Precondition: mutex held.
   void hand_over_later(int task, milliseconds delay) {
     const auto work = [this] {
       if (reader != nullptr) receive(reader);
@@ -376,6 +370,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   std::mutex handler_mutex;           // held while samples are taken and handed over
   Handler handler;
   SampleSlot slot;
+  TakePace pace;
 
   std::mutex mutex;  // of what follows
   QosSummary requested;
@@ -386,7 +381,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   std::mutex reader_mutex;  // taken before the other two; of what follows, as long as work may be left
   bool ended = false;
   dds::DataReader* reader = nullptr;
-  std::optional<std::chrono::steady_clock::time_point> renewed;
+  std::optional<steady_clock::time_point> renewed;
 };
 
 ReaderCore::ReaderCore(Participant& participant, const TopicOps& ops, Handler handler,

@@ -94,6 +94,24 @@ TEST_F(Deliveries, AFewThatCameLongAgoAreNothing) {
   EXPECT_EQ(deaf, 0);
 }
 
+TEST_F(Deliveries, ASilenceAfterALostSampleIsNotTheReadersFault) {
+  arrive(1, writer(1));  // kept, for one before it was lost
+  now_ns += 5 * kNsPerSecond;
+  arrive(19, writer(1));  // until that is sent again
+  EXPECT_EQ(deaf, 0);
+  arrive(2, writer(1));
+  EXPECT_EQ(deaf, 1);
+}
+
+TEST_F(Deliveries, SamplesThatComeSeldomCountAsWell) {
+  for (int i = 0; i < DeliveryWatch::kSamples; ++i) {
+    EXPECT_EQ(deaf, 0);
+    now_ns += 10 * kNsPerSecond;
+    arrive(1, writer(1));
+  }
+  EXPECT_EQ(deaf, 1);
+}
+
 TEST_F(Deliveries, WhatIsNotForThisReaderIsNothing) {
   arrive(100, writer(1), kReader + 256);
   arrive(100, writer(3));

@@ -65,8 +65,14 @@ bool DeliveryWatch::arrived(const Claim& claim) {
       if (writer.highest != 0 && claim.number > writer.highest + kLeap) return false;
       writer.highest = std::max(writer.highest, claim.number);
       if (!claim.carries_sample) continue;
-      if (writer.waiting++ == 0) writer.since_ns = now_ns_();
-      if (writer.waiting < kSamples || now_ns_() - writer.since_ns < kPatience) continue;
+      const TimeNs now_ns = now_ns_();
+      if (writer.waiting++ == 0) {
+        writer.since_ns = now_ns;
+      } else {
+        writer.since_ns += std::max<DurationNs>(0, now_ns - writer.last_ns - kSilence);
+      }
+      writer.last_ns = now_ns;
+      if (writer.waiting < kSamples || now_ns - writer.since_ns < kPatience) continue;
       writer.waiting = 0;
       reader.deaf();
     }

@@ -43,9 +43,10 @@ class DeliveryWatch {
   /// Largest credible number of a writer of discovery.
   static constexpr std::uint64_t kDiscovery = 1'000'000;
   /// A reader is deaf when so many samples arrived in so long and none was handed over. The repair of lost
-  /// samples takes less.
+  /// samples takes less. Of a silence, as of a network that is cut, no more than `kSilence` counts.
   static constexpr int kSamples = 5;
   static constexpr DurationNs kPatience = 3 * kNsPerSecond;
+  static constexpr DurationNs kSilence = kNsPerSecond;
 
   /// `now_ns` is a monotonic clock.
   explicit DeliveryWatch(std::function<TimeNs()> now_ns = {});
@@ -80,6 +81,7 @@ class DeliveryWatch {
     std::uint64_t highest = 0;  ///< number named until now; 0: none yet
     int waiting = 0;            ///< samples that arrived since the last one was handed over
     TimeNs since_ns = 0;
+    TimeNs last_ns = 0;  ///< of a sample that arrived
   };
   struct Reader {
     const void* who;
