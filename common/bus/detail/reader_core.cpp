@@ -18,7 +18,9 @@
 #include "bus/detail/arrival_of.hpp"
 #include "bus/detail/in_order.hpp"
 #include "bus/detail/key_deadlines.hpp"
+#include "bus/detail/lost_samples.hpp"
 #include "bus/detail/participant_impl.hpp"
+#include "bus/detail/qos/conflicts.hpp"
 #include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
 #include "bus/detail/workarounds/dds_log.hpp"
@@ -36,12 +38,7 @@ using std::chrono::steady_clock;
 constexpr std::chrono::seconds kRest(30);              // from one renewal of a reader to the next
 constexpr DurationNs kSlowest_ns = 10 * kNsPerSecond;  // the longest deadline that a reader follows
 
-// WorkQueue.
-constexpr int kRenew = 0;
-constexpr int kHandOver = 1;
-constexpr int kHandOverAtLast = 2;
-constexpr int kFollow = 3;
-constexpr int kTakeMore = 4;
+enum Work : int { kRenew, kHandOver, kHandOverAtLast, kFollow, kTakeMore };  // of the WorkQueue
 
 }  // namespace
 
@@ -58,7 +55,9 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
         qos(reader_qos(*bus.subscriber, ops.topic, options)),
         handler(std::move(handler_in)),
         requested(summarise(qos.reliability(), qos.durability(), qos.deadline(), qos.ownership(),
-                            qos.liveliness())) {
+                            qos.liveliness())),
+        counts(requested.reliability > 0 && qos.durability().kind == dds::VOLATILE_DURABILITY_QOS &&
+               requested.ownership == dds::SHARED_OWNERSHIP_QOS) {
     slot.sample = place.create();
     slot.raw = raw_in;
     if (!make()) {
@@ -150,6 +149,7 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     {
       const std::lock_guard lock(mutex);
       order.all_unmatched();
+      lost.clear();
       writers.clear();
       deadlines.clear();
       matched = 0;
@@ -215,6 +215,8 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     for (; !closed && done(from.take_next_sample(&slot, &info)); began = steady_clock::now()) {
       const WriterGuid guid = to_guid(info.sample_identity.writer_guid());
       bus.delivery_watch->heard(this, guid);
+      const Arrival arrival = arrival_of(guid, info);
+      lost.taken(guid, arrival.place.number);
       if (!info.valid_data) continue;  // an instance ended
       if (!slot.valid) {
         const std::string name = bus.peers.name(guid);
@@ -224,11 +226,17 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
       }
       const Held now{
           {guid, info.source_timestamp.to_ns(), info.reception_timestamp.to_ns()}, info.instance_handle, {}};
-      if (is_next(arrival_of(guid, info), now)) hand_over(now, slot.sample);
+      if (is_next(arrival, now)) hand_over(now, slot.sample);
     }
-    const milliseconds rest = pace.found_nothing(began, steady_clock::now());
-    if (rest > milliseconds(0)) hand_over_later(kTakeMore, rest);
+    const auto rest = pace.found_nothing(began, steady_clock::now());
+    if (rest.count() > 0) hand_over_later(kTakeMore, rest);
+    if (const std::uint64_t number = closed ? 0 : lost.settle(); number > 0) report_lost(number);
     hand_over_held();
+  }
+
+  void report_lost(std::uint64_t number) {
+    bus.events.report(BusEventKind::sample_lost, ops.topic, "",
+                      "samples are lost: not kept long enough by their writer, or not taken in time", number);
   }
 
   /// A sample, or what is known of one.
@@ -302,9 +310,11 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
       if (order.keeps()) hand_over_later(kHandOver, milliseconds(0));
     }
     if (status.current_count_change > 0) {
+      if (counts) lost.matched(guid);
       bus.delivery_watch->matched(this, guid);
       bus.writer_matched(guid, ops.topic);
     } else {
+      lost.unmatched(guid);
       bus.delivery_watch->unmatched(this, guid);
       bus.writer_unmatched(guid, ops.topic);
     }
@@ -335,19 +345,12 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
     const QosSummary now = wants();
     std::set<std::string> writers_in_conflict = bus.peers.writers_in_conflict(ops.topic, policy, now);
     if (writers_in_conflict.empty()) writers_in_conflict.insert("another participant");
-    auto occurrences = static_cast<std::uint64_t>(status.total_count_change);
-    for (const std::string& name : writers_in_conflict) {
-      bus.events.report(BusEventKind::incompatible_qos, ops.topic, name + " writes, " + to_string(policy),
-                        "the writer of " + name + " offers another " + to_string(policy) +
-                            " than this reader requests (" + value_text(policy, now) + ")",
-                        std::exchange(occurrences, 0));
-    }
+    report_conflicts(bus.events, ops.topic, writers_in_conflict, policy, now, true,
+                     static_cast<std::uint64_t>(status.total_count_change));
   }
 
   void on_sample_lost(dds::DataReader*, const dds::SampleLostStatus& status) override {
-    bus.events.report(BusEventKind::sample_lost, ops.topic, "",
-                      "samples did not arrive and are no longer to be had",
-                      static_cast<std::uint64_t>(status.total_count_change));
+    if (!counts) report_lost(static_cast<std::uint64_t>(status.total_count_change));
   }
 
   void on_sample_rejected(dds::DataReader*, const dds::SampleRejectedStatus& status) override {
@@ -371,9 +374,11 @@ struct ReaderCore::Impl final : dds::DataReaderListener {
   Handler handler;
   SampleSlot slot;
   TakePace pace;
+  LostSamples lost;
 
   std::mutex mutex;  // of what follows
   QosSummary requested;
+  const bool counts;  // what is lost, by the samples' numbers; else Fast DDS does, as far as it can
   std::set<WriterGuid> writers;
   Deadlines deadlines;
   InOrder<Held> order;

@@ -20,6 +20,7 @@
 #include <fastdds/dds/publisher/Publisher.hpp>
 
 #include "bus/detail/participant_impl.hpp"
+#include "bus/detail/qos/conflicts.hpp"
 #include "bus/detail/qos/profiles.hpp"
 #include "bus/detail/sample_type.hpp"
 #include "bus/detail/topic_ops.hpp"
@@ -264,12 +265,7 @@ struct WriterCore::Impl final : dds::DataWriterListener {
   void report_conflict(Policy policy, std::uint64_t occurrences, const std::string& whoever = {}) {
     std::set<std::string> readers = bus.peers.readers_in_conflict(ops.topic, policy, offered);
     if (readers.empty() && !whoever.empty()) readers.insert(whoever);
-    for (const std::string& name : readers) {
-      bus.events.report(BusEventKind::incompatible_qos, ops.topic, name + " reads, " + to_string(policy),
-                        "the reader of " + name + " requests another " + to_string(policy) +
-                            " than this writer offers (" + value_text(policy, offered) + ")",
-                        std::exchange(occurrences, 0));
-    }
+    report_conflicts(bus.events, ops.topic, readers, policy, offered, false, occurrences);
   }
 
   void on_offered_deadline_missed(dds::DataWriter*, const dds::OfferedDeadlineMissedStatus& status) override {

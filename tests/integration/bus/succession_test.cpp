@@ -57,7 +57,9 @@ struct Account {
 struct Ledger {
   std::atomic<bool> begins = false;
   std::atomic<bool> ends = false;
-  std::atomic<std::uint64_t> lost = 0;  ///< writers and samples, as the reader's machine has it
+  std::atomic<int> imu_each_us = 2500;
+  std::atomic<std::uint64_t> lost = 0;          ///< writers and samples, as the reader's machine reports them
+  std::atomic<std::uint64_t> lost_samples = 0;  ///< as the reader's machine counts them
   Account imu;
   Account state;
 };
@@ -151,7 +153,7 @@ class Source {
   std::thread thread_;
 };
 
-constexpr std::uint64_t kImuEach = 4000;  // 10 s
+constexpr std::uint64_t kImuEach = 4000;  // 10 s, at 400 a second
 constexpr milliseconds kLongest(300'000);
 
 std::string ledger_path() {
@@ -165,7 +167,7 @@ TEST(ChildProcess, DISABLED_WritesOnTheFirstMachine) {
   Ledger* const ledger = shared.get();
   ASSERT_NE(ledger, nullptr);
   bus::Participant participant(at(1, "imu_bridge"));
-  Source<ImuSample> imu(participant, kImuEach, std::chrono::microseconds(2500), ledger->imu);
+  Source<ImuSample> imu(participant, kImuEach, std::chrono::microseconds(ledger->imu_each_us), ledger->imu);
   Source<NavState> state(participant, kImuEach / 4, milliseconds(10), ledger->state);
   until_stopped(
       milliseconds(5),
@@ -200,6 +202,7 @@ TEST(ChildProcess, DISABLED_ReadsOnTheSecondMachine) {
       [&] {
         ledger->imu.writers = imu.matched_writers();
         ledger->state.writers = state.matched_writers();
+        ledger->lost_samples = participant.counters().sample_lost;
         ledger->lost = events.of(bus::BusEventKind::writer_lost).size() +
                        events.of(bus::BusEventKind::sample_lost).size();
       },
@@ -212,25 +215,44 @@ struct Round {
 };
 constexpr double kAtTheChange = -1.0;
 
-TEST(Succession, LosesNothingWhileTheNetworkIsCut) {
-  const CutWire wire;
-  if (!wire.trouble().empty()) GTEST_SKIP() << wire.trouble();
-  const TemporaryFolder folder;
-  const std::string path = folder / "ledger";
-  const SharedLedger shared(path);
-  Ledger* const ledger = shared.get();
-  ASSERT_NE(ledger, nullptr);
-  const auto machine = [&](int number, const char* body) {
+/// Two machines on a wire, one of which writes and one reads.
+class Succession : public testing::Test {
+ protected:
+  void begin(std::chrono::microseconds imu_each) {
+    if (!wire.trouble().empty()) GTEST_SKIP() << wire.trouble();
+    ledger = shared.get();
+    ASSERT_NE(ledger, nullptr);
+    ledger->imu_each_us = static_cast<int>(imu_each.count());
+    writes = machine(1, "ChildProcess.DISABLED_WritesOnTheFirstMachine");
+    reads = machine(2, "ChildProcess.DISABLED_ReadsOnTheSecondMachine");
+    ASSERT_TRUE(eventually([&] { return ledger->imu.matched() && ledger->state.matched(); }));
+    ledger->begins = true;
+  }
+  std::unique_ptr<Child> machine(int number, const char* body) {
     return wire.on(number, [&] {
       return std::make_unique<Child>(body, std::vector<std::string>{"TEST_LEDGER=" + path});
     });
-  };
-  const auto writes = machine(1, "ChildProcess.DISABLED_WritesOnTheFirstMachine");
-  const auto reads = machine(2, "ChildProcess.DISABLED_ReadsOnTheSecondMachine");
+  }
+  void cut_for(double time_s) {
+    wire.cut();
+    let_pass(duration_cast<milliseconds>(std::chrono::duration<double>(time_s)));
+    wire.mend();
+  }
+
+  CutWire wire;
+  TemporaryFolder folder;
+  std::string path = folder / "ledger";
+  SharedLedger shared{path};
+  Ledger* ledger = nullptr;
+  std::unique_ptr<Child> writes;
+  std::unique_ptr<Child> reads;
+};
+
+TEST_F(Succession, LosesNothingWhileTheNetworkIsCut) {
+  begin(std::chrono::microseconds(2500));
+  if (IsSkipped() || HasFatalFailure()) return;
   Account& imu = ledger->imu;
   Account& state = ledger->state;
-  ASSERT_TRUE(eventually([&] { return imu.matched() && state.matched(); }));
-  ledger->begins = true;
 
   std::vector<Round> rounds{{0.0, 1.5}, {kAtTheChange, 4.0}, {2.4, 1.0}};
   if (std::getenv("FATHOM_SOAK") != nullptr) {
@@ -252,9 +274,7 @@ TEST(Succession, LosesNothingWhileTheNetworkIsCut) {
     } else {
       let_pass(duration_cast<milliseconds>(std::chrono::duration<double>(round.after_s)));
     }
-    wire.cut();
-    let_pass(duration_cast<milliseconds>(std::chrono::duration<double>(round.cut_s)));
-    wire.mend();
+    cut_for(round.cut_s);
     EXPECT_TRUE(eventually([&] { return imu.newest + 400 > imu.written; }))
         << "after a cut of " << round.cut_s << " s";
     std::printf("cut %.1f s after %.1f s: %d successions, missing %d imu samples and %d states\n",
@@ -276,6 +296,21 @@ TEST(Succession, LosesNothingWhileTheNetworkIsCut) {
   EXPECT_EQ(ledger->lost, 0U);
   EXPECT_EQ(writes->stop(), 0);
   EXPECT_EQ(reads->stop(), 0);
+}
+
+TEST_F(Succession, WhatACutLeavesNoRoomForIsLostAndCounted) {
+  begin(std::chrono::microseconds(1000));  // the writer keeps two seconds of them
+  if (IsSkipped() || HasFatalFailure()) return;
+  Account& imu = ledger->imu;
+  ASSERT_TRUE(eventually([&] { return imu.newest > 500; }));
+  cut_for(3.5);
+  EXPECT_TRUE(eventually([&] { return imu.missing > 0 && imu.newest + 400 > imu.written; }));
+  ledger->ends = true;
+  EXPECT_TRUE(eventually([&] { return imu.newest == imu.written; }));
+  EXPECT_TRUE(eventually([&] { return ledger->lost_samples == imu.missing; }))
+      << imu.missing << " are missing, " << ledger->lost_samples << " were counted";
+  EXPECT_EQ(imu.not_in_order, 0U);
+  EXPECT_EQ(ledger->lost, 1U) << "reported once";
 }
 
 }  // namespace
