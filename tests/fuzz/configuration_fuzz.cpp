@@ -14,6 +14,7 @@
 #include "config/json/strict_json.hpp"
 #include "config/registry.hpp"
 #include "driver.hpp"
+#include "support/paths.hpp"
 
 namespace {
 
@@ -69,7 +70,7 @@ std::vector<std::uint8_t> fathom::fuzz::target_seed() {
   const auto kinds = config::config_kinds();
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     if (kinds[i].name != "monitor") continue;
-    std::ifstream in(FATHOM_SOURCE_DIR "/deploy/config/monitor.json", std::ios::binary);
+    std::ifstream in(fathom::test::source_dir() + "/deploy/config/monitor.json", std::ios::binary);
     std::vector<std::uint8_t> out{static_cast<std::uint8_t>(i)};
     out.insert(out.end(), std::istreambuf_iterator<char>(in), {});
     return out;

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bus/participant.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 
@@ -12,7 +13,7 @@ inline bus::ParticipantOptions presence(std::uint32_t domain, const std::string&
   bus::ParticipantOptions out;
   out.name = name;
   out.domain = domain;
-  out.profiles_dir = std::string(FATHOM_SOURCE_DIR) + "/deploy/dds";
+  out.profiles_dir = source_dir() + "/deploy/dds";
   return out;
 }
 

@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/paths.hpp"
+
 namespace fathom::test {
 
 /// True as soon as `condition` holds; false when it did not within `seconds`.
@@ -29,8 +31,7 @@ class Process {
  public:
   /// `program`: name in build/bin, or the whole path of one of the system.
   Process(const std::string& program, const std::vector<std::string>& arguments) {
-    const std::string path =
-        program.starts_with("/") ? program : std::string(FATHOM_BINARY_DIR) + "/bin/" + program;
+    const std::string path = program.starts_with("/") ? program : binary_dir() + "/bin/" + program;
     out_ = temporary();
     err_ = temporary();
     std::vector<std::string> words{path};

@@ -10,11 +10,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "support/paths.hpp"
+
 namespace fathom::test {
 
 /// Numerical vectors by name; an empty object when tests/vectors lacks the file.
 inline nlohmann::json load_vectors() {
-  std::ifstream in(FATHOM_VECTORS "/strapdown_and_aiding.json");
+  std::ifstream in(vectors_dir() + "/strapdown_and_aiding.json");
   nlohmann::json by_name = nlohmann::json::object();
   if (!in) return by_name;
   const nlohmann::json all = nlohmann::json::parse(in);
@@ -48,7 +50,7 @@ class VectorsTest : public ::testing::Test {
  protected:
   void SetUp() override {
     vectors_ = load_vectors();
-    ASSERT_FALSE(vectors_.empty()) << "no numerical vectors in " << FATHOM_VECTORS;
+    ASSERT_FALSE(vectors_.empty()) << "no numerical vectors in " << vectors_dir();
   }
   [[nodiscard]] const nlohmann::json& in(const char* name) const { return vectors_.at(name).at("inputs"); }
   [[nodiscard]] const nlohmann::json& out(const char* name) const { return vectors_.at(name).at("expected"); }

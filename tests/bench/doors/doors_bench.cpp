@@ -25,6 +25,7 @@
 #include "bus/writer.hpp"
 #include "samples/nav_state.hpp"
 #include "support/free_port.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "unit/ros2/state.hpp"
@@ -66,11 +67,10 @@ class Doors : public ::testing::Test {
 
   void measure(const Door& door) {
     const bool soak = std::getenv("FATHOM_SOAK") != nullptr;
-    std::vector<std::string> arguments{
-        "--config", std::string(FATHOM_SOURCE_DIR "/deploy/config/") + door.service + ".json"};
+    std::vector<std::string> arguments{"--config", source_dir() + "/deploy/config/" + door.service + ".json"};
     std::vector<std::string> sets = door.sets;
     sets.insert(sets.end(), {"bus.domain=" + std::to_string(kVehicle),
-                             "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds", "clock.anchor_file="});
+                             "bus.profiles_dir=" + source_dir() + "/deploy/dds", "clock.anchor_file="});
     for (const std::string& set : sets) arguments.insert(arguments.end(), {"--set", set});
     Process gateway(door.program, arguments);
     Arrivals arrivals;

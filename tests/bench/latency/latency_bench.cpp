@@ -29,6 +29,7 @@
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "support/process_usage.hpp"
@@ -48,7 +49,7 @@ double percentile(std::vector<double> values, double share) {
 
 /// The survey with another inertial rate, as a file.
 std::string survey_at(double rate_hz, const TemporaryFolder& folder) {
-  std::ifstream file(std::string(FATHOM_SOURCE_DIR) + "/deploy/config/scenarios/survey.json");
+  std::ifstream file(source_dir() + "/deploy/config/scenarios/survey.json");
   auto scenario = nlohmann::json::parse(file);
   scenario["sensors"]["imu"]["rate_hz"] = rate_hz;
   const std::string path = folder / "survey.json";

@@ -42,6 +42,7 @@
 #include "samples/status/health.hpp"
 #include "samples/status/replication.hpp"
 #include "samples/usbl.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 
@@ -80,8 +81,7 @@ class Witness {
 
   static config::FusionConfig configuration() {
     return config::load_service_config<config::FusionConfig>(
-               {std::string(FATHOM_SOURCE_DIR) + "/deploy/config/fusion.json",
-                {"engine.imu.nominal_rate_hz=100.0"}})
+               {source_dir() + "/deploy/config/fusion.json", {"engine.imu.nominal_rate_hz=100.0"}})
         .value;
   }
   static bus::ParticipantOptions options() {

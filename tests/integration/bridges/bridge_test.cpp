@@ -24,6 +24,7 @@
 #include "sim/encode/imu/vectornav.hpp"
 #include "sim/encode/nmea.hpp"
 #include "support.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -387,7 +388,7 @@ TEST(BridgeProcess, BadConfigurationEndsWithOneLineBeforeAnythingStarts) {
   const TemporaryFolder folder;
   Process bridge("fathom-imu-bridge", bridge_arguments("imu", 147, {"sensors.0.rate_hz=-1"}), folder / "log");
   EXPECT_EQ(bridge.wait(), 2);
-  const std::string file = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/imu_bridge.json";
+  const std::string file = source_dir() + "/deploy/config/imu_bridge.json";
   EXPECT_EQ(bridge.output(), "fathom-imu-bridge: " + file +
                                  ": sensors.0.rate_hz: is -1, expected a number from 0.001 to 10000\n");
   Process usage("fathom-imu-bridge", {"--nonsense"}, folder / "usage");

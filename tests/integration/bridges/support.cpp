@@ -21,6 +21,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 
 extern char** environ;
@@ -71,7 +72,7 @@ TemporaryFolder::~TemporaryFolder() {
 Process::Process(const std::string& executable, const std::vector<std::string>& arguments,
                  const std::string& log)
     : log_(log) {
-  const std::string path = std::string(FATHOM_BINARY_DIR) + "/bin/" + executable;
+  const std::string path = binary_dir() + "/bin/" + executable;
   std::vector<char*> argv{const_cast<char*>(path.c_str())};
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
@@ -110,7 +111,7 @@ std::string Process::output() const {
 
 std::vector<std::string> bridge_arguments(const std::string& kind, int domain,
                                           const std::vector<std::string>& sets) {
-  const std::string source = FATHOM_SOURCE_DIR;
+  const std::string source = source_dir();
   std::vector<std::string> out{"--config", source + "/deploy/config/" + kind + "_bridge.json",
                                "--set",    "bus.domain=" + std::to_string(domain),
                                "--set",    "bus.profiles_dir=" + source + "/deploy/dds"};

@@ -15,6 +15,7 @@
 #include "http_peer.hpp"
 #include "integration/services/vehicle_network.hpp"
 #include "support/certificate.hpp"
+#include "support/paths.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
@@ -35,15 +36,14 @@ class ConsoleTest : public ::testing::Test {
                               << kOperatorToken << R"("}, {"name": "guest", "role": "viewer", "token": ")"
                               << kViewerToken << R"("}]})";
     chmod(token_file.c_str(), 0600);
-    setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
+    setenv("FATHOM_DDS_DIR", (source_dir() + "/deploy/dds").c_str(), 1);
     sets.insert(sets.begin(), {"bus.domain=" + std::to_string(domain), "http.port=" + std::to_string(port),
                                "access.token_file=" + token_file.string()});
     if (certificate != nullptr) {
       sets.push_back("tls.certificate_file=" + certificate->certificate());
       sets.push_back("tls.key_file=" + certificate->key());
     }
-    std::vector<std::string> arguments{"--config",
-                                       std::string(FATHOM_SOURCE_DIR) + "/deploy/config/console.json"};
+    std::vector<std::string> arguments{"--config", source_dir() + "/deploy/config/console.json"};
     for (const std::string& set : sets) {
       arguments.emplace_back("--set");
       arguments.push_back(set);

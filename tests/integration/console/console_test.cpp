@@ -7,6 +7,7 @@
 #include "console_fixture.hpp"
 #include "samples/position/fix.hpp"
 #include "samples/verdict.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -254,10 +255,9 @@ TEST(Console, ATokenFileThatOthersMayReadEndsIt) {
       std::filesystem::temp_directory_path() / ("fathom-console-open-" + std::to_string(getpid()));
   std::ofstream(file) << "{}";
   chmod(file.c_str(), 0644);
-  setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
-  Process console("fathom-console",
-                  {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/console.json", "--set",
-                   "bus.domain=16", "--set", "access.token_file=" + file.string()});
+  setenv("FATHOM_DDS_DIR", (source_dir() + "/deploy/dds").c_str(), 1);
+  Process console("fathom-console", {"--config", source_dir() + "/deploy/config/console.json", "--set",
+                                     "bus.domain=16", "--set", "access.token_file=" + file.string()});
   EXPECT_EQ(console.wait(), 2);
   EXPECT_NE(console.err().find("expected mode 0600"), std::string::npos) << console.err();
   std::filesystem::remove(file);

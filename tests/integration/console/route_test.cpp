@@ -7,6 +7,7 @@
 #include "base/units.hpp"
 #include "bus/writer.hpp"
 #include "console_fixture.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -40,9 +41,8 @@ TEST_F(RouteTest, WhatGuidanceFollowsIsOnThePageAndGrowsOldWhenItIsGone) {
   const auto guide = [] {
     return std::make_unique<Process>(
         "fathom-guidance-example",
-        std::vector<std::string>{"--config",
-                                 std::string(FATHOM_SOURCE_DIR) + "/deploy/config/guidance_example.json",
-                                 "--set", "bus.domain=30", "--set", "waypoints.1.name=turn"});
+        std::vector<std::string>{"--config", source_dir() + "/deploy/config/guidance_example.json", "--set",
+                                 "bus.domain=30", "--set", "waypoints.1.name=turn"});
   };
   auto guidance = guide();
   open_page();

@@ -6,6 +6,7 @@
 
 #include "bus/reader.hpp"
 #include "console_fixture.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -214,8 +215,7 @@ TEST_F(TlsTest, TokensInClearAreWarnedOf) {
 /// `fathom-console --check` with these settings.
 struct Check {
   explicit Check(const std::vector<std::string>& sets) {
-    std::vector<std::string> arguments{"--check", "--config",
-                                       std::string(FATHOM_SOURCE_DIR) + "/deploy/config/console.json"};
+    std::vector<std::string> arguments{"--check", "--config", source_dir() + "/deploy/config/console.json"};
     for (const std::string& set : sets) {
       arguments.emplace_back("--set");
       arguments.push_back(set);

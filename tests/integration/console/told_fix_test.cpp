@@ -15,6 +15,7 @@
 #include "console_fixture.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/verdict.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/vehicles/survey_run.hpp"
@@ -126,7 +127,7 @@ TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLin
   const std::vector<std::string> clock_sets{"clock.rate=" + std::to_string(kRate),
                                             "clock.epoch_ns=" + std::to_string(epoch_ns),
                                             "clock.anchor_file="};
-  std::vector<std::string> arguments{"--config", FATHOM_SOURCE_DIR "/deploy/config/fusion.json"};
+  std::vector<std::string> arguments{"--config", source_dir() + "/deploy/config/fusion.json"};
   std::vector<std::string> sets = clock_sets;
   sets.insert(
       sets.end(),
@@ -159,12 +160,11 @@ TEST_F(ToldFix, OfTenMinutesAgoIsUsedAndAWrongOneIsRefusedByConsoleAndCommandLin
   const auto tell = [&](const Eigen::Vector3d& off_N_m) {
     const geo::Geodetic place = survey.place(then_s, off_N_m);
     return std::make_unique<Process>(
-        "fathom",
-        std::vector<std::string>{"fix", "--domain", std::to_string(kDomain), "--profiles",
-                                 FATHOM_SOURCE_DIR "/deploy/dds", "--lat",
-                                 std::to_string(kDegPerRad * place.latitude_rad), "--lon",
-                                 std::to_string(kDegPerRad * place.longitude_rad), "--sigma", "10", "--time",
-                                 to_iso8601(epoch_ns + from_seconds(then_s)), "--timeout", "60", "--json"});
+        "fathom", std::vector<std::string>{
+                      "fix", "--domain", std::to_string(kDomain), "--profiles", source_dir() + "/deploy/dds",
+                      "--lat", std::to_string(kDegPerRad * place.latitude_rad), "--lon",
+                      std::to_string(kDegPerRad * place.longitude_rad), "--sigma", "10", "--time",
+                      to_iso8601(epoch_ns + from_seconds(then_s)), "--timeout", "60", "--json"});
   };
   const auto wrong = tell({0.0, 1000.0, 0.0});
   EXPECT_EQ(wrong->wait(), 1) << wrong->err();

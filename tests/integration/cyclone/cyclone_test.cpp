@@ -27,6 +27,7 @@
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/route.hpp"
+#include "support/paths.hpp"
 
 namespace fathom {
 namespace {
@@ -35,7 +36,7 @@ bus::ParticipantOptions options(std::uint32_t domain) {
   bus::ParticipantOptions options;
   options.name = "cyclone_test";
   options.domain = domain;
-  options.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
+  options.profiles_dir = test::source_dir() + "/deploy/dds";
   return options;
 }
 

@@ -21,6 +21,7 @@
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
 #include "support/free_port.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -34,9 +35,8 @@ constexpr std::uint32_t kGraph = 228;
 
 std::vector<std::string> arguments(const std::string& service, std::vector<std::string> sets) {
   sets.insert(sets.end(), {"bus.domain=" + std::to_string(kDomain),
-                           "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds", "clock.anchor_file="});
-  std::vector<std::string> out{"--config",
-                               std::string(FATHOM_SOURCE_DIR "/deploy/config/") + service + ".json"};
+                           "bus.profiles_dir=" + source_dir() + "/deploy/dds", "clock.anchor_file="});
+  std::vector<std::string> out{"--config", source_dir() + "/deploy/config/" + service + ".json"};
   for (const std::string& set : sets) out.insert(out.end(), {"--set", set});
   return out;
 }
@@ -170,7 +170,7 @@ TEST(Foxglove, ATlsFileThatIsAPipeIsNotWaitedFor) {
   const std::string pipe = (folder.path() / "key").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // nobody ever writes into it
   std::vector<std::string> all =
-      arguments("foxglove", {"tls.certificate_file=" FATHOM_SOURCE_DIR "/README.md", "tls.key_file=" + pipe});
+      arguments("foxglove", {"tls.certificate_file=" + source_dir() + "/README.md", "tls.key_file=" + pipe});
   all.emplace_back("--check");
   Process process("fathom-foxglove", all);
   EXPECT_EQ(process.wait(), 2);

@@ -16,6 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/paths.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
@@ -59,10 +60,10 @@ void send_to_ports() {
 }
 
 TEST(Deaf, AServiceThatHearsNothingEnds) {
-  Process service("fathom-guidance-example",
-                  {"--config", FATHOM_SOURCE_DIR "/deploy/config/guidance_example.json", "--set",
-                   "bus.domain=" + std::to_string(kDomain), "--set",
-                   "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds"});
+  Process service(
+      "fathom-guidance-example",
+      {"--config", source_dir() + "/deploy/config/guidance_example.json", "--set",
+       "bus.domain=" + std::to_string(kDomain), "--set", "bus.profiles_dir=" + source_dir() + "/deploy/dds"});
   ASSERT_TRUE(
       wait_until([&] { return service.err().find("started, version") != std::string::npos; }, kPatience_s))
       << service.err();

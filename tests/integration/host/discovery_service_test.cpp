@@ -12,6 +12,7 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "samples/status/health.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 
@@ -25,8 +26,8 @@ const std::string kServer = "127.0.0.1:21812";
 std::unique_ptr<Process> start(const std::string& program, const std::string& file,
                                std::vector<std::string> sets) {
   sets.push_back("bus.domain=" + std::to_string(kDomain));
-  sets.push_back("bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds");
-  std::vector<std::string> arguments{"--config", FATHOM_SOURCE_DIR "/deploy/config/" + file};
+  sets.push_back("bus.profiles_dir=" + source_dir() + "/deploy/dds");
+  std::vector<std::string> arguments{"--config", source_dir() + "/deploy/config/" + file};
   for (const std::string& set : sets) {
     arguments.push_back("--set");
     arguments.push_back(set);

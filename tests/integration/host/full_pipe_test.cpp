@@ -11,6 +11,7 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "samples/status/health.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -26,7 +27,7 @@ std::vector<std::string> in_front_of_a_full_pipe(const std::string& pipe,
                                                  const std::vector<std::string>& arguments) {
   std::vector<std::string> out{
       "-c", R"(mkfifo "$1" && exec 2<>"$1"; timeout 1 head -c 1000000 /dev/zero >&2; exec "${@:2}")", "full",
-      pipe, FATHOM_BINARY_DIR "/bin/fathom-guidance-example"};
+      pipe, binary_dir() + "/bin/fathom-guidance-example"};
   out.insert(out.end(), arguments.begin(), arguments.end());
   return out;
 }
@@ -38,10 +39,10 @@ TEST(FullPipe, HoldsNoServiceUp) {
   const bus::Reader<ServiceStatus> reader(participant,
                                           [&](const ServiceStatus&, const bus::SampleInfo&) { ++signs; });
   Process service("/bin/bash",
-                  in_front_of_a_full_pipe(
-                      folder / "pipe", {"--config", FATHOM_SOURCE_DIR "/deploy/config/guidance_example.json",
-                                        "--set", "bus.domain=" + std::to_string(kDomain), "--set",
-                                        "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds"}));
+                  in_front_of_a_full_pipe(folder / "pipe",
+                                          {"--config", source_dir() + "/deploy/config/guidance_example.json",
+                                           "--set", "bus.domain=" + std::to_string(kDomain), "--set",
+                                           "bus.profiles_dir=" + source_dir() + "/deploy/dds"}));
   EXPECT_TRUE(wait_until([&] { return signs >= 2; }, kPatience_s));
   service.kill(SIGTERM);
   ASSERT_TRUE(wait_until([&] { return !service.running(); }, kPatience_s));

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "host/run.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -17,7 +18,7 @@ void run_and_throw() {
   char* arguments[]{words[0].data(), words[1].data(), words[2].data(), nullptr};
   config::CommonConfig common;
   common.bus.domain = 67;
-  common.bus.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
+  common.bus.profiles_dir = source_dir() + "/deploy/dds";
   (void)host::run_service(
       3, arguments, {"test", "Ends by an exception."}, [] { return std::string(); },
       [&](const config::LoadRequest&, bool) {

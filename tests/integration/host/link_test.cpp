@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/paths.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -45,10 +46,10 @@ class Link : public ::testing::Test {
     return {"--map-root-user", "--net",
             "/bin/bash",       "-c",
             kNetwork,          "network",
-            plugged,           FATHOM_BINARY_DIR "/bin/fathom-guidance-example",
-            "--config",        FATHOM_SOURCE_DIR "/deploy/config/guidance_example.json",
+            plugged,           binary_dir() + "/bin/fathom-guidance-example",
+            "--config",        source_dir() + "/deploy/config/guidance_example.json",
             "--set",           "bus.interfaces=" + interfaces,
-            "--set",           "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds"};
+            "--set",           "bus.profiles_dir=" + source_dir() + "/deploy/dds"};
   }
 
   const TemporaryFolder folder;

@@ -19,6 +19,7 @@
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
 #include "samples/status/health.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 
@@ -67,9 +68,9 @@ class RealtimeService : public ::testing::Test {
     return std::make_unique<Process>(
         "fathom-guidance-example",
         std::vector<std::string>{
-            "--config", FATHOM_SOURCE_DIR "/deploy/config/guidance_example.json", "--set",
+            "--config", source_dir() + "/deploy/config/guidance_example.json", "--set",
             "bus.domain=" + std::to_string(domain_), "--set",
-            "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds", "--set", "realtime.policy=fifo", "--set",
+            "bus.profiles_dir=" + source_dir() + "/deploy/dds", "--set", "realtime.policy=fifo", "--set",
             "realtime.priority=" + std::to_string(kPriority), "--set", "realtime.lock_memory=true"});
   }
   [[nodiscard]] bool heard() const { return !text_of_host().empty(); }

@@ -31,6 +31,7 @@
 #include "samples/status/health.hpp"
 #include "support/free_port.hpp"
 #include "support/navigating.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -141,11 +142,10 @@ class Said {
 };
 
 std::vector<std::string> arguments(int port, const std::vector<std::string>& sets = {}) {
-  std::vector<std::string> out{
-      "--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/mavlink_gateway.json",
-      "--set",    "bus.domain=" + std::to_string(kDomain),
-      "--set",    "clock.anchor_file=",
-      "--set",    "link.port=" + std::to_string(port)};
+  std::vector<std::string> out{"--config", source_dir() + "/deploy/config/mavlink_gateway.json",
+                               "--set",    "bus.domain=" + std::to_string(kDomain),
+                               "--set",    "clock.anchor_file=",
+                               "--set",    "link.port=" + std::to_string(port)};
   for (const std::string& set : sets) {
     out.emplace_back("--set");
     out.push_back(set);

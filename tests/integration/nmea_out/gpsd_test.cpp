@@ -18,6 +18,7 @@
 #include "integration/nmea_out/spoken.hpp"
 #include "samples/gps.hpp"
 #include "support/free_port.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom::test {
@@ -28,7 +29,7 @@ constexpr const char* kGpsd = "/usr/sbin/gpsd";
 /// Of a bridge that reads the gpsd at `port`.
 std::vector<std::string> bridge_arguments(int port, const std::string& time_mode) {
   return {"--config",
-          std::string(FATHOM_SOURCE_DIR) + "/deploy/config/gps_bridge.json",
+          source_dir() + "/deploy/config/gps_bridge.json",
           "--set",
           "bus.domain=" + std::to_string(kDomain),
           "--set",

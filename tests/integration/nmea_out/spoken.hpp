@@ -23,6 +23,7 @@
 #include "samples/nav_state.hpp"
 #include "support/free_port.hpp"
 #include "support/navigating.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 
@@ -146,7 +147,7 @@ inline constexpr const char* kEverything =
     R"({"sentence":"PFTHM"}])";
 
 inline std::vector<std::string> arguments(const std::string& outputs) {
-  return {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/nmea_out.json",
+  return {"--config", source_dir() + "/deploy/config/nmea_out.json",
           "--set",    "bus.domain=" + std::to_string(kDomain),
           "--set",    "clock.anchor_file=",
           "--set",    "outputs=" + outputs};

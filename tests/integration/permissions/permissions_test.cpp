@@ -12,6 +12,7 @@
 #include "bus/network_map.hpp"
 #include "integration/bus/support.hpp"
 #include "security/roles.hpp"
+#include "support/paths.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -47,7 +48,7 @@ Uses table() {
     static const std::set<std::string> kElsewhere{"cli",      "guidance",        "discovery", "ros2_gateway",
                                                   "nmea_out", "mavlink_gateway", "foxglove"};
     if (kElsewhere.contains(name)) continue;
-    if (name == "console" && !std::filesystem::exists(FATHOM_BINARY_DIR "/bin/fathom-console")) continue;
+    if (name == "console" && !std::filesystem::exists(binary_dir() + "/bin/fathom-console")) continue;
     const auto add = [&](bool writes, std::span<const std::string_view> topics) {
       for (const auto topic : topics) {
         if (writes || topic != kForAMoment) out[name][writes].emplace(topic);
@@ -61,7 +62,7 @@ Uses table() {
 
 nlohmann::json shipped(const std::string& scenario) {
   return nlohmann::json::parse(
-      std::ifstream(FATHOM_SOURCE_DIR "/deploy/config/scenarios/" + scenario + ".json"));
+      std::ifstream(source_dir() + "/deploy/config/scenarios/" + scenario + ".json"));
 }
 
 /// A vehicle with every instrument: the survey's, the pitot tube of the aircraft, an altimeter and a modem.
@@ -91,8 +92,8 @@ std::string scenario_of_everything(const std::filesystem::path& folder) {
 }
 
 TEST(Permissions, AreWhatTheServicesUseAndNoMore) {
-  setenv("FATHOM_DDS_DIR", FATHOM_SOURCE_DIR "/deploy/dds", 1);
-  setenv("FATHOM_SCENARIO_DIR", FATHOM_SOURCE_DIR "/deploy/config/scenarios", 1);
+  setenv("FATHOM_DDS_DIR", (source_dir() + "/deploy/dds").c_str(), 1);
+  setenv("FATHOM_SCENARIO_DIR", (source_dir() + "/deploy/config/scenarios").c_str(), 1);
   const TemporaryFolder folder;
   Process demo("fathom-demo", {"--secure", "--standby", "--domain", std::to_string(kDomain), "--duration",
                                "300", "--scenario", scenario_of_everything(folder.path())});

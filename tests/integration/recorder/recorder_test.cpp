@@ -22,6 +22,7 @@
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
@@ -75,7 +76,7 @@ class Vehicle {
 
 std::vector<std::string> recorder_arguments(const std::string& folder,
                                             const std::vector<std::string>& sets = {}) {
-  std::vector<std::string> out{"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/recorder.json",
+  std::vector<std::string> out{"--config", source_dir() + "/deploy/config/recorder.json",
                                "--set",    "bus.domain=" + std::to_string(kDomain),
                                "--set",    "clock.anchor_file=",
                                "--set",    "folder=" + folder};
@@ -241,9 +242,8 @@ TEST(RecordCommand, RecordsForAWhileAndRecovers) {
   const std::string file = folder / "by_hand.mcap";
   const Vehicle vehicle;
   {
-    Process record("fathom",
-                   {"record", "--domain", std::to_string(kDomain), "--duration", "2", "--topic", "imu",
-                    "--profiles", std::string(FATHOM_SOURCE_DIR) + "/deploy/dds", "--out", file});
+    Process record("fathom", {"record", "--domain", std::to_string(kDomain), "--duration", "2", "--topic",
+                              "imu", "--profiles", source_dir() + "/deploy/dds", "--out", file});
     EXPECT_EQ(record.wait(), 0) << record.err();
     EXPECT_NE(record.out().find(" messages, "), std::string::npos) << record.out();
   }
@@ -275,9 +275,9 @@ TEST(RecordCommand, EndsWithFourWhereTheDiskDoesNotTakeEverything) {
   std::ofstream(folder / "file") << "no folder";
   const Vehicle vehicle;
   const std::string arguments = " record --domain " + std::to_string(kDomain) +
-                                " --duration 2 --topic imu --profiles " + FATHOM_SOURCE_DIR +
+                                " --duration 2 --topic imu --profiles " + source_dir() +
                                 "/deploy/dds --compression none --out " + folder.path().string();
-  const std::string record = FATHOM_BINARY_DIR "/bin/fathom" + arguments;
+  const std::string record = binary_dir() + "/bin/fathom" + arguments;
   Process nowhere("/bin/sh", {"-c", "exec " + record + "/file/by_hand.mcap"});
   EXPECT_EQ(nowhere.wait(), 4) << nowhere.out() << nowhere.err();
   // A file of 32 kB is as far as it gets, as on a disk that is full.
@@ -325,9 +325,8 @@ TEST(ReplayCommand, PublishesWhatIsAskedForInItsOrderAndTime) {
   });
   const bus::Reader<NavState> nav(participant, [&](const NavState&, const auto&) { ++states; });
   const auto replay = [&](std::vector<std::string> more) {
-    std::vector<std::string> words{"replay",     file,
-                                   "--domain",   std::to_string(kDomain),
-                                   "--profiles", std::string(FATHOM_SOURCE_DIR) + "/deploy/dds"};
+    std::vector<std::string> words{
+        "replay", file, "--domain", std::to_string(kDomain), "--profiles", source_dir() + "/deploy/dds"};
     words.insert(words.end(), more.begin(), more.end());
     Process process("fathom", words);
     EXPECT_EQ(process.wait(), 0) << process.err() << process.out();

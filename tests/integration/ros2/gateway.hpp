@@ -17,6 +17,7 @@
 #include "bus/writer.hpp"
 #include "integration/ros2/peer.hpp"
 #include "samples/nav_state.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "unit/ros2/state.hpp"
 
@@ -28,11 +29,10 @@ constexpr std::uint32_t kGraph = 74;
 inline const geo::Geodetic kOrigin{36.4 * kRadPerDeg, -121.5 * kRadPerDeg, -3.0};
 
 inline std::vector<std::string> arguments(std::vector<std::string> sets = {}) {
-  std::vector<std::string> out{"--config", FATHOM_SOURCE_DIR "/deploy/config/ros2_gateway.json"};
+  std::vector<std::string> out{"--config", source_dir() + "/deploy/config/ros2_gateway.json"};
   const std::string number = std::to_string(kVehicle);
-  for (const std::string& set :
-       {"bus.domain=" + number, std::string("bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds"),
-        "ros.domain=" + std::to_string(kGraph), std::string("clock.anchor_file=")}) {
+  for (const std::string& set : {"bus.domain=" + number, "bus.profiles_dir=" + source_dir() + "/deploy/dds",
+                                 "ros.domain=" + std::to_string(kGraph), std::string("clock.anchor_file=")}) {
     sets.insert(sets.begin(), set);
   }
   for (const std::string& set : sets) {

@@ -18,6 +18,7 @@
 #include "samples/gps.hpp"
 #include "samples/imu.hpp"
 #include "samples/status/health.hpp"
+#include "support/paths.hpp"
 
 namespace fathom {
 namespace {
@@ -249,9 +250,9 @@ TEST_F(Ros2Gateway, DiesAndComesBackWithoutHarm) {
     }
     return Presence::never_seen;
   };
-  Process watch("fathom-monitor", {"--config", FATHOM_SOURCE_DIR "/deploy/config/monitor.json", "--set",
+  Process watch("fathom-monitor", {"--config", test::source_dir() + "/deploy/config/monitor.json", "--set",
                                    "bus.domain=" + std::to_string(kVehicle), "--set",
-                                   "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds", "--set",
+                                   "bus.profiles_dir=" + test::source_dir() + "/deploy/dds", "--set",
                                    "clock.anchor_file=", "--set", "metrics.enabled=false", "--set",
                                    "journal.path=", "--set", R"(services=[{"name":"ros2_gateway"}])"});
   ASSERT_TRUE(wait_until([&] { return presence() == Presence::present; }, 20.0)) << watch.err();

@@ -14,6 +14,7 @@
 #include "samples/imu.hpp"
 #include "samples/nav_state.hpp"
 #include "security/keygen.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/ros2/state.hpp"
@@ -41,9 +42,9 @@ TEST(Ros2GatewayProtected, MayDoWhatItDoes) {
   const bus::Reader<ImuSample> imu(fusion, [&](const ImuSample&, const bus::SampleInfo&) { ++samples; });
   test::Process gateway(
       "fathom-ros2-gateway",
-      {"--config", FATHOM_SOURCE_DIR "/deploy/config/ros2_gateway.json", "--set",
+      {"--config", test::source_dir() + "/deploy/config/ros2_gateway.json", "--set",
        "bus.domain=" + std::to_string(kVehicle), "--set", "ros.domain=" + std::to_string(kGraph), "--set",
-       "bus.profiles_dir=" FATHOM_SOURCE_DIR "/deploy/dds", "--set", "clock.anchor_file=", "--set",
+       "bus.profiles_dir=" + test::source_dir() + "/deploy/dds", "--set", "clock.anchor_file=", "--set",
        "bus.security.folder=" + keygen.folder, "--set",
        R"(inputs=[{"kind":"imu","topic":"/imu/data","sensor":"imu","frame_id":"imu_link","rate_hz":50}])"});
   const test::Peer imu_peer("write", kGraph, {"imu", "rt/imu/data"});

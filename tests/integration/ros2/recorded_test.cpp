@@ -11,6 +11,7 @@
 #include "integration/ros2/peer.hpp"
 #include "record/reader.hpp"
 #include "ros2/messages/sensors.hpp"
+#include "support/paths.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -26,7 +27,7 @@ class Ros2Recorded : public ::testing::Test {
                                        "--domain",
                                        std::to_string(kDomain),
                                        "--profiles",
-                                       FATHOM_SOURCE_DIR "/deploy/dds",
+                                       source_dir() + "/deploy/dds",
                                        "--duration",
                                        "5",
                                        "--out",
@@ -68,7 +69,7 @@ TEST_F(Ros2Recorded, AreKeptAsTheyTravelledWhereTheyAreAskedFor) {
   EXPECT_TRUE(reader.value().check().problems.empty());
   // Who plays such a recording plays what is the vehicle's: nothing.
   Process replay("fathom", {"replay", file(), "--domain", std::to_string(kDomain), "--profiles",
-                            FATHOM_SOURCE_DIR "/deploy/dds", "--speed", "10"});
+                            source_dir() + "/deploy/dds", "--speed", "10"});
   EXPECT_NE(replay.wait(), SIGABRT + 128) << replay.err();
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "support/paths.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -23,7 +24,7 @@ struct Answer {
 };
 
 Answer run(const std::string& program, const std::vector<std::string>& arguments) {
-  setenv("FATHOM_DDS_DIR", FATHOM_SOURCE_DIR "/deploy/dds", 1);
+  setenv("FATHOM_DDS_DIR", (source_dir() + "/deploy/dds").c_str(), 1);
   Process process(program, arguments);
   Answer answer;
   answer.code = process.wait();
@@ -86,7 +87,7 @@ TEST(KeygenCommand, AServiceSaysWhatIsWrongWithItsCredentials) {
   const TemporaryFolder folder;
   const std::string dir = folder / "credentials";
   const auto bridge = [&](const std::string& security) {
-    return run("fathom-gps-bridge", {"--config", FATHOM_SOURCE_DIR "/deploy/config/gps_bridge.json", "--set",
+    return run("fathom-gps-bridge", {"--config", source_dir() + "/deploy/config/gps_bridge.json", "--set",
                                      "bus.domain=58", "--set", "bus.security=" + security});
   };
   expect_refusal(bridge(R"({"folder": ")" + dir + R"("})"), "bus.security: " + dir + ": is no folder");

@@ -7,6 +7,7 @@
 
 #include "base/clock.hpp"
 #include "samples/gps.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -27,7 +28,7 @@ std::string whole(const fs::path& file) {
 /// The QoS profiles with the attacker's files in that of the participant: our own options would check them.
 void write_profiles(const fs::path& folder, const std::optional<Disguise>& disguise) {
   fs::create_directory(folder);
-  for (const auto& entry : fs::directory_iterator(FATHOM_SOURCE_DIR "/deploy/dds")) {
+  for (const auto& entry : fs::directory_iterator(source_dir() + "/deploy/dds")) {
     std::string text = whole(entry.path());
     const std::string end = "    </rtps>\n  </participant>";
     const std::size_t at = text.find(end);

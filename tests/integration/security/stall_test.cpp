@@ -5,6 +5,7 @@
 #include <csignal>
 
 #include "network.hpp"
+#include "support/paths.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
@@ -12,8 +13,8 @@ namespace {
 
 TEST(Stall, AServiceThatWasGivenUpEndsAndIsMetAgainWhenStartedAnew) {
   SecureNetwork network(60);
-  setenv("FATHOM_DDS_DIR", FATHOM_SOURCE_DIR "/deploy/dds", 1);
-  const std::vector<std::string> arguments{"--config", FATHOM_SOURCE_DIR "/deploy/config/gps_bridge.json",
+  setenv("FATHOM_DDS_DIR", (source_dir() + "/deploy/dds").c_str(), 1);
+  const std::vector<std::string> arguments{"--config", source_dir() + "/deploy/config/gps_bridge.json",
                                            "--set",    "bus.domain=60",
                                            "--set",    "bus.security.folder=" + network.credentials()};
   const auto met = [&] {

@@ -14,6 +14,7 @@
 #include "bus/reader.hpp"
 #include "samples/command.hpp"
 #include "samples/position/fix.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "vehicle_network.hpp"
@@ -26,7 +27,7 @@ ClientOptions planner_options(std::uint32_t domain) {
   out.domain = domain;
   out.vehicle = "auv";
   out.name = "planner";
-  out.profiles_dir = FATHOM_SOURCE_DIR "/deploy/dds";
+  out.profiles_dir = source_dir() + "/deploy/dds";
   return out;
 }
 

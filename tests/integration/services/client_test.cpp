@@ -14,6 +14,7 @@
 #include "bus/participant.hpp"
 #include "bus/writer.hpp"
 #include "samples/nav_state.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 #include "vehicle_network.hpp"
@@ -21,7 +22,7 @@
 namespace fathom::test {
 namespace {
 
-const std::string kSource = FATHOM_SOURCE_DIR;
+const std::string kSource = source_dir();
 
 ClientOptions options(std::uint32_t domain, const std::string& vehicle = "auv") {
   ClientOptions out;

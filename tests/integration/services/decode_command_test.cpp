@@ -13,6 +13,7 @@
 
 #include "sim/encode/dvl/pd0.hpp"
 #include "sim/encode/imu/vectornav.hpp"
+#include "support/paths.hpp"
 
 namespace fathom {
 namespace {
@@ -25,7 +26,7 @@ struct Answer {
 };
 
 Answer run(const std::string& arguments) {
-  const std::string command = std::string(FATHOM_BINARY_DIR) + "/bin/fathom " + arguments;
+  const std::string command = test::binary_dir() + "/bin/fathom " + arguments;
   std::FILE* pipe = ::popen(command.c_str(), "r");
   Answer answer;
   if (pipe == nullptr) return answer;
@@ -48,7 +49,7 @@ class DecodeCommand : public ::testing::Test {
  protected:
   void SetUp() override {
     // The build makes it before this test: its absence is a failure, not a reason to skip.
-    ASSERT_TRUE(std::filesystem::exists(std::string(FATHOM_BINARY_DIR) + "/bin/fathom"));
+    ASSERT_TRUE(std::filesystem::exists(test::binary_dir() + "/bin/fathom"));
     path_ = std::filesystem::temp_directory_path() / ("fathom_decode_" + std::to_string(::getpid()));
   }
   void TearDown() override { std::filesystem::remove(path_); }

@@ -29,6 +29,7 @@
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
 #include "samples/verdict.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 
@@ -250,7 +251,7 @@ class FusionEar {
 class FusionTest : public ::testing::Test {
  protected:
   void start(std::uint32_t domain, std::vector<std::string> sets = {}, TimeNs start_ns = kStart_ns) {
-    setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
+    setenv("FATHOM_DDS_DIR", (source_dir() + "/deploy/dds").c_str(), 1);
     vehicle = std::make_unique<StillVehicle>(domain, start_ns);
     ear = std::make_unique<FusionEar>(vehicle->participant());
     sets.insert(sets.begin(), "checkpoint.path=");  // unless the test says where
@@ -258,7 +259,7 @@ class FusionTest : public ::testing::Test {
     sets.push_back("start.mode=given");
     sets.push_back(
         R"(start.state={"latitude_deg":36.38282,"longitude_deg":127.19663,"altitude_m":18.5,"rpy_deg":[0,0,0]})");
-    arguments = {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/fusion.json"};
+    arguments = {"--config", source_dir() + "/deploy/config/fusion.json"};
     for (const std::string& set : sets) {
       arguments.push_back("--set");
       arguments.push_back(set);

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/paths.hpp"
 #include "support/process.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -19,7 +20,7 @@ TEST(FusionProcess, DoesNotStartWhereAMountingStandsTwice) {
   const TemporaryFolder folder;
   for (const char* name : {"fusion.json", "imu_bridge.json"}) {
     std::ostringstream text;
-    text << std::ifstream(std::filesystem::path(FATHOM_SOURCE_DIR) / "deploy/config" / name).rdbuf();
+    text << std::ifstream(std::filesystem::path(source_dir()) / "deploy/config" / name).rdbuf();
     std::string file = text.str();
     const std::string turned = R"("rpy_deg": [0.0, 0.0, 0.0])";
     const auto at = file.find(turned);

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "fusion_fixture.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -289,8 +290,8 @@ TEST_F(FusionTest, AnOrderlyEndIsFinal) {
 }
 
 TEST(FusionExecutable, RefusesABadConfigurationBeforeAnythingStarts) {
-  Process fusion("fathom-fusion", {"--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/fusion.json",
-                                   "--set", "engine.horizon_s=often"});
+  Process fusion("fathom-fusion", {"--config", source_dir() + "/deploy/config/fusion.json", "--set",
+                                   "engine.horizon_s=often"});
   EXPECT_EQ(fusion.wait(), 2);
   EXPECT_NE(fusion.err().find("fusion.json: engine.horizon_s: is \"often\", expected a number"),
             std::string::npos)

@@ -14,13 +14,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "support/paths.hpp"
 #include "support/process.hpp"
 #include "vehicle_network.hpp"
 
 namespace fathom::test {
 namespace {
 
-const std::string kConfig = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/monitor.json";
+const std::string kConfig = source_dir() + "/deploy/config/monitor.json";
 
 /// The real fathom-monitor in its own process, a vehicle around it, and an ear for what it says.
 class MonitorTest : public ::testing::Test {
@@ -39,7 +40,7 @@ class MonitorTest : public ::testing::Test {
       arguments.push_back("--set");
       arguments.push_back(set);
     }
-    setenv("FATHOM_DDS_DIR", (std::string(FATHOM_SOURCE_DIR) + "/deploy/dds").c_str(), 1);
+    setenv("FATHOM_DDS_DIR", (source_dir() + "/deploy/dds").c_str(), 1);
     network = std::make_unique<VehicleNetwork>(domain, clock);
     ear = std::make_unique<MonitorEar>(network->participant());
     command_line = arguments;

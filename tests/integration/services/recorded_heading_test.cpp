@@ -12,6 +12,7 @@
 
 #include "dataset/dataset.hpp"
 #include "support/data.hpp"
+#include "support/paths.hpp"
 #include "support/process.hpp"
 #include "support/sanitized.hpp"
 
@@ -29,7 +30,7 @@ struct Vehicle {
 };
 
 std::string config_of(const Vehicle& vehicle) {
-  return std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/" + vehicle.name + ".json";
+  return source_dir() + "/deploy/config/solve/" + vehicle.name + ".json";
 }
 
 // A car's heading is that of its wheels, which go where they point. An aircraft crabs in the wind: its course
@@ -53,8 +54,8 @@ void expect_honest(const nlohmann::json& metrics, int straight, double aligned_w
 class RecordedHeading : public ::testing::TestWithParam<Vehicle> {
  protected:
   void SetUp() override {
-    if (!fs::exists(fs::path(FATHOM_DATASETS) / GetParam().name))
-      FATHOM_DATA_IS_MISSING("no data set " << GetParam().name << " in " << FATHOM_DATASETS);
+    if (!fs::exists(fs::path(datasets_dir()) / GetParam().name))
+      FATHOM_DATA_IS_MISSING("no data set " << GetParam().name << " in " << datasets_dir());
     std::string pattern = (fs::temp_directory_path() / "fathom-heading-XXXXXX").string();
     folder = mkdtemp(pattern.data());
   }
@@ -76,14 +77,14 @@ class RecordedHeading : public ::testing::TestWithParam<Vehicle> {
 
 TEST_P(RecordedHeading, IsFoundWithoutHelpAndNeverConfidentlyWrong) {
   const Vehicle& vehicle = GetParam();
-  expect_honest(solve(std::string(FATHOM_DATASETS) + "/" + vehicle.name), vehicle.straight, 60.0);
+  expect_honest(solve(datasets_dir() + "/" + vehicle.name), vehicle.straight, 60.0);
 }
 
 TEST_P(RecordedHeading, FromWhereverTheRecordingIsCut) {
   if (kSanitized) GTEST_SKIP() << "sanitized: the whole recording runs through the same code";
   const Vehicle& vehicle = GetParam();
   const dataset::Dataset whole =
-      dataset::read(std::string(FATHOM_DATASETS) + "/" + vehicle.name, {dataset::kDefaultEpochNs, "auv"});
+      dataset::read(datasets_dir() + "/" + vehicle.name, {dataset::kDefaultEpochNs, "auv"});
   for (const double begin_s : vehicle.begins_s) {
     dataset::Dataset cut = whole;
     const TimeNs begin_ns = dataset::kDefaultEpochNs + from_seconds(begin_s);
@@ -104,8 +105,7 @@ TEST_P(RecordedHeading, FromWhereverTheRecordingIsCut) {
 TEST_P(RecordedHeading, CostsNoPositionDuringOutages) {
   if (kSanitized) GTEST_SKIP() << "sanitized: the whole recording runs through the same code";
   const Vehicle& vehicle = GetParam();
-  const auto metrics =
-      solve(std::string(FATHOM_DATASETS) + "/" + vehicle.name, {"--gps-outage", vehicle.windows});
+  const auto metrics = solve(datasets_dir() + "/" + vehicle.name, {"--gps-outage", vehicle.windows});
   ASSERT_EQ(metrics["gps_outages"].size(), vehicle.drift_m.size());
   for (std::size_t i = 0; i < vehicle.drift_m.size(); ++i) {
     const auto& outage = metrics["gps_outages"][i];

@@ -15,6 +15,7 @@
 #include "bus/reader.hpp"
 #include "codec/registry.hpp"
 #include "samples/truth.hpp"
+#include "support/paths.hpp"
 #include "support/presence.hpp"
 #include "support/process.hpp"
 
@@ -28,7 +29,7 @@ constexpr int kDomain = 201;
 constexpr int kPortOffset = 3200;
 
 std::vector<std::string> arguments(const fs::path& links) {
-  const std::string source = FATHOM_SOURCE_DIR;
+  const std::string source = test::source_dir();
   return {"--config", source + "/deploy/config/simulator.json",
           "--set",    "scenario_dir=" + source + "/deploy/config/scenarios",
           "--set",    "bus.profiles_dir=" + source + "/deploy/dds",

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "solve_fixture.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -104,9 +105,8 @@ TEST_F(CompareTest, WithoutAReferenceTheSmootherIsTheMeasure) {
                    {"simulate", "survey", "--out", path("data"), "--duration", "120", "--seed", "4"});
   ASSERT_EQ(simulate.wait(), 0) << simulate.err();
   const auto solve_twice = [&] {
-    Process process("fathom", {"solve", path("data"), "--config",
-                               std::string(FATHOM_SOURCE_DIR) + "/deploy/config/fusion.json", "--json",
-                               "--compare", "--without", "dvl@60:100"});
+    Process process("fathom", {"solve", path("data"), "--config", source_dir() + "/deploy/config/fusion.json",
+                               "--json", "--compare", "--without", "dvl@60:100"});
     EXPECT_EQ(process.wait(), 0) << process.err();
     out = process.out();
     return answer();

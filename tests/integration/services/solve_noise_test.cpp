@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "solve_fixture.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -20,7 +21,7 @@ class WorseThanSaid : public SolveTest {
   }
   const std::string& told(const std::string& command, const std::vector<std::string>& more) {
     std::vector<std::string> arguments{command, path("data"), "--config",
-                                       std::string(FATHOM_SOURCE_DIR) + "/deploy/config/fusion.json"};
+                                       source_dir() + "/deploy/config/fusion.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(run("fathom", arguments), 0) << err;
     return out;

@@ -11,6 +11,7 @@
 
 #include "solve_fixture.hpp"
 #include "support/data.hpp"
+#include "support/paths.hpp"
 #include "unit/commission/sabotage.hpp"
 
 namespace fathom::test {
@@ -50,7 +51,7 @@ class SolveRecorded : public SolveTest {
   /// The metrics of a solution of `data` as that class.
   nlohmann::json solved(const dataset::Dataset& data, const char* of_class) {
     dataset::write(path("data"), data);
-    fs::copy_file(fs::path(FATHOM_SOURCE_DIR "/deploy/config/solve") / (std::string(of_class) + ".json"),
+    fs::copy_file(fs::path(source_dir() + "/deploy/config/solve") / (std::string(of_class) + ".json"),
                   path("class.json"), fs::copy_options::overwrite_existing);
     (void)solve({"--rate", "1", "--metrics", path("m.json")}, "class.json");
     return nlohmann::json::parse(content("m.json"));
@@ -58,7 +59,7 @@ class SolveRecorded : public SolveTest {
 };
 
 TEST_F(SolveRecorded, GrossMistakesAreNamedAndDoNotAlign) {
-  const fs::path datasets = FATHOM_DATASETS;
+  const fs::path datasets = datasets_dir();
   if (!fs::exists(datasets)) FATHOM_DATA_IS_MISSING(datasets << " is not there");
   for (const Recorded& one : recorded()) {
     const dataset::Dataset data = dataset::read(datasets / one.folder);
@@ -85,7 +86,7 @@ TEST_F(SolveRecorded, GrossMistakesAreNamedAndDoNotAlign) {
 // it. With roll and pitch in doubt by 38 degrees the attitude is found again within ten seconds or within
 // forty; a single inertial sample decides which.
 TEST_F(SolveRecorded, ATimeWithoutInertialSamplesIsLivedThrough) {
-  const fs::path datasets = FATHOM_DATASETS;
+  const fs::path datasets = datasets_dir();
   if (!fs::exists(datasets)) FATHOM_DATA_IS_MISSING(datasets << " is not there");
   const dataset::Dataset whole = dataset::read(datasets / "thor75");
   const TimeNs begin_ns = whole.of<ImuSample>().front().header.stamp_ns;

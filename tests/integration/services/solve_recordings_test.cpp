@@ -13,6 +13,7 @@
 #include "sim/random.hpp"
 #include "solve_fixture.hpp"
 #include "support/data.hpp"
+#include "support/paths.hpp"
 #include "support/sanitized.hpp"
 
 namespace fathom::test {
@@ -22,7 +23,7 @@ class SolveRecordings : public SolveTest {
  protected:
   /// The folder of a recording; under a sanitizer, which takes many times as long, of its beginning.
   [[nodiscard]] std::string recording(const std::string& name, double enough_s) const {
-    const fs::path whole = fs::path(FATHOM_DATASETS) / name;
+    const fs::path whole = fs::path(datasets_dir()) / name;
     if (!kSanitized) return whole.string();
     dataset::Dataset data = dataset::read(whole);
     const TimeNs end_ns = data.of<ImuSample>().front().header.stamp_ns + from_seconds(enough_s);
@@ -39,12 +40,12 @@ class SolveRecordings : public SolveTest {
   void expect_auv_within(const std::string& config, const std::vector<std::string>& sets, double mean_limit) {
     double sum = 0.0;
     int count = 0;
-    for (const auto& entry : fs::directory_iterator(fs::path(FATHOM_DATASETS) / "akit")) {
+    for (const auto& entry : fs::directory_iterator(fs::path(datasets_dir()) / "akit")) {
       if (!entry.is_directory()) continue;
       if (kSanitized && count > 0) break;  // slow, and the others run through the same code
       std::vector<std::string> arguments{
           "solve",    entry.path().string(),
-          "--config", std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/" + config + ".json",
+          "--config", source_dir() + "/deploy/config/solve/" + config + ".json",
           "--start",  "reference",
           "--out",    path("nav.csv"),
           "--rate",   "1",
@@ -64,15 +65,15 @@ class SolveRecordings : public SolveTest {
 };
 
 TEST_F(SolveRecordings, RealVehicleStaysWithinOnePercentOfItsReference) {
-  const fs::path akit = fs::path(FATHOM_DATASETS) / "akit";
-  if (!fs::exists(akit)) FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
+  const fs::path akit = fs::path(datasets_dir()) / "akit";
+  if (!fs::exists(akit)) FATHOM_DATA_IS_MISSING("no data sets in " << datasets_dir());
   expect_auv_within("akit", {}, kSanitized ? 0.45 : 0.25);  // of one, of them all
 }
 
 // Nothing in a class comes from a recording: only where the instruments sit is told.
 TEST_F(SolveRecordings, AClassOfVehiclesServesAVehicleThatItWasNotFittedTo) {
-  if (!fs::exists(fs::path(FATHOM_DATASETS) / "rtkx_drive"))
-    FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
+  if (!fs::exists(fs::path(datasets_dir()) / "rtkx_drive"))
+    FATHOM_DATA_IS_MISSING("no data sets in " << datasets_dir());
   if (kSanitized) GTEST_SKIP() << "many runs of whole recordings; the others run through the same code";
   struct Vehicle {
     const char* recording;
@@ -84,9 +85,8 @@ TEST_F(SolveRecordings, AClassOfVehiclesServesAVehicleThatItWasNotFittedTo) {
                                  Vehicle{"thor75", "mems_fixed_wing", "252", {8.0, 18.0, 62.0}}}) {
     Process process(
         "fathom", {"solve", recording(vehicle.recording, 0.0), "--config",
-                   std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/" + vehicle.kind + ".json", "--out",
-                   path("nav.csv"), "--rate", "1", "--gps-outage", std::string("10,20,60@") + vehicle.start_s,
-                   "--json"});
+                   source_dir() + "/deploy/config/solve/" + vehicle.kind + ".json", "--out", path("nav.csv"),
+                   "--rate", "1", "--gps-outage", std::string("10,20,60@") + vehicle.start_s, "--json"});
     ASSERT_EQ(process.wait(), 0) << process.err();
     const auto metrics = nlohmann::json::parse(process.out());
     for (std::size_t i = 0; i < 3; ++i) {
@@ -104,8 +104,8 @@ TEST_F(SolveRecordings, AClassOfVehiclesServesAVehicleThatItWasNotFittedTo) {
 // It flies to and fro sideways, which would look as exchanged axes of the gyro to who takes it for an
 // aircraft.
 TEST_F(SolveRecordings, AMulticopterByItsClassIsHonestWhereGpsIsWithheld) {
-  const fs::path flights = fs::path(FATHOM_DATASETS) / "mimu";
-  if (!fs::exists(flights)) FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
+  const fs::path flights = fs::path(datasets_dir()) / "mimu";
+  if (!fs::exists(flights)) FATHOM_DATA_IS_MISSING("no data sets in " << datasets_dir());
   double squares = 0.0;
   double covered = 0.0;
   double windows = 0.0;
@@ -113,7 +113,7 @@ TEST_F(SolveRecordings, AMulticopterByItsClassIsHonestWhereGpsIsWithheld) {
        {"horizontal_3", "horizontal_7", "horizontal_9", "horizontal_10", "vertical_1", "vertical_9"}) {
     Process process("fathom",
                     {"solve", (flights / flight).string(), "--config",
-                     std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/mems_multirotor.json", "--set",
+                     source_dir() + "/deploy/config/solve/mems_multirotor.json", "--set",
                      "engine.imu.nominal_rate_hz=120", "--set", "engine.sensors.0.lever_B_m=[0,-0.05,-0.23]",
                      "--set", "engine.output_lever_B_m=[0,-0.05,-0.23]", "--start", "reference", "--out",
                      path("nav.csv"), "--rate", "1", "--gps-outage", "10@8:12", "--json"});
@@ -137,8 +137,8 @@ TEST_F(SolveRecordings, AMulticopterByItsClassIsHonestWhereGpsIsWithheld) {
 // Its course is no heading, and nothing tells one: how its velocity changes does. The log of these flights
 // has no velocities of the receiver, so they are those of its reference with the noise of a Doppler velocity.
 TEST_F(SolveRecordings, AMulticopterWithoutACompassFindsItsHeadingInFlight) {
-  const fs::path flights = fs::path(FATHOM_DATASETS) / "mimu";
-  if (!fs::exists(flights)) FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
+  const fs::path flights = fs::path(datasets_dir()) / "mimu";
+  if (!fs::exists(flights)) FATHOM_DATA_IS_MISSING("no data sets in " << datasets_dir());
   int aligned = 0;
   for (const char* flight : {"horizontal_3", "horizontal_7", "horizontal_9", "horizontal_10"}) {
     dataset::Dataset data = dataset::read(flights / flight);
@@ -152,11 +152,11 @@ TEST_F(SolveRecordings, AMulticopterWithoutACompassFindsItsHeadingInFlight) {
       for (double& one : fix.velocity_N_m_s) one += random.normal(0.05);
     }
     dataset::write(path(flight), data);
-    Process process("fathom",
-                    {"solve", path(flight), "--config",
-                     std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/mems_multirotor.json", "--set",
-                     "engine.imu.nominal_rate_hz=120", "--set", "engine.sensors.0.lever_B_m=[0,-0.05,-0.23]",
-                     "--set", "engine.output_lever_B_m=[0,-0.05,-0.23]", "--out", path("nav.csv"), "--json"});
+    Process process(
+        "fathom",
+        {"solve", path(flight), "--config", source_dir() + "/deploy/config/solve/mems_multirotor.json",
+         "--set", "engine.imu.nominal_rate_hz=120", "--set", "engine.sensors.0.lever_B_m=[0,-0.05,-0.23]",
+         "--set", "engine.output_lever_B_m=[0,-0.05,-0.23]", "--out", path("nav.csv"), "--json"});
     ASSERT_EQ(process.wait(), 0) << process.err();
     const auto metrics = nlohmann::json::parse(process.out());
     EXPECT_EQ(metrics["refused_to_align"], nlohmann::json::array()) << flight;
@@ -173,8 +173,8 @@ TEST_F(SolveRecordings, AMulticopterWithoutACompassFindsItsHeadingInFlight) {
 // The fixes of these recordings are stamped some hundredths of a second off their instant, and the reference
 // is made of them: only withheld fixes, each at its own instant, tell which of the two is better.
 TEST_F(SolveRecordings, SmoothedRealVehiclesAreNearerToTheFixesTheyWereNotGiven) {
-  if (!fs::exists(fs::path(FATHOM_DATASETS) / "rtkx_drive"))
-    FATHOM_DATA_IS_MISSING("no data sets in " << FATHOM_DATASETS);
+  if (!fs::exists(fs::path(datasets_dir()) / "rtkx_drive"))
+    FATHOM_DATA_IS_MISSING("no data sets in " << datasets_dir());
   struct Vehicle {
     const char* name;
     const char* windows;
@@ -183,8 +183,7 @@ TEST_F(SolveRecordings, SmoothedRealVehiclesAreNearerToTheFixesTheyWereNotGiven)
   };
   for (const Vehicle& vehicle :
        {Vehicle{"rtkx_drive", "20@110.2", 0.15, 170.0}, Vehicle{"thor75", "20@252", 1.4, 310.0}}) {
-    const std::string config =
-        std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/" + vehicle.name + ".json";
+    const std::string config = source_dir() + "/deploy/config/solve/" + vehicle.name + ".json";
     Process process("fathom",
                     {"solve", recording(vehicle.name, vehicle.enough_s), "--config", config, "--out",
                      path("nav.csv"), "--rate", "1", "--smooth", "--gps-outage", vehicle.windows, "--json"});

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "solve_fixture.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -134,7 +135,7 @@ TEST_F(VehicleCommand, AllThatIsWrongIsSaidALineEach) {
 
 // From nothing to a file that services start with: instruments that speak on pseudo-terminals, UDP and TCP.
 TEST_F(VehicleCommand, InitFindsTheInstrumentsAndWritesTheVehicle) {
-  const std::string source = FATHOM_SOURCE_DIR;
+  const std::string source = source_dir();
   Process simulator(
       "fathom-simulator",
       {"--config", source + "/deploy/config/simulator.json", "--set",

@@ -16,6 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/paths.hpp"
 #include "support/sanitized.hpp"
 
 namespace fathom {
@@ -31,7 +32,7 @@ using Rows = std::map<std::string, Json>;
 Rows rows_of(const std::string& arguments, int runs = kRuns) {
   const auto file =
       std::filesystem::temp_directory_path() / ("fathom_headline_" + std::to_string(::getpid()) + ".json");
-  const std::string command = std::string(FATHOM_BINARY_DIR) + "/bin/fathom study " + arguments + " --runs " +
+  const std::string command = test::binary_dir() + "/bin/fathom study " + arguments + " --runs " +
                               std::to_string(runs) + " --seed 7 --json " + file.string() + " >/dev/null";
   const int status = std::system(command.c_str());
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << command;
@@ -83,7 +84,7 @@ std::pair<double, double> band(const std::string& limit, double runs) {
 /// Every figure that tests/RESULTS.md publishes of `study` with a limit keeps it in `rows`, where the case
 /// was run.
 void expect_limits(const Rows& rows, const std::string& study) {
-  std::ifstream text(std::string(FATHOM_SOURCE_DIR) + "/tests/measurements.json");
+  std::ifstream text(test::source_dir() + "/tests/measurements.json");
   int compared = 0;
   const Json measurements = Json::parse(text);
   for (const Json& row : measurements.at(study).at("rows")) {
@@ -190,7 +191,7 @@ TEST_F(Headline, RangesToBeacons) {
 TEST_F(Headline, ScenariosKeepTheirLimits) {
   const Rows rows = rows_of("scenarios");
   for (const char* name : {"survey", "air_drop", "flight", "rotating_arm", "dvl_loss", "beacons"}) {
-    std::ifstream file(std::string(FATHOM_SOURCE_DIR) + "/deploy/config/scenarios/" + name + ".json");
+    std::ifstream file(test::source_dir() + "/deploy/config/scenarios/" + name + ".json");
     const Json limits = Json::parse(file).at("limits");
     const std::string one = std::string(name) + " fusion ";
     EXPECT_EQ(mean(rows, one + "aligned"), 1.0) << name;

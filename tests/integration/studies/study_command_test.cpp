@@ -12,6 +12,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "support/paths.hpp"
+
 namespace fathom {
 namespace {
 
@@ -23,7 +25,7 @@ struct Answer {
 };
 
 Answer run(const std::string& arguments) {
-  const std::string command = std::string(FATHOM_BINARY_DIR) + "/bin/fathom study " + arguments + " 2>&1";
+  const std::string command = test::binary_dir() + "/bin/fathom study " + arguments + " 2>&1";
   std::FILE* pipe = ::popen(command.c_str(), "r");
   Answer answer;
   if (pipe == nullptr) return answer;
@@ -39,7 +41,7 @@ class StudyCommand : public ::testing::Test {
  protected:
   void SetUp() override {
     // The build makes it before this test: its absence is a failure, not a reason to skip.
-    ASSERT_TRUE(std::filesystem::exists(std::string(FATHOM_BINARY_DIR) + "/bin/fathom"));
+    ASSERT_TRUE(std::filesystem::exists(test::binary_dir() + "/bin/fathom"));
     file_ = std::filesystem::temp_directory_path() / ("fathom_study_" + std::to_string(::getpid()) + ".json");
   }
   void TearDown() override { std::filesystem::remove(file_); }

@@ -13,6 +13,7 @@
 #include "support/codec/other_contents.hpp"
 #include "support/codec/seed_streams.hpp"
 #include "support/data.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -141,8 +142,8 @@ std::string_view captures_of(std::string_view protocol) {
 
 TEST_P(EveryCodec, NorInRecordingsAndDamagedRecordings) {
   namespace fs = std::filesystem;
-  const fs::path own = fs::path(FATHOM_VECTORS) / captures_of(protocol());  // in git
-  const fs::path folder = fs::is_directory(own) ? own : fs::path(FATHOM_CAPTURES) / captures_of(protocol());
+  const fs::path own = fs::path(vectors_dir()) / captures_of(protocol());  // in git
+  const fs::path folder = fs::is_directory(own) ? own : fs::path(captures_dir()) / captures_of(protocol());
   if (!fs::is_directory(folder)) FATHOM_DATA_IS_MISSING("no recordings in " << folder);
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

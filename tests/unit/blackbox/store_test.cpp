@@ -13,6 +13,7 @@
 #include "record/reader.hpp"
 #include "record/recover.hpp"
 #include "support/failing_readdir.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom {
@@ -337,7 +338,7 @@ TEST(Store, RemovesTheOldestForTheQuota) {
 TEST(Store, AFolderThatTheDiskFailsInIsReadAsFarAsItGoes) {
   const test::TemporaryFolder folder;
   for (int i = 0; i < 9; ++i) std::ofstream(folder / ("fathom-" + std::to_string(i) + ".mcap")) << "1";
-  const std::string profiles = FATHOM_SOURCE_DIR "/deploy/dds";
+  const std::string profiles = test::source_dir() + "/deploy/dds";
   const std::size_t all = blackbox::qos_profiles(profiles, kBegin).size();
   constexpr int kSome = 4;  // "." and ".." may be among them
   test::entries_until_failure = kSome;

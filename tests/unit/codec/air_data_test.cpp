@@ -12,6 +12,7 @@
 
 #include "codec/air/air_report.hpp"
 #include "nmea_text.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -166,7 +167,7 @@ void expect_near_or_unknown(double is, double should, double tolerance, const st
 }
 
 TEST(AirDataVectors, EveryStreamGivesItsSamplesAndItsRefusals) {
-  const std::string folder = std::string(FATHOM_VECTORS) + "/air_data/";
+  const std::string folder = test::vectors_dir() + "/air_data/";
   const auto expected = nlohmann::json::parse(std::ifstream(folder + "expected.json"));
   ASSERT_EQ(expected.at("streams").size(), 4U);
   for (const auto& stream : expected.at("streams")) {

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "support/paths.hpp"
+
 namespace fathom::codec::capture {
 namespace {
 
@@ -90,7 +92,7 @@ class Writer {
 }  // namespace
 
 std::filesystem::path root() {
-  return FATHOM_CAPTURES;
+  return test::captures_dir();
 }
 
 ByteVector load(const std::filesystem::path& file) {

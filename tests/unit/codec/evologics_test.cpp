@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "support/codec/decode_run.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -168,7 +169,7 @@ TEST(Evologics, WhatCannotBeIsRefused) {
 }
 
 TEST(Evologics, ARecordedExchangeGivesItsFixes) {
-  std::ifstream in(FATHOM_VECTORS "/evologics/notifications.txt", std::ios::binary);
+  std::ifstream in(test::vectors_dir() + "/evologics/notifications.txt", std::ios::binary);
   const DecodeRun run = heard({std::istreambuf_iterator<char>(in), {}});
   EXPECT_TRUE(run.rejected.empty());
   EXPECT_EQ(run.totals.skipped_bytes, 0U);

@@ -9,6 +9,7 @@
 
 #include "base/units.hpp"
 #include "support/codec/decode_run.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -29,7 +30,7 @@ constexpr const char* kGood =
 
 // Forty seconds of a receiver that speaks NMEA 0183, as gpsd 3.22 told them.
 TEST(Gpsd, AStreamOfARealOneIsReadWhole) {
-  std::ifstream in(std::string(FATHOM_VECTORS) + "/gpsd/simulated.gpsd");
+  std::ifstream in(vectors_dir() + "/gpsd/simulated.gpsd");
   const DecodeRun run = run_of({std::istreambuf_iterator<char>(in), {}});
   EXPECT_TRUE(run.rejected.empty());
   ASSERT_EQ(run.samples.size(), 40U) << "one of each second, however often it is repeated";

@@ -12,6 +12,7 @@
 #include "mavlink/frame.hpp"
 #include "mavlink/messages.hpp"
 #include "support/codec/decode_run.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 constexpr double kG = 9.80665;
 
 ByteVector recorded() {
-  std::ifstream in(std::string(FATHOM_VECTORS) + "/mavlink/telemetry.bin", std::ios::binary);
+  std::ifstream in(vectors_dir() + "/mavlink/telemetry.bin", std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "nmea_text.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -98,7 +99,7 @@ TEST(Micromodem, WhatNoModemMeansIsRefused) {
 }
 
 TEST(Micromodem, ALogOfItsLineGivesItsRanges) {
-  std::ifstream in(FATHOM_VECTORS "/micromodem/pings.txt", std::ios::binary);
+  std::ifstream in(test::vectors_dir() + "/micromodem/pings.txt", std::ios::binary);
   const DecodeRun log = pinged({std::istreambuf_iterator<char>(in), {}});
   std::vector<std::pair<std::string, double>> found;
   for (const RangeSample& one : log.all<RangeSample>())

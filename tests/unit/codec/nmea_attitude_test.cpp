@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "nmea_text.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::codec {
 namespace {
@@ -226,7 +227,7 @@ TEST(NmeaAttitude, ASentenceIsWorthItsChecksum) {
 }
 
 TEST(NmeaAttitude, EachSentenceThatManualsAndRecordingsShowIsRead) {
-  std::ifstream in(FATHOM_VECTORS "/nmea_attitude/published.nmea", std::ios::binary);
+  std::ifstream in(test::vectors_dir() + "/nmea_attitude/published.nmea", std::ios::binary);
   int headings = 0;
   int unknown = 0;
   for (std::string line; std::getline(in, line);)

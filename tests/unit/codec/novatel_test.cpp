@@ -12,6 +12,7 @@
 #include "base/units.hpp"
 #include "capture.hpp"
 #include "fault.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::codec::novatel_test {
 namespace {
@@ -154,7 +155,7 @@ bool moves(const std::pair<Decoded, GpsSample>& fix) {
 /// From the maker's manual (section 32-bit CRC), the tests of a decoder of a compatible receiver's logs,
 /// those of a vehicle's driver, and twice the tests of the maker's own decoder.
 ByteVector published() {
-  return capture::load(std::string(FATHOM_VECTORS) + "/novatel/published.bin");
+  return capture::load(test::vectors_dir() + "/novatel/published.bin");
 }
 
 TEST(Novatel, PublishedFramesAreReadAsOthersReadThem) {

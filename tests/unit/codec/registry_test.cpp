@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/paths.hpp"
+
 namespace fathom::codec {
 namespace {
 
@@ -40,7 +42,7 @@ TEST(Registry, CaseAndDashesDoNotMatter) {
 
 TEST(Registry, EveryProtocolHasAFuzzTarget) {
   // tests/fuzz/CMakeLists.txt writes the names that it finds in registry.cpp.
-  std::ifstream in(FATHOM_BINARY_DIR "/tests/fuzz/protocols");
+  std::ifstream in(test::binary_dir() + "/tests/fuzz/protocols");
   std::vector<std::string> found;
   for (std::string name; std::getline(in, name);) found.push_back(name);
   std::vector<std::string> expected;

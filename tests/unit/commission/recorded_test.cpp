@@ -5,13 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "support/data.hpp"
+#include "support/paths.hpp"
 #include "unit/commission/sabotage.hpp"
 #include "unit/commission/vehicle.hpp"
 
 namespace fathom::test {
 namespace {
 
-const std::filesystem::path kDatasets = FATHOM_DATASETS;
+const std::filesystem::path kDatasets = datasets_dir();
 
 struct Recorded {
   const char* folder;

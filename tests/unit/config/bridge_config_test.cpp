@@ -7,11 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "config/service_config.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
 
-const std::string kShipped = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/";
+const std::string kShipped = test::source_dir() + "/deploy/config/";
 
 template <class Config>
 Config shipped(const std::string& name, std::vector<std::string> sets = {}) {

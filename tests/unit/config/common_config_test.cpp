@@ -7,6 +7,7 @@
 
 #include "config/discovery_config.hpp"
 #include "config/service_config.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
@@ -15,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const std::string kFile = FATHOM_SOURCE_DIR "/deploy/config/discovery.json";
+const std::string kFile = test::source_dir() + "/deploy/config/discovery.json";
 
 CommonConfig with(const std::vector<std::string>& sets) {
   return load_service_config<DiscoveryConfig>({kFile, sets}).value.common;

@@ -13,6 +13,7 @@
 #include "base/units.hpp"
 #include "config/registry.hpp"
 #include "samples/kinds.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
@@ -225,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return info.param.name; });
 
 TEST(FusionConfig, EveryShippedFileLoads) {
-  const std::filesystem::path folder = std::filesystem::path(FATHOM_SOURCE_DIR) / "deploy/config";
+  const std::filesystem::path folder = std::filesystem::path(test::source_dir()) / "deploy/config";
   EXPECT_NO_THROW(
       static_cast<void>(load_service_config<FusionConfig>({(folder / "fusion.json").string(), {}})));
   int count = 0;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "study/hydro/vehicles.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using estimation::hydro::coefficient_table;
 using estimation::hydro::HydroCoefficients;
 
-const std::string kHydro = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/hydro/";
+const std::string kHydro = test::source_dir() + "/deploy/config/hydro/";
 
 std::string error_of_coefficients(const std::string& coefficients) {
   const auto path =

@@ -11,6 +11,7 @@
 #include "config/json/error.hpp"
 #include "config/service_config.hpp"
 #include "config/vehicle/vehicle_config.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
@@ -22,7 +23,7 @@ using ::testing::Not;
 class MistakesOfAVehicle : public ::testing::Test {
  protected:
   void SetUp() override {
-    setenv("FATHOM_CATALOGUE_DIR", FATHOM_SOURCE_DIR "/deploy/config/catalogue", 1);
+    setenv("FATHOM_CATALOGUE_DIR", (test::source_dir() + "/deploy/config/catalogue").c_str(), 1);
     file = ::testing::TempDir() + "mistakes_" +
            ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".json";
   }

@@ -9,6 +9,7 @@
 
 #include "base/is_name.hpp"
 #include "config/registry.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
@@ -21,7 +22,7 @@ std::string refusal(const std::string& kind, const std::string& set) {
   for (const ConfigKind& each : config_kinds()) {
     if (each.name != kind) continue;
     try {
-      each.check({FATHOM_SOURCE_DIR "/deploy/config/" + kind + ".json", {set}});
+      each.check({test::source_dir() + "/deploy/config/" + kind + ".json", {set}});
       return "accepted";
     } catch (const ConfigError& error) {
       return error.what();

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/service_config.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
@@ -20,7 +21,7 @@ using ::testing::HasSubstr;
 /// What is said of the shipped file, changed; empty where it can be used.
 template <class Change>
 std::string complaint(Change change) {
-  std::ifstream in(FATHOM_SOURCE_DIR "/deploy/config/ros2_gateway.json");
+  std::ifstream in(test::source_dir() + "/deploy/config/ros2_gateway.json");
   json file = json::parse(in);
   change(file);
   const std::string path =

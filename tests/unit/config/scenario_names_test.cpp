@@ -12,11 +12,12 @@
 #include "config/scenario/scenario_config.hpp"
 #include "config/scenario/scenario_wiring.hpp"
 #include "config/service_config.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
 
-const std::string kConfig = FATHOM_SOURCE_DIR "/deploy/config/";
+const std::string kConfig = test::source_dir() + "/deploy/config/";
 
 using Overrides = std::map<std::string, std::vector<std::string>>;
 

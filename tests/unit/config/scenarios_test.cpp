@@ -11,11 +11,12 @@
 #include "config/scenario/simulator_config.hpp"
 #include "sim/device_encoder.hpp"
 #include "sim/simulation.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
 
-const std::string kFolder = FATHOM_SOURCE_DIR "/deploy/config/scenarios";
+const std::string kFolder = test::source_dir() + "/deploy/config/scenarios";
 
 sim::Scenario shipped(const std::string& name, const std::vector<std::string>& sets = {}) {
   return load_scenario({scenario_file(name, kFolder), sets});
@@ -181,7 +182,7 @@ TEST(Scenarios, WhatAFrameSaysOfItsAgeIsNoLatencyOfItsBridge) {
 }
 
 TEST(Scenarios, TheSimulatorsFileLoadsItsScenarioToo) {
-  const std::string file = FATHOM_SOURCE_DIR "/deploy/config/simulator.json";
+  const std::string file = test::source_dir() + "/deploy/config/simulator.json";
   const auto loaded = load_service_config<SimulatorConfig>({file, {"scenario_dir=" + kFolder}});
   EXPECT_EQ(loaded.value.loaded.name, "survey");
   EXPECT_THROW(

@@ -8,11 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "config/registry.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
 
-const std::filesystem::path kConfig = std::filesystem::path(FATHOM_SOURCE_DIR) / "deploy/config";
+const std::filesystem::path kConfig = std::filesystem::path(test::source_dir()) / "deploy/config";
 
 const ConfigKind* kind_named(std::string_view name) {
   for (const auto& kind : config_kinds()) {

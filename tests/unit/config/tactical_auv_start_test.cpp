@@ -14,6 +14,7 @@
 #include "estimation/engine/fusion_engine.hpp"
 #include "sim/random.hpp"
 #include "sim/simulation.hpp"
+#include "support/paths.hpp"
 #include "support/vehicles/simulated_drive.hpp"
 
 namespace fathom::config {
@@ -83,7 +84,7 @@ Found run(const estimation::EngineConfig& config, std::uint64_t seed) {
 }
 
 TEST(TacticalAuv, AlignsUnderWayWithoutACompassAndIsHonestAboutItsHeading) {
-  const std::string file = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/solve/tactical_auv.json";
+  const std::string file = test::source_dir() + "/deploy/config/solve/tactical_auv.json";
   const estimation::EngineConfig config = engine_config(load_service_config<FusionConfig>({file, {}}).value);
   double first = 0.0;
   double last = 0.0;

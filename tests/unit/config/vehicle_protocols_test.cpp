@@ -11,6 +11,7 @@
 #include "config/fusion/fusion_config.hpp"
 #include "config/service_config.hpp"
 #include "config/vehicle/vehicle_config.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
@@ -19,7 +20,9 @@ using nlohmann::json;
 
 class ProtocolOfAVehicle : public ::testing::Test {
  protected:
-  void SetUp() override { setenv("FATHOM_CATALOGUE_DIR", FATHOM_SOURCE_DIR "/deploy/config/catalogue", 1); }
+  void SetUp() override {
+    setenv("FATHOM_CATALOGUE_DIR", (test::source_dir() + "/deploy/config/catalogue").c_str(), 1);
+  }
   void TearDown() override { std::filesystem::remove(path_); }
 
   /// The one inertial unit of a vehicle, as its bridge has it.
@@ -104,7 +107,7 @@ TEST_F(ProtocolOfAVehicle, AxesThatItsCodecTurnsAreNotTurnedAgain) {
 class ModelOfAVehicle : public ::testing::Test {
  protected:
   void SetUp() override {
-    setenv("FATHOM_CATALOGUE_DIR", FATHOM_SOURCE_DIR "/deploy/config/catalogue", 1);
+    setenv("FATHOM_CATALOGUE_DIR", (test::source_dir() + "/deploy/config/catalogue").c_str(), 1);
     std::filesystem::create_directories(folder_ / "catalogue");
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }

@@ -17,6 +17,7 @@
 #include "config/vehicle/folder.hpp"
 #include "config/vehicle/provenance.hpp"
 #include "config/vehicle/vehicle_config.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::config {
 namespace {
@@ -24,12 +25,12 @@ namespace {
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-const char* const kFile = FATHOM_SOURCE_DIR "/deploy/config/vehicle.json";
+const std::string kFile = test::source_dir() + "/deploy/config/vehicle.json";
 
 class Vehicle : public ::testing::Test {
  protected:
   void SetUp() override {
-    setenv("FATHOM_CATALOGUE_DIR", FATHOM_SOURCE_DIR "/deploy/config/catalogue", 1);
+    setenv("FATHOM_CATALOGUE_DIR", (test::source_dir() + "/deploy/config/catalogue").c_str(), 1);
     std::ifstream in(kFile);
     file = json::parse(in);
     folder = std::filesystem::path(::testing::TempDir()) /
@@ -255,13 +256,14 @@ TEST_F(Vehicle, AFolderHoldsTheVehicleTheServicesOrBoth) {
     return load_service_config<GpsBridgeConfig>(from_folder({}, at, "gps_bridge")).value.sensors[0];
   };
   // As a vehicle was configured before there was a vehicle.json.
-  std::filesystem::copy_file(FATHOM_SOURCE_DIR "/deploy/config/gps_bridge.json", folder / "gps_bridge.json");
+  std::filesystem::copy_file(test::source_dir() + "/deploy/config/gps_bridge.json",
+                             folder / "gps_bridge.json");
   EXPECT_DOUBLE_EQ(speed().sensor.time.latency_s, 0.1);
   const LoadRequest before = from_folder({}, at, "gps_bridge");
   EXPECT_EQ(before.base, nullptr);
   EXPECT_EQ(
       load_service_config<GpsBridgeConfig>(before).hash,
-      load_service_config<GpsBridgeConfig>({FATHOM_SOURCE_DIR "/deploy/config/gps_bridge.json", {}}).hash);
+      load_service_config<GpsBridgeConfig>({test::source_dir() + "/deploy/config/gps_bridge.json", {}}).hash);
   (void)vehicle();
   EXPECT_DOUBLE_EQ(speed().sensor.time.latency_s, 0.1) << "the service's own file goes before";
   EXPECT_THAT(files_of(from_folder({}, at, "gps_bridge")), HasSubstr("vehicle.json, over it "));

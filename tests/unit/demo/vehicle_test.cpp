@@ -13,13 +13,14 @@
 #include "config/scenario/scenario_config.hpp"
 #include "config/scenario/scenario_wiring.hpp"
 #include "config/vehicle/vehicle_config.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::demo {
 namespace {
 
 using nlohmann::json;
 
-const std::string kConfig = std::string(FATHOM_SOURCE_DIR) + "/deploy/config";
+const std::string kConfig = test::source_dir() + "/deploy/config";
 
 class DemoVehicle : public ::testing::TestWithParam<const char*> {
  protected:

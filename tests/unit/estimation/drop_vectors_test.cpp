@@ -8,6 +8,7 @@
 #include "estimation/alignment/stability_gate.hpp"
 #include "estimation/alignment/tilt_filter.hpp"
 #include "sim/triad_error.hpp"
+#include "support/paths.hpp"
 #include "support/vectors.hpp"
 
 namespace fathom::estimation {
@@ -23,8 +24,8 @@ constexpr double kExact = 1e-10;
 class DropVectors : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::ifstream in(std::string(FATHOM_VECTORS) + "/alignment_and_hydro.json");
-    ASSERT_TRUE(in) << "no numerical vectors in " << FATHOM_VECTORS;
+    std::ifstream in(test::vectors_dir() + "/alignment_and_hydro.json");
+    ASSERT_TRUE(in) << "no numerical vectors in " << test::vectors_dir();
     all_ = json::parse(in);
   }
   json all_;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/paths.hpp"
 #include "support/vehicles/drop_run.hpp"
 #include "support/vehicles/engine_states.hpp"
 
@@ -64,7 +65,7 @@ TEST(SavedStates, OfASurveyWithEveryInstrumentAreTakenUp) {
 
 /// An engine that goes on from a state which the first version of the archive wrote; no orders.
 NavState gone_on_from(const std::string& file, const test::EngineState& state) {
-  std::ifstream bytes(std::string(FATHOM_VECTORS "/archive/") + file, std::ios::binary);
+  std::ifstream bytes(test::vectors_dir() + "/archive/" + file, std::ios::binary);
   const std::string image((std::istreambuf_iterator<char>(bytes)), {});
   EXPECT_FALSE(image.empty()) << file;
   FusionEngine engine(state.config);

@@ -11,11 +11,12 @@
 #include "config/scenario/scenario_wiring.hpp"
 #include "health/vehicle_health.hpp"
 #include "samples/status/intake.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::test {
 namespace {
 
-const std::string kConfig = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/";
+const std::string kConfig = source_dir() + "/deploy/config/";
 
 template <class Config>
 Config load(const sim::Scenario& scenario, const std::string& service) {

@@ -13,6 +13,7 @@
 #include "explain/sentence.hpp"
 #include "geo/wgs84.hpp"
 #include "sim/random.hpp"
+#include "support/paths.hpp"
 #include "support/sanitized.hpp"
 #include "support/temporary_folder.hpp"
 #include "unit/explain/stage.hpp"
@@ -25,8 +26,7 @@ using explain::Findings;
 using explain::Kind;
 
 sim::Scenario scenario(const std::string& name) {
-  return config::load_scenario(
-      {std::string(FATHOM_SOURCE_DIR) + "/deploy/config/scenarios/" + name + ".json", {}});
+  return config::load_scenario({source_dir() + "/deploy/config/scenarios/" + name + ".json", {}});
 }
 
 /// Nothing wrong with any instrument.

@@ -10,6 +10,7 @@
 #include "dataset/dataset.hpp"
 #include "health/vehicle_health.hpp"
 #include "support/data.hpp"
+#include "support/paths.hpp"
 
 namespace fathom::health {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 class RealFixes : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(RealFixes, RaiseNoAlarmOfASourceThatLies) {
-  const std::filesystem::path file = std::filesystem::path(FATHOM_DATASETS) / GetParam() / "gps.csv.gz";
+  const std::filesystem::path file = std::filesystem::path(test::datasets_dir()) / GetParam() / "gps.csv.gz";
   if (!std::filesystem::exists(file)) FATHOM_DATA_IS_MISSING(file << " is not here");
   // The fixes alone: the inertial samples would take seconds to read and say nothing here.
   std::string pattern = (std::filesystem::temp_directory_path() / "fathom-fixes-XXXXXX").string();

@@ -13,6 +13,7 @@
 #include "config/json/error.hpp"
 #include "record/file.hpp"
 #include "record/writer.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom::cli {
@@ -50,7 +51,7 @@ std::string complaint(const std::string& configuration, const std::vector<std::s
 }
 
 TEST(RecordedConfiguration, AMistakeIsNamedWhereItStands) {
-  std::ifstream in(FATHOM_SOURCE_DIR "/deploy/config/fusion.json");
+  std::ifstream in(test::source_dir() + "/deploy/config/fusion.json");
   std::ostringstream good;
   good << in.rdbuf();
   EXPECT_EQ(complaint(good.str(), {}), "");

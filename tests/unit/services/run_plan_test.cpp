@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/run/plan.hpp"
 #include "config/registry.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom::cli {
@@ -19,7 +20,7 @@ namespace {
 using nlohmann::json;
 using Words = std::vector<std::string>;
 
-const std::string kShipped = std::string(FATHOM_SOURCE_DIR) + "/deploy/config/";
+const std::string kShipped = test::source_dir() + "/deploy/config/";
 
 class RunOfVehicle : public ::testing::Test {
  protected:

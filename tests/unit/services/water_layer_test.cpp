@@ -19,6 +19,7 @@
 #include "geo/wgs84.hpp"
 #include "samples/nav_detail.hpp"
 #include "sim/simulation.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace fathom::test {
@@ -31,7 +32,7 @@ constexpr double kLost_s = 500.0;
 constexpr double kFound_s = 800.0;
 constexpr double kCurrentN_m_s = 0.32;
 constexpr double kCurrentE_m_s = -0.24;
-const std::string kConfig = FATHOM_SOURCE_DIR "/deploy/config";
+const std::string kConfig = source_dir() + "/deploy/config";
 
 sim::Scenario scenario_with(bool water_layer) {
   json scenario = json::parse(std::ifstream(kConfig + "/scenarios/survey.json"));

@@ -6,6 +6,7 @@
 #include "estimation/hydro/runge_kutta.hpp"
 #include "study/baselines/embedded_dynamics.hpp"
 #include "study/baselines/ukf.hpp"
+#include "support/paths.hpp"
 #include "support/vectors.hpp"
 #include "support/vehicles/hydro_vehicle.hpp"
 
@@ -30,8 +31,8 @@ Eigen::VectorXd vector(const json& j) {
 class HydroVectors : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::ifstream in(std::string(FATHOM_VECTORS) + "/alignment_and_hydro.json");
-    ASSERT_TRUE(in) << "no numerical vectors in " << FATHOM_VECTORS;
+    std::ifstream in(test::vectors_dir() + "/alignment_and_hydro.json");
+    ASSERT_TRUE(in) << "no numerical vectors in " << test::vectors_dir();
     vectors_ = json::parse(in);
   }
   /// The vehicle of the vectors, from their own parameters.

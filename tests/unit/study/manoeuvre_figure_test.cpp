@@ -10,12 +10,13 @@
 
 #include <gtest/gtest.h>
 
+#include "support/paths.hpp"
 #include "unit/study/remus_motion.hpp"
 
 namespace fathom::study {
 namespace {
 
-constexpr const char* kFigure = FATHOM_SOURCE_DIR "/common/estimation/hydro/manoeuvres.svg";
+const std::string kFigure = test::source_dir() + "/common/estimation/hydro/manoeuvres.svg";
 
 using Pixel = std::array<double, 2>;
 
