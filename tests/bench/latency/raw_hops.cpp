@@ -39,7 +39,7 @@ namespace {
 namespace dds = bus::detail::dds;
 namespace rtps = bus::detail::rtps;
 
-constexpr std::uint32_t kDomain = 97;
+constexpr std::uint32_t kDomainOfHops = 97;
 
 using Bytes = std::vector<unsigned char>;
 
@@ -80,7 +80,7 @@ class Presence {
     rtps::Locator_t peer;
     rtps::IPLocator::createLocator(LOCATOR_KIND_UDPv4, "127.0.0.1", 0, peer);
     qos.wire_protocol().builtin.initialPeersList.push_back(peer);
-    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(kDomain, qos);
+    participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(kDomainOfHops, qos);
     if (participant_ == nullptr) throw std::runtime_error("no participant");
   }
 

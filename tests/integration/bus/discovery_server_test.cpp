@@ -34,10 +34,6 @@ bus::ParticipantOptions server(std::uint32_t domain, const std::string& address)
   return out;
 }
 
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
 std::uint32_t domain_variable() {
   return static_cast<std::uint32_t>(std::stoul(variable("TEST_DOMAIN")));
 }

@@ -21,12 +21,12 @@ namespace {
 using std::chrono::steady_clock;
 using testing::IsEmpty;
 
-constexpr std::uint32_t kDomain = 123;
+constexpr std::uint32_t kDomainOfPauses = 123;
 constexpr std::array<const char*, 7> kNames{"fusion", "imu", "gps", "heading", "dvl", "second", "third"};
 constexpr std::size_t kPaused = 3;  // the first of them
 constexpr milliseconds kFresh(1500);
 constexpr milliseconds kLongerThanTheLease(8000);
-constexpr milliseconds kPatience(20'000);
+constexpr milliseconds kToRecover(20'000);
 
 /// What one hears of the others.
 class Ears {
@@ -70,7 +70,7 @@ class Ears {
 /// Body of a child: says five times a second whom it misses.
 TEST(ChildProcess, DISABLED_SaysWhomItMisses) {
   const char* const name = std::getenv("TEST_NAME");
-  bus::Participant participant(options(kDomain, name));
+  bus::Participant participant(options(kDomainOfPauses, name));
   bus::Writer<ServiceStatus> writer(participant);
   const Ears ears(participant);
   ServiceStatus status;
@@ -88,7 +88,7 @@ TEST(ChildProcess, DISABLED_SaysWhomItMisses) {
 }
 
 TEST(Pauses, OfAProcessLongerThanItsLeaseLeaveNobodyDeaf) {
-  bus::Participant participant(options(kDomain, "monitor"));
+  bus::Participant participant(options(kDomainOfPauses, "monitor"));
   const Ears ears(participant);
   std::vector<std::unique_ptr<Child>> children;
   for (const std::string name : kNames) {
@@ -96,7 +96,7 @@ TEST(Pauses, OfAProcessLongerThanItsLeaseLeaveNobodyDeaf) {
                                                std::vector<std::string>{"TEST_NAME=" + name}));
   }
   for (int round = 0; round < 3; ++round) {
-    ASSERT_TRUE(eventually([&] { return ears.complaints().empty(); }, kPatience));
+    ASSERT_TRUE(eventually([&] { return ears.complaints().empty(); }, kToRecover));
     for (std::size_t i = 0; i < kPaused; ++i) children[i]->pause();
     let_pass(kLongerThanTheLease);
     EXPECT_EQ(ears.missing("").size(), kPaused);
@@ -105,7 +105,7 @@ TEST(Pauses, OfAProcessLongerThanItsLeaseLeaveNobodyDeaf) {
       let_pass(milliseconds(300));  // not all of them at once, as if for one cause
     }
     let_pass(kFresh);
-    (void)eventually([&] { return ears.complaints().empty(); }, kPatience);
+    (void)eventually([&] { return ears.complaints().empty(); }, kToRecover);
     ASSERT_THAT(ears.complaints(), IsEmpty()) << "round " << round;
   }
 }

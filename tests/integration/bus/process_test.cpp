@@ -13,11 +13,6 @@ namespace {
 using bus::BusEventKind;
 using std::chrono::steady_clock;
 
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
-
 /// Body of a child: writes NavState at 100 Hz until stopped. The latitude is its ownership strength.
 TEST(ChildProcess, DISABLED_WritesNavState) {
   bus::Participant participant(

@@ -156,14 +156,9 @@ class Source {
 constexpr std::uint64_t kImuEach = 4000;  // 10 s, at 400 a second
 constexpr milliseconds kLongest(300'000);
 
-std::string ledger_path() {
-  const char* path = std::getenv("TEST_LEDGER");
-  return path == nullptr ? "" : path;
-}
-
 /// Body of the first machine: it writes from when it is told to.
 TEST(ChildProcess, DISABLED_WritesOnTheFirstMachine) {
-  const SharedLedger shared(ledger_path());
+  const SharedLedger shared(variable("TEST_LEDGER"));
   Ledger* const ledger = shared.get();
   ASSERT_NE(ledger, nullptr);
   bus::Participant participant(at(1, "imu_bridge"));
@@ -188,7 +183,7 @@ TEST(ChildProcess, DISABLED_WritesOnTheFirstMachine) {
 
 /// Body of the second machine: it listens.
 TEST(ChildProcess, DISABLED_ReadsOnTheSecondMachine) {
-  const SharedLedger shared(ledger_path());
+  const SharedLedger shared(variable("TEST_LEDGER"));
   Ledger* const ledger = shared.get();
   ASSERT_NE(ledger, nullptr);
   bus::Participant participant(at(2, "fusion"));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -88,6 +89,12 @@ class Events {
   mutable std::mutex mutex_;
   std::vector<bus::BusEvent> events_;
 };
+
+/// Of the environment; empty: it is not set.
+inline std::string variable(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe)
+  return value == nullptr ? "" : value;
+}
 
 /// Another process: this executable, running one disabled test as its body.
 class Child {

@@ -16,16 +16,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "integration/host/patience.hpp"
 #include "support/paths.hpp"
 #include "support/process.hpp"
 
 namespace fathom::test {
 namespace {
 
-constexpr int kDomain = 65;
-constexpr double kPatience_s = 60.0;
+constexpr int kDomainOfTheDeaf = 65;
 /// Of the first participant of a domain: discovery and samples (RTPS 9.6.2.3).
-constexpr std::array<std::uint16_t, 2> kPorts{7400 + 250 * kDomain + 10, 7400 + 250 * kDomain + 11};
+constexpr std::array<std::uint16_t, 2> kPorts{7400 + 250 * kDomainOfTheDeaf + 10,
+                                              7400 + 250 * kDomainOfTheDeaf + 11};
 
 /// Holds all threads of a process but the main one and its log's, and says which; none where that is not
 /// permitted.
@@ -60,10 +61,10 @@ void send_to_ports() {
 }
 
 TEST(Deaf, AServiceThatHearsNothingEnds) {
-  Process service(
-      "fathom-guidance-example",
-      {"--config", source_dir() + "/deploy/config/guidance_example.json", "--set",
-       "bus.domain=" + std::to_string(kDomain), "--set", "bus.profiles_dir=" + source_dir() + "/deploy/dds"});
+  Process service("fathom-guidance-example",
+                  {"--config", source_dir() + "/deploy/config/guidance_example.json", "--set",
+                   "bus.domain=" + std::to_string(kDomainOfTheDeaf), "--set",
+                   "bus.profiles_dir=" + source_dir() + "/deploy/dds"});
   ASSERT_TRUE(
       wait_until([&] { return service.err().find("started, version") != std::string::npos; }, kPatience_s))
       << service.err();

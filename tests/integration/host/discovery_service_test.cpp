@@ -11,6 +11,7 @@
 
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
+#include "integration/host/patience.hpp"
 #include "samples/status/health.hpp"
 #include "support/paths.hpp"
 #include "support/presence.hpp"
@@ -19,7 +20,6 @@
 namespace fathom::test {
 namespace {
 
-constexpr double kPatience_s = 60.0;
 constexpr std::uint32_t kDomain = 64;
 const std::string kServer = "127.0.0.1:21812";
 

@@ -10,6 +10,7 @@
 
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
+#include "integration/host/patience.hpp"
 #include "samples/status/health.hpp"
 #include "support/paths.hpp"
 #include "support/presence.hpp"
@@ -19,8 +20,7 @@
 namespace fathom::test {
 namespace {
 
-constexpr int kDomain = 66;
-constexpr double kPatience_s = 60.0;
+constexpr int kDomainOfThePipe = 66;
 
 /// For a shell: a service whose standard error is a pipe that is full and stays so.
 std::vector<std::string> in_front_of_a_full_pipe(const std::string& pipe,
@@ -34,14 +34,14 @@ std::vector<std::string> in_front_of_a_full_pipe(const std::string& pipe,
 
 TEST(FullPipe, HoldsNoServiceUp) {
   const TemporaryFolder folder;
-  bus::Participant participant(presence(kDomain, "ear"));
+  bus::Participant participant(presence(kDomainOfThePipe, "ear"));
   std::atomic<int> signs = 0;
   const bus::Reader<ServiceStatus> reader(participant,
                                           [&](const ServiceStatus&, const bus::SampleInfo&) { ++signs; });
   Process service("/bin/bash",
                   in_front_of_a_full_pipe(folder / "pipe",
                                           {"--config", source_dir() + "/deploy/config/guidance_example.json",
-                                           "--set", "bus.domain=" + std::to_string(kDomain), "--set",
+                                           "--set", "bus.domain=" + std::to_string(kDomainOfThePipe), "--set",
                                            "bus.profiles_dir=" + source_dir() + "/deploy/dds"}));
   EXPECT_TRUE(wait_until([&] { return signs >= 2; }, kPatience_s));
   service.kill(SIGTERM);

@@ -18,6 +18,7 @@
 
 #include "bus/participant.hpp"
 #include "bus/reader.hpp"
+#include "integration/host/patience.hpp"
 #include "samples/status/health.hpp"
 #include "support/paths.hpp"
 #include "support/presence.hpp"
@@ -28,7 +29,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr double kPatience_s = 60.0;
 constexpr int kPriority = 11;
 
 /// Policies of a process's threads, counted.

@@ -14,11 +14,11 @@
 #include "bus/detail/network/transport.hpp"
 #include "bus/detail/security/datagram_check.hpp"
 #include "support/rtps_datagram.hpp"
+#include "unit/bus/bodies.hpp"
 
 namespace fathom::bus::detail {
 namespace {
 
-namespace fastdds = eprosima::fastdds::rtps;
 using test::rtps::Bytes;
 using test::rtps::datagram;
 using test::rtps::kHeartbeat;
@@ -135,14 +135,6 @@ TEST(Acknacks, ThatDoNotHoldTogetherAreNotRead) {
   EXPECT_THAT(told(datagram({endless})), ElementsAre());
   EXPECT_THAT(told({}), ElementsAre());
 }
-
-struct Dds final : fastdds::TransportReceiverInterface {
-  void OnDataReceived(const std::uint8_t* bytes, std::uint32_t count, const rtps::Locator_t&,
-                      const rtps::Locator_t&) override {
-    received.emplace_back(bytes, bytes + count);
-  }
-  std::vector<Bytes> received;
-};
 
 TEST(Acknacks, ThatGoBackAreHandedOnAsTheFirstOfAReader) {
   const auto book = std::make_shared<AcknowledgementBook>();

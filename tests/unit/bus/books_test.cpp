@@ -9,6 +9,7 @@
 #include "bus/detail/event_book.hpp"
 #include "bus/detail/key_deadlines.hpp"
 #include "bus/detail/network/peer_book.hpp"
+#include "unit/bus/bodies.hpp"
 
 namespace fathom::bus::detail {
 namespace {
@@ -116,13 +117,6 @@ TEST(EventBook, CountsEachKindByItself) {
   EXPECT_EQ(counters.stranger_refused, 8U);
   EXPECT_EQ(counters.permission_refused, 9U);
   EXPECT_EQ(counters.malformed_datagram, 10U);
-}
-
-WriterGuid guid(std::uint8_t participant, std::uint8_t entity) {
-  WriterGuid result{};
-  result[0] = participant;
-  result[15] = entity;
-  return result;
 }
 
 TEST(PeerBook, NamesTheParticipantOfAWriterAlsoAfterItLeft) {

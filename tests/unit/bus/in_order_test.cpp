@@ -7,15 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/bus/bodies.hpp"
+
 namespace fathom::bus::detail {
 namespace {
 
-WriterGuid guid(std::uint8_t participant, std::uint8_t writer) {
-  WriterGuid made{};
-  made[0] = participant;
-  made[15] = writer;
-  return made;
-}
 const WriterGuid kFirst = guid(1, 1);
 const WriterGuid kSecond = guid(1, 2);
 const WriterGuid kThird = guid(1, 3);

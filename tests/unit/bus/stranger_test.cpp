@@ -10,7 +10,7 @@
 namespace fathom::bus::detail {
 namespace {
 
-GuidPrefix prefix(std::uint8_t last) {
+GuidPrefix stranger(std::uint8_t last) {
   GuidPrefix out{};
   out[0] = 1;
   out[11] = last;
@@ -19,44 +19,44 @@ GuidPrefix prefix(std::uint8_t last) {
 
 TEST(StrangerBook, OneThatIsRefusedStaysUntilItLeaves) {
   StrangerBook book([] { return TimeNs{0}; });
-  (void)book.announced(prefix(1), {"evil", "host", 7}, "10.0.0.9", false);
+  (void)book.announced(stranger(1), {"evil", "host", 7}, "10.0.0.9", false);
   EXPECT_TRUE(book.present().empty());
-  EXPECT_EQ(to_string(book.refused(prefix(1), "failed")),
+  EXPECT_EQ(to_string(book.refused(stranger(1), "failed")),
             "'evil' (GUID 010000000000000000000001, says it is at 10.0.0.9) offers no identity");
-  (void)book.announced(prefix(1), {"other", "host", 7}, "10.0.0.9", true);
+  (void)book.announced(stranger(1), {"other", "host", 7}, "10.0.0.9", true);
   ASSERT_EQ(book.present().size(), 1U);
   EXPECT_EQ(book.present()[0].name, "evil");
-  EXPECT_TRUE(book.gone(prefix(1)));
+  EXPECT_TRUE(book.gone(stranger(1)));
   EXPECT_TRUE(book.present().empty());
 }
 
 TEST(StrangerBook, OneThatIsRefusedBeforeItAnnouncedItselfIsRememberedForAWhile) {
   TimeNs now = 0;
   StrangerBook book([&now] { return now; });
-  EXPECT_EQ(to_string(book.refused(prefix(1), "failed")),
+  EXPECT_EQ(to_string(book.refused(stranger(1), "failed")),
             "one without a name (GUID 010000000000000000000001) failed");
   ASSERT_EQ(book.present().size(), 1U);
   now = StrangerBook::kMemory;
   EXPECT_TRUE(book.overdue().empty());
   EXPECT_TRUE(book.forgotten().empty());
-  (void)book.refused(prefix(1), "failed");  // again: it is still there
+  (void)book.refused(stranger(1), "failed");  // again: it is still there
   now += StrangerBook::kMemory;
   EXPECT_TRUE(book.forgotten().empty());
   ++now;
   ASSERT_EQ(book.forgotten().size(), 1U);
   EXPECT_TRUE(book.present().empty());
   // One that announces itself after all has a name, and stays until it leaves.
-  (void)book.refused(prefix(2), "failed");
-  (void)book.announced(prefix(2), {"evil", "host", 7}, "10.0.0.9", true);
+  (void)book.refused(stranger(2), "failed");
+  (void)book.announced(stranger(2), {"evil", "host", 7}, "10.0.0.9", true);
   now += 2 * StrangerBook::kMemory;
   EXPECT_TRUE(book.forgotten().empty());
   ASSERT_EQ(book.present().size(), 1U);
   EXPECT_EQ(to_string(book.present()[0]),
             "'evil' (GUID 010000000000000000000002, says it is at 10.0.0.9) failed");
-  EXPECT_TRUE(book.gone(prefix(2)));
+  EXPECT_TRUE(book.gone(stranger(2)));
   // Invented ones do not make it grow.
   for (int i = 0; i < 1000; ++i) {
-    GuidPrefix invented = prefix(static_cast<std::uint8_t>(i));
+    GuidPrefix invented = stranger(static_cast<std::uint8_t>(i));
     invented[1] = static_cast<std::uint8_t>(i / 256 + 1);
     (void)book.refused(invented, "failed");
   }
@@ -66,33 +66,34 @@ TEST(StrangerBook, OneThatIsRefusedBeforeItAnnouncedItselfIsRememberedForAWhile)
 TEST(StrangerBook, OneThatProvesItsIdentityIsAPeer) {
   TimeNs now = 0;
   StrangerBook book([&now] { return now; });
-  (void)book.announced(prefix(1), {"fusion", "host", 7}, "10.0.0.9", true);
-  const auto peer = book.admitted(prefix(1));
+  (void)book.announced(stranger(1), {"fusion", "host", 7}, "10.0.0.9", true);
+  const auto peer = book.admitted(stranger(1));
   ASSERT_TRUE(peer);
   EXPECT_EQ(peer->name, "fusion");
-  EXPECT_FALSE(book.announced(prefix(1), {"another name", "host", 7}, "10.0.0.9", true));
-  EXPECT_THAT(book.refused(prefix(1), "failed").why, testing::HasSubstr("somebody failed to prove the same"));
+  EXPECT_FALSE(book.announced(stranger(1), {"another name", "host", 7}, "10.0.0.9", true));
+  EXPECT_THAT(book.refused(stranger(1), "failed").why,
+              testing::HasSubstr("somebody failed to prove the same"));
   now = 2 * StrangerBook::kPatience;
   EXPECT_TRUE(book.overdue().empty());
   EXPECT_TRUE(book.present().empty());
-  EXPECT_FALSE(book.gone(prefix(1)));
+  EXPECT_FALSE(book.gone(stranger(1)));
 }
 
 TEST(StrangerBook, OneThatIsAnnouncedAfterItsProofIsAPeer) {
   StrangerBook book([] { return TimeNs{0}; });
-  EXPECT_FALSE(book.admitted(prefix(1)));
-  const auto peer = book.announced(prefix(1), {"fusion", "host", 7}, "10.0.0.9", true);
+  EXPECT_FALSE(book.admitted(stranger(1)));
+  const auto peer = book.announced(stranger(1), {"fusion", "host", 7}, "10.0.0.9", true);
   ASSERT_TRUE(peer);
   EXPECT_EQ(peer->name, "fusion");
-  EXPECT_FALSE(book.announced(prefix(1), {"another name", "host", 7}, "10.0.0.9", true));
-  EXPECT_FALSE(book.admitted(prefix(1)));
-  EXPECT_FALSE(book.announced(prefix(1), {"another name", "host", 7}, "10.0.0.9", true));
+  EXPECT_FALSE(book.announced(stranger(1), {"another name", "host", 7}, "10.0.0.9", true));
+  EXPECT_FALSE(book.admitted(stranger(1)));
+  EXPECT_FALSE(book.announced(stranger(1), {"another name", "host", 7}, "10.0.0.9", true));
 }
 
 TEST(StrangerBook, OneThatNeverProvesItIsRefusedInTheEnd) {
   TimeNs now = 0;
   StrangerBook book([&now] { return now; });
-  (void)book.announced(prefix(1), {"slow", "", 0}, "", true);
+  (void)book.announced(stranger(1), {"slow", "", 0}, "", true);
   now = StrangerBook::kPatience - 1;
   EXPECT_TRUE(book.overdue().empty());
   now = StrangerBook::kPatience;
@@ -101,20 +102,20 @@ TEST(StrangerBook, OneThatNeverProvesItIsRefusedInTheEnd) {
   EXPECT_EQ(to_string(strangers[0]), "'slow' (GUID 010000000000000000000001) did not prove an identity");
   EXPECT_TRUE(book.overdue().empty());  // said once
   EXPECT_EQ(book.present().size(), 1U);
-  EXPECT_TRUE(book.admitted(prefix(1)));  // and still may, later
+  EXPECT_TRUE(book.admitted(stranger(1)));  // and still may, later
   EXPECT_TRUE(book.present().empty());
 }
 
 TEST(StrangerBook, RemembersOnlySoMany) {
   StrangerBook book([] { return TimeNs{0}; });
   for (int i = 0; i < 250; ++i) {
-    (void)book.announced(prefix(static_cast<std::uint8_t>(i)), {"evil", "", 0}, "", false);
-    (void)book.refused(prefix(static_cast<std::uint8_t>(i)), "failed");
+    (void)book.announced(stranger(static_cast<std::uint8_t>(i)), {"evil", "", 0}, "", false);
+    (void)book.refused(stranger(static_cast<std::uint8_t>(i)), "failed");
   }
   EXPECT_EQ(book.present().size(), StrangerBook::kMost);
   // Who has an identity still finds room, and its name.
-  (void)book.announced(prefix(250), {"fusion", "auv1", 7}, "", true);
-  const auto fusion = book.admitted(prefix(250));
+  (void)book.announced(stranger(250), {"fusion", "auv1", 7}, "", true);
+  const auto fusion = book.admitted(stranger(250));
   ASSERT_TRUE(fusion);
   EXPECT_EQ(fusion->name, "fusion");
 }

@@ -15,11 +15,11 @@
 #include "support/dds_socket.hpp"
 #include "support/free_port.hpp"
 #include "support/rtps_datagram.hpp"
+#include "unit/bus/bodies.hpp"
 
 namespace fathom::bus::detail {
 namespace {
 
-namespace fastdds = eprosima::fastdds::rtps;
 using test::rtps::Bytes;
 using test::rtps::data;
 using test::rtps::datagram;
@@ -39,7 +39,7 @@ rtps::Locator_t locator(std::uint32_t port, const std::string& address = "127.0.
   return out;
 }
 
-GuidPrefix prefix(std::uint8_t last) {
+GuidPrefix prefix_to(std::uint8_t last) {
   GuidPrefix out{};
   out[11] = last;
   return out;
@@ -60,8 +60,8 @@ TEST(LowPriorityPeers, ComeLastAndTheOrderStaysOtherwise) {
   LowPriorityPeers low_priority_peers;
   const Locators all{locator(1), locator(2), locator(3), locator(4), locator(5)};
   EXPECT_THAT(ordered(low_priority_peers, all), ElementsAre(1, 2, 3, 4, 5));
-  low_priority_peers.seen(prefix(1), {locator(4)});
-  low_priority_peers.seen(prefix(2), {locator(1), locator(1, "10.0.0.9")});
+  low_priority_peers.seen(prefix_to(1), {locator(4)});
+  low_priority_peers.seen(prefix_to(2), {locator(1), locator(1, "10.0.0.9")});
   EXPECT_THAT(ordered(low_priority_peers, all), ElementsAre(2, 3, 5, 1, 4));
   EXPECT_THAT(ordered(low_priority_peers, {locator(1), locator(4)}), ElementsAre(1, 4));
   EXPECT_THAT(ordered(low_priority_peers, {}), IsEmpty());
@@ -69,16 +69,16 @@ TEST(LowPriorityPeers, ComeLastAndTheOrderStaysOtherwise) {
 
 TEST(LowPriorityPeers, AnotherAddressIsAnotherReceiver) {
   LowPriorityPeers low_priority_peers;
-  low_priority_peers.seen(prefix(1), {locator(1, "10.0.0.9")});
+  low_priority_peers.seen(prefix_to(1), {locator(1, "10.0.0.9")});
   EXPECT_THAT(ordered(low_priority_peers, {locator(1), locator(2)}), ElementsAre(1, 2));
 }
 
 TEST(LowPriorityPeers, OneThatMovedOrLeftIsNotAskedForWhereItWas) {
   LowPriorityPeers low_priority_peers;
-  low_priority_peers.seen(prefix(1), {locator(1)});
-  low_priority_peers.seen(prefix(1), {locator(2)});
+  low_priority_peers.seen(prefix_to(1), {locator(1)});
+  low_priority_peers.seen(prefix_to(1), {locator(2)});
   EXPECT_THAT(ordered(low_priority_peers, {locator(1), locator(2), locator(3)}), ElementsAre(1, 3, 2));
-  low_priority_peers.gone(prefix(1));
+  low_priority_peers.gone(prefix_to(1));
   EXPECT_THAT(ordered(low_priority_peers, {locator(1), locator(2), locator(3)}), ElementsAre(1, 2, 3));
 }
 
@@ -179,14 +179,6 @@ TEST(Harmless, AnyCutOfADatagramIsJudgedWithinItsBytes) {
   }
 }
 
-struct Dds final : fastdds::TransportReceiverInterface {
-  void OnDataReceived(const std::uint8_t* bytes, std::uint32_t count, const rtps::Locator_t&,
-                      const rtps::Locator_t&) override {
-    received.emplace_back(bytes, bytes + count);
-  }
-  std::vector<Bytes> received;
-};
-
 class Transports : public testing::Test {
  protected:
   Transports()
@@ -209,7 +201,7 @@ TEST_F(Transports, CallForNoHeartbeatBesideThePeriodicOnes) {
 }
 
 TEST_F(Transports, SendToLowPriorityPeersLast) {
-  low_priority_peers->seen(prefix(1), {locator(7413)});
+  low_priority_peers->seen(prefix_to(1), {locator(7413)});
   rtps::LocatorList_t list;
   for (const std::uint32_t port : {7411, 7413, 7415}) list.push_back(locator(port));
   fastdds::Locators from(list.begin());

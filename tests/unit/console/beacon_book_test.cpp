@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "unit/console/utc.hpp"
+
 namespace fathom::console {
 namespace {
-
-constexpr TimeNs kUtc = 1'700'000'000 * kNsPerSecond;
 
 health::Instant instant(double seconds) {
   return {from_seconds(seconds), kUtc + from_seconds(seconds)};

@@ -7,11 +7,10 @@
 #include "console/http/fan_out.hpp"
 #include "console/view/vehicle_view.hpp"
 #include "console/view/vehicle_view_json.hpp"
+#include "unit/console/utc.hpp"
 
 namespace fathom::console {
 namespace {
-
-constexpr TimeNs kUtc = 1'700'000'000 * kNsPerSecond;
 
 /// A vehicle seen by a console, with its own clock.
 struct Scene {

@@ -6,14 +6,13 @@
 #include "base/units.hpp"
 #include "console/view/vehicle_view.hpp"
 #include "console/view/vehicle_view_json.hpp"
+#include "unit/console/utc.hpp"
 
 namespace fathom::console {
 namespace {
 
-constexpr TimeNs kUtc = 1'700'000'000 * kNsPerSecond;
-
 /// A vehicle with programs that guide it, seen by a console with its own clock.
-struct Scene {
+struct Voyage {
   VehicleView view{{"auv", 3, 0.7}};
   health::Instant now{kNsPerSecond, kUtc};
 
@@ -49,7 +48,7 @@ struct Scene {
 };
 
 TEST(Routes, TravelToThePageAsTheyWereSaid) {
-  Scene scene;
+  Voyage scene;
   EXPECT_TRUE(scene.routes().empty());
   Route said = scene.route();
   said.leg_start_latitude_rad = 36.3 * kRadPerDeg;
@@ -82,7 +81,7 @@ TEST(Routes, TravelToThePageAsTheyWereSaid) {
 }
 
 TEST(Routes, AreSaidWhenTheyChangeAndNowAndThen) {
-  Scene scene;
+  Voyage scene;
   (void)scene.routes();
   EXPECT_FALSE(scene.tick().contains("routes"));
   (void)scene.say(scene.route());
@@ -96,7 +95,7 @@ TEST(Routes, AreSaidWhenTheyChangeAndNowAndThen) {
 }
 
 TEST(Routes, GrowOldUnlessTheyAreRepeated) {
-  Scene scene;
+  Voyage scene;
   for (int i = 0; i < 10; ++i) {
     (void)scene.say(scene.route());
     scene.wait(1.0);
@@ -112,7 +111,7 @@ TEST(Routes, GrowOldUnlessTheyAreRepeated) {
 }
 
 TEST(Routes, WhatWaitedOnTheNetworkIsAsOldAsItsStamp) {
-  Scene scene;
+  Voyage scene;
   Route waited = scene.route();
   waited.header.stamp_ns -= from_seconds(40.0);
   (void)scene.say(waited);
@@ -129,7 +128,7 @@ TEST(Routes, WhatWaitedOnTheNetworkIsAsOldAsItsStamp) {
 }
 
 TEST(Routes, OfNothingOrOfAnotherVehicleAreNotShown) {
-  Scene scene;
+  Voyage scene;
   Route other = scene.route();
   other.header.vehicle = "other";
   EXPECT_FALSE(scene.say(other).has_value());
@@ -141,7 +140,7 @@ TEST(Routes, OfNothingOrOfAnotherVehicleAreNotShown) {
 }
 
 TEST(Routes, HostileOnesAreRefusedAndCountedByReason) {
-  Scene scene;
+  Voyage scene;
   Route bad = scene.route();
   bad.waypoints[0].latitude_rad = kUnknown;
   const auto fault = scene.say(bad);

@@ -14,7 +14,7 @@
 namespace fathom::console {
 namespace {
 
-constexpr const char* kOperator = "0123456789abcdef";
+constexpr const char* kOperatorToken = "0123456789abcdef";
 constexpr const char* kViewer = "fedcba9876543210";
 constexpr const char* kUnknown = "0000000000000000";
 
@@ -50,7 +50,7 @@ class SiteTest : public ::testing::Test {
     options.tiles_dir = tiles.string();
     options.waypoints_json = "[]";
     options.tokens = TokenBook::parse(
-        std::string(R"({"tokens": [{"name": "bridge", "role": "operator", "token": ")") + kOperator +
+        std::string(R"({"tokens": [{"name": "bridge", "role": "operator", "token": ")") + kOperatorToken +
         R"("}, {"name": "guest", "role": "viewer", "token": ")" + kViewer + R"("}]})");
     return {options,
             {[] { return std::string("{}"); },
@@ -73,7 +73,7 @@ TEST_F(SiteTest, EveryRouteObeysItsNeed) {
     const std::string method(route.method);
     const std::string path(route.example);
     const auto status = [&](const char* token) { return ask(method, path, token).status; };
-    EXPECT_EQ(status(kOperator), 200) << path;
+    EXPECT_EQ(status(kOperatorToken), 200) << path;
     view_needs_token = false;
     EXPECT_EQ(status(""), route.need == Site::Need::order ? 401 : 200) << path;
     EXPECT_EQ(status(kUnknown), route.need == Site::Need::nothing ? 200 : 401) << path;
@@ -101,7 +101,7 @@ TEST_F(SiteTest, WithoutATokenNothingIsReachedButTheFilesCompiledIn) {
   for (const char* path : {"/nothing", "/api/", "/api/order", "/tiles"})
     EXPECT_EQ(ask("GET", path).status, 404) << path;
   for (const char* path : {"/", "/api/live", "/api/session", "/tiles/12/3456/789.png"})
-    EXPECT_EQ(ask("POST", path, kOperator).status, 404) << path;
+    EXPECT_EQ(ask("POST", path, kOperatorToken).status, 404) << path;
 }
 
 TEST_F(SiteTest, ATileThatIsAPipeIsNotWaitedFor) {
@@ -153,8 +153,8 @@ TEST_F(SiteTest, StreamsAreCountedByTokenElseByAddress) {
   for (const char* peer : {"10.0.0.1", "10.0.0.2", "10.0.0.3", "10.0.0.4"})
     EXPECT_EQ(more(kViewer, peer), 200);
   EXPECT_EQ(more(kViewer, "10.0.0.5"), 429) << "the token is the same wherever it comes from";
-  EXPECT_EQ(more(kOperator, "10.0.0.1"), 200) << "another token";
-  EXPECT_EQ(more(kOperator, "10.0.0.9"), 503) << "all are taken";
+  EXPECT_EQ(more(kOperatorToken, "10.0.0.1"), 200) << "another token";
+  EXPECT_EQ(more(kOperatorToken, "10.0.0.9"), 503) << "all are taken";
   EXPECT_EQ(open.front().content(), "event: snapshot\ndata: {}\n\n");
 }
 

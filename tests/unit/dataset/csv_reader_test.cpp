@@ -17,7 +17,7 @@ namespace fathom::dataset {
 namespace {
 
 /// The numbers of a file with one field a line.
-std::vector<double> read(const std::vector<std::string>& fields) {
+std::vector<double> numbers_of(const std::vector<std::string>& fields) {
   const test::DatasetFolder folder;
   std::string text = "x\n";
   for (const std::string& field : fields) text += field + "\n";
@@ -62,7 +62,7 @@ TEST(CsvReader, NumbersAreThoseOfTheCLibraryToTheLastBit) {
     if (random() % 16 == 0) field += "e-" + digits(random, 1);
     fields.push_back(field);
   }
-  const std::vector<double> numbers = read(fields);
+  const std::vector<double> numbers = numbers_of(fields);
   ASSERT_EQ(numbers.size(), fields.size());
   for (std::size_t i = 0; i < fields.size(); ++i)
     ASSERT_EQ(std::bit_cast<std::uint64_t>(numbers[i]),
@@ -73,7 +73,7 @@ TEST(CsvReader, NumbersAreThoseOfTheCLibraryToTheLastBit) {
 TEST(CsvReader, WhatIsNoNumberIsNamed) {
   for (const char* field : {"-", ".", "-.", "1.2.3", "12a", "0x10", "1,5", "--1", "1e", "1e999", "1 2"}) {
     try {
-      (void)read({field});
+      (void)numbers_of({field});
       ADD_FAILURE() << field;
     } catch (const DatasetError& error) {
       EXPECT_NE(std::string(error.what()).find("x.csv:2"), std::string::npos) << error.what();
@@ -129,8 +129,8 @@ TEST(CsvReader, WhatIsBeforeTheEndOfCutGzipDataIsRead) {
 }
 
 TEST(CsvReader, BlanksAroundAFieldAreForgiven) {
-  EXPECT_EQ(read({" 1.5", "2.5\t", "\t-3.5 \r"}), (std::vector<double>{1.5, 2.5, -3.5}));
-  EXPECT_TRUE(std::isnan(read({"nan"}).at(0)));
+  EXPECT_EQ(numbers_of({" 1.5", "2.5\t", "\t-3.5 \r"}), (std::vector<double>{1.5, 2.5, -3.5}));
+  EXPECT_TRUE(std::isnan(numbers_of({"nan"}).at(0)));
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ constexpr WriterGuid kRogue{9};
 
 /// A vehicle that goes north at 2 m/s; every stream with the age and the noise of a real one. A fault changes
 /// what a fix says, or adds to it.
-class Vehicle {
+class FaultyVehicle {
  public:
   bool fusion_alive = true;
   bool fusion_refuses_gps = false;
@@ -37,7 +37,7 @@ class Vehicle {
   std::function<void(GpsSample&, double t)> spoil;             ///< every fix before it is published
   std::function<void(const GpsSample&, const Instant&)> also;  ///< after it was
 
-  VehicleHealth health{config(), at(0.0), [](const WriterGuid& id) {
+  VehicleHealth health{of_three_instruments(), at(0.0), [](const WriterGuid& id) {
                          return id == kRogue ? std::string("rogue (process 99 on host far)")
                                              : std::string("gps_bridge (process 10 on host near)");
                        }};
@@ -59,15 +59,6 @@ class Vehicle {
   }
 
  private:
-  static HealthConfig config() {
-    HealthConfig out;
-    out.sensors = {{"imu", SourceKind::imu, 100.0, 0.0, Severity::critical},
-                   {"gps", SourceKind::gps, 2.0, 0.0, Severity::warning},
-                   {"dvl", SourceKind::dvl, 5.0, 0.0, Severity::warning}};
-    out.services = {{"fusion", Severity::critical}, {"gps_bridge", Severity::warning}};
-    return out;
-  }
-
   /// A repeatable number in (-1, 1).
   double noise() {
     seed_ = seed_ * 6364136223846793005U + 1442695040888963407U;
@@ -150,7 +141,7 @@ class Vehicle {
 class FaultMatrix : public ::testing::Test {
  protected:
   FaultMatrix() { EXPECT_EQ(vehicle.run_for(30.0), Alarms{}); }
-  Vehicle vehicle;
+  FaultyVehicle vehicle;
 };
 
 TEST_F(FaultMatrix, CleanHour) {

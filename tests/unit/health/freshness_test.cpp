@@ -16,7 +16,7 @@ constexpr double kImuLimit_s = 2.0;   // of 100 Hz
 constexpr double kGpsLimit_s = 30.0;  // as configured
 constexpr double kServiceLimit_s = 3.0;
 
-HealthConfig config() {
+HealthConfig with_limits() {
   HealthConfig out;
   out.sensors = {{"imu", SourceKind::imu, 100.0},
                  {"gps", SourceKind::gps, 2.0, kGpsLimit_s},
@@ -27,7 +27,7 @@ HealthConfig config() {
 }
 
 TEST(Freshness, IsTheLimitBeyondWhichASensorIsMissing) {
-  const Freshness fresh(config().sensors, config().service);
+  const Freshness fresh(with_limits().sensors, with_limits().service);
   EXPECT_EQ(fresh.limit_s(SourceKind::imu, "imu"), kImuLimit_s);
   EXPECT_EQ(fresh.limit_s(SourceKind::gps, "gps"), kGpsLimit_s);
   EXPECT_EQ(fresh.limit_s(SourceKind::usbl, "usbl"), 50.0);
@@ -58,7 +58,7 @@ class ASilentSource : public ::testing::Test {
     until(kEnd_s + limit_s + 5.0);  // some alarms stay a little longer, against flicker
     EXPECT_FALSE(alarmed(health.alarms(), alarm)) << alarm.str();
   }
-  VehicleHealth health{config(), at(0.0)};
+  VehicleHealth health{with_limits(), at(0.0)};
 };
 
 TEST_F(ASilentSource, StampsNothingAheadOfTheClock) {
@@ -102,7 +102,7 @@ TEST_F(ASilentSource, SaysNothingOfInstruments) {
   for (const auto& [condition, alarm] :
        {std::pair("implausible_dvl_unit", "implausible"), std::pair("noise_of_dvl", "noisy:dvl"),
         std::pair("bias_of_gyro_x", "biased:gyro_x")}) {
-    health = VehicleHealth(config(), at(0.0));
+    health = VehicleHealth(with_limits(), at(0.0));
     expect_held_for(kServiceLimit_s, alarm, [&](double t) {
       AlignmentStatus status;
       status.header = header("fusion", t);

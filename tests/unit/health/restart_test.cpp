@@ -24,7 +24,7 @@ struct Span {
   double to_s = 0.0;
 };
 
-HealthConfig config() {
+HealthConfig with_gps_alone() {
   HealthConfig out;
   out.sensors = {{"gps", SourceKind::gps, 2.0, 0.0, Severity::warning}};
   out.gps.outage.limit_s = kLimit_s;
@@ -44,7 +44,7 @@ class World {
   template <class Watch>
   Books live(const Watch& watched) const {
     Books books{{}};
-    VehicleHealth monitor(config(), at(0.0));
+    VehicleHealth monitor(with_gps_alone(), at(0.0));
     go_on(monitor, 0.0, watched, &books);
     return books;
   }
@@ -52,7 +52,7 @@ class World {
   /// The life of one that starts at `from_s` with those books.
   template <class Watch>
   void live_on(const std::vector<GpsOutageBook>& books, double from_s, const Watch& watched) const {
-    VehicleHealth monitor(config(), at(from_s));
+    VehicleHealth monitor(with_gps_alone(), at(from_s));
     monitor.resume(books, at(from_s));
     go_on(monitor, from_s, watched, nullptr);
   }
@@ -162,7 +162,7 @@ TEST(MonitorRestart, OutagesGoOnAtFortyInstantsOfTwentySeeds) {
 }
 
 TEST(MonitorRestart, WithoutBooksFusionsWordCountsAndUntilThenNothingIsKnown) {
-  VehicleHealth monitor(config(), at(0.0));
+  VehicleHealth monitor(with_gps_alone(), at(0.0));
   monitor.evaluate(at(0.1));
   EXPECT_FALSE(monitor.status(at(0.1)).known);
   EXPECT_FALSE(monitor.status(at(0.1)).healthy);
@@ -195,7 +195,7 @@ void feed(VehicleHealth& monitor, double from_s, double to_s, const std::vector<
 }
 
 TEST(Receivers, AStrayOneDoesNotHideTheOutageOfTheVehicle) {
-  VehicleHealth monitor(config(), at(0.0));
+  VehicleHealth monitor(with_gps_alone(), at(0.0));
   feed(monitor, 0.0, 20.0, {{"gps", VerdictKind::used}});
   EXPECT_FALSE(monitor.status(at(20.0)).gps_outage_active);
   feed(monitor, 20.0, 320.0, {{"stray", std::nullopt}});
@@ -207,7 +207,7 @@ TEST(Receivers, AStrayOneDoesNotHideTheOutageOfTheVehicle) {
 
 TEST(Receivers, OneThatFusionDoesNotTakeIsNone) {
   for (const VerdictKind kind : {VerdictKind::source_disabled, VerdictKind::rejected, VerdictKind::frozen}) {
-    HealthConfig any = config();
+    HealthConfig any = with_gps_alone();
     any.sensors.clear();  // nobody said which receivers to expect
     VehicleHealth monitor(any, at(0.0));
     feed(monitor, 0.0, 20.0, {{"gps", VerdictKind::used}});

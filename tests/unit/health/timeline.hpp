@@ -6,6 +6,7 @@
 #include "base/time.hpp"
 #include "health/alarm_book.hpp"
 #include "health/instant.hpp"
+#include "health/vehicle_health.hpp"
 #include "samples/gps.hpp"
 #include "samples/nav_state.hpp"
 #include "samples/status/health.hpp"
@@ -19,6 +20,16 @@ inline constexpr TimeNs kEpoch = 1'700'000'000 * kNsPerSecond;
 /// `seconds` after the monitor's start, with UTC `utc_step_s` away from where it began.
 inline Instant at(double seconds, double utc_step_s = 0.0) {
   return {kBoot + from_seconds(seconds), kEpoch + from_seconds(seconds + utc_step_s)};
+}
+
+/// A vehicle with three instruments and two services.
+inline HealthConfig of_three_instruments() {
+  HealthConfig out;
+  out.sensors = {{"imu", SourceKind::imu, 100.0, 0.0, Severity::critical},
+                 {"gps", SourceKind::gps, 2.0, 0.0, Severity::warning},
+                 {"dvl", SourceKind::dvl, 5.0, 0.0, Severity::warning}};
+  out.services = {{"fusion", Severity::critical}, {"gps_bridge", Severity::warning}};
+  return out;
 }
 
 inline bool alarmed(const AlarmBook& book, const Name& key) {

@@ -11,15 +11,6 @@
 namespace fathom::health {
 namespace {
 
-HealthConfig config() {
-  HealthConfig out;
-  out.sensors = {{"imu", SourceKind::imu, 100.0, 0.0, Severity::critical},
-                 {"gps", SourceKind::gps, 2.0, 0.0, Severity::warning},
-                 {"dvl", SourceKind::dvl, 5.0, 0.0, Severity::warning}};
-  out.services = {{"fusion", Severity::critical}, {"gps_bridge", Severity::warning}};
-  return out;
-}
-
 /// A whole vehicle, faults as asked for, evaluated at 20 Hz.
 class Vehicle {
  public:
@@ -28,7 +19,7 @@ class Vehicle {
   bool gps_bridge_alive = true;
   double host_clock_set_s = 0.0;
   std::uint32_t fusion_pid = 100;
-  VehicleHealth health{config(), at(0.0)};
+  VehicleHealth health{of_three_instruments(), at(0.0)};
   std::multiset<std::string> raised;
 
   void until(double end_s) {
@@ -112,7 +103,7 @@ TEST(VehicleHealth, AFixThatFusionRefusesAfterAllEndsNoOutageAndWhatItSaysAgainC
     return out;
   };
   const auto outage_after = [&](bool revised) {
-    VehicleHealth health{config(), at(0.0)};
+    VehicleHealth health{of_three_instruments(), at(0.0)};
     for (double t = 0.0; t < 40.0; t += 0.1) {
       const bool fix = t < 5.0 || t > 20.0;
       const bool tenth = std::llround(10.0 * t) % 5 == 0;
@@ -136,7 +127,7 @@ TEST(VehicleHealth, AFixThatFusionRefusesAfterAllEndsNoOutageAndWhatItSaysAgainC
 
 TEST(VehicleHealth, AFinalVerdictOnTheLastRefusalIsNoSecondOne) {
   // Five refusals in a row within ten seconds are an alarm; four, each said twice, are none.
-  VehicleHealth health{config(), at(0.0)};
+  VehicleHealth health{of_three_instruments(), at(0.0)};
   for (double t = 0.0; t < 16.0; t += 4.0) {
     Verdict refused = verdict(SourceKind::dvl, VerdictKind::rejected, t, "dvl");
     refused.previous = VerdictKind::rejected;
@@ -200,7 +191,7 @@ TEST(VehicleHealth, AServiceThatStartsUnderAnotherOffsetIsNoStep) {
 }
 
 TEST(VehicleHealth, OtherVehiclesAreNotOurs) {
-  VehicleHealth health(config(), at(0.0));
+  VehicleHealth health(of_three_instruments(), at(0.0));
   GpsSample foreign = gps(1.0);
   foreign.header.vehicle = "other";
   health.add(foreign, at(1.0));
