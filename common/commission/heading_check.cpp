@@ -25,11 +25,11 @@ using Eigen::Vector3d;
 constexpr double kTurnStep_s = 2.0;  // of one comparison of turns
 constexpr double kTurnGap_s = 3.0;
 constexpr double kNoticedHeading_rad = 0.5 * kRadPerDeg;
-constexpr double kHalf_s = 5.0;  // over which accelerations even out
+constexpr double kEvened_s = 5.0;  // over which accelerations even out
 
 // Turn about the vertical by the gyro, from the start on.
 ScalarSeries turn_by_gyro(const Series& series, const ImuReading& reading) {
-  const VectorSeries down = down_of(series, reading, kHalf_s);
+  const VectorSeries down = down_of(series, reading, kEvened_s);
   ScalarSeries out;
   double sum = 0.0;
   std::size_t j = 0;

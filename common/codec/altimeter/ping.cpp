@@ -57,7 +57,7 @@ std::size_t longest(std::uint16_t identifier) {
   const Layout* layout = find_layout(identifier);
   return layout == nullptr ? kLongestOther : layout->length + layout->element * kMostElements;
 }
-constexpr std::size_t kMaxFrame =
+constexpr std::size_t kMostOfMessage =
     kHeader + kLayouts.back().length + kLayouts.back().element * kMostElements + kSum;
 
 struct Told {
@@ -68,7 +68,7 @@ struct Told {
 class Decoder final : public Framer {
  public:
   explicit Decoder(const CodecOptions& options)
-      : Framer(kMaxFrame), least_confidence_percent_(options.least_confidence_percent) {}
+      : Framer(kMostOfMessage), least_confidence_percent_(options.least_confidence_percent) {}
 
  protected:
   [[nodiscard]] Probe probe(Bytes front) const override {

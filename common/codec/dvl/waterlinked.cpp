@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "codec/framer.hpp"
+#include "codec/text/json_members.hpp"
 #include "codec/text/json_object.hpp"
 
 namespace fathom::codec {
@@ -20,19 +21,9 @@ constexpr double kBeamAngle_rad = 22.5 * std::numbers::pi / 180.0;
 constexpr double kMaxSpeed_m_s = 50.0;
 constexpr DurationNs kMaxAge_ns = 60 * kNsPerSecond;
 
-/// Thrown and caught inside this file: a member has the wrong type.
-struct WrongType {};
-
 const Json* member(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found == object.end() || found->is_null() ? nullptr : &*found;
-}
-
-double number(const Json& object, const char* key) {
-  const Json* value = member(object, key);
-  if (value == nullptr) return kUnknown;
-  if (!value->is_number()) throw WrongType{};
-  return value->get<double>();
 }
 
 bool flag(const Json& object, const char* key) {
@@ -48,7 +39,7 @@ double at_least_zero(double value) {
 double sigma(const Json& report) {
   const Json* covariance = member(report, "covariance");
   if (covariance == nullptr) {
-    const double fom = number(report, "fom");
+    const double fom = number_in(report, "fom");
     return fom > 0.0 ? fom : kUnknown;
   }
   if (!covariance->is_array() || covariance->size() != 3) throw WrongType{};
@@ -67,11 +58,11 @@ void read_beams(DvlSample& s, const Json& report, bool velocity_valid) {
   if (!transducers->is_array() || transducers->size() > 4) throw WrongType{};
   for (const Json& transducer : *transducers) {
     if (!transducer.is_object()) throw WrongType{};
-    const double id = number(transducer, "id");
+    const double id = number_in(transducer, "id");
     if (!(id == 0.0 || id == 1.0 || id == 2.0 || id == 3.0)) throw WrongType{};
     const bool valid = flag(transducer, "beam_valid");
-    const double velocity = number(transducer, "velocity");
-    const double distance = number(transducer, "distance");
+    const double velocity = number_in(transducer, "velocity");
+    const double distance = number_in(transducer, "distance");
     if (!valid || !velocity_valid) continue;
     const auto beam = static_cast<std::size_t>(id);
     s.beam_velocity_m_s[beam] = velocity;
@@ -81,7 +72,7 @@ void read_beams(DvlSample& s, const Json& report, bool velocity_valid) {
 
 /// Microseconds since the Unix epoch, sent as integer or with a fraction.
 std::optional<TimeNs> instant(const Json& report, const char* key) {
-  const double us = number(report, key);
+  const double us = number_in(report, key);
   if (!(us > 0.0) || us > 9e15) return std::nullopt;
   const Json& value = *member(report, key);
   if (value.is_number_integer()) return value.get<std::int64_t>() * 1'000;
@@ -104,8 +95,9 @@ DvlSample read_velocity(const Json& report, DvlMode mode) {
   s.recorded_frame = DvlFrame::instrument;
   s.beam_angle_rad = kBeamAngle_rad;
   const bool valid = flag(report, "velocity_valid");
-  const std::array<double, 3> velocity{number(report, "vx"), number(report, "vy"), number(report, "vz")};
-  s.altitude_m = at_least_zero(number(report, "altitude"));
+  const std::array<double, 3> velocity{number_in(report, "vx"), number_in(report, "vy"),
+                                       number_in(report, "vz")};
+  s.altitude_m = at_least_zero(number_in(report, "altitude"));
   const double figure = sigma(report);
   if (valid) {
     s.velocity_D_m_s = velocity;

@@ -10,6 +10,7 @@
 #include "base/iso8601.hpp"
 #include "base/units.hpp"
 #include "codec/framer.hpp"
+#include "codec/text/json_members.hpp"
 #include "codec/text/json_object.hpp"
 
 namespace fathom::codec {
@@ -17,21 +18,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMaxFrame = 16 * 1024;  // gpsd's own limit is 10 kB
+constexpr std::size_t kMostOfReport = 16 * 1024;  // gpsd's own limit is 10 kB
 constexpr double kMostAltitude_m = 50'000.0;
 constexpr double kMostSpeed_m_s = 600.0;
 constexpr double kMostSpeedSigma_m_s = 5.0;
 constexpr DurationNs kGstLasts_ns = kNsPerSecond;
-
-/// Thrown and caught inside this file: a member has the wrong type.
-struct WrongType {};
-
-double number(const Json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end() || found->is_null()) return kUnknown;
-  if (!found->is_number()) throw WrongType{};
-  return found->get<double>();
-}
 
 std::string text(const Json& object, const char* key) {
   const auto found = object.find(key);
@@ -64,9 +55,9 @@ GpsFix fix_of(double mode, double status) {
 }
 
 void read_velocity(const Json& report, GpsSample& out) {
-  const double course_rad = number(report, "track") * kRadPerDeg;
-  const double speed_m_s = number(report, "speed");
-  out.velocity_N_m_s = {number(report, "velN"), number(report, "velE"), -number(report, "climb")};
+  const double course_rad = number_in(report, "track") * kRadPerDeg;
+  const double speed_m_s = number_in(report, "speed");
+  out.velocity_N_m_s = {number_in(report, "velN"), number_in(report, "velE"), -number_in(report, "climb")};
   if (!known(out.velocity_N_m_s[0]) || !known(out.velocity_N_m_s[1])) {
     // A receiver that stands has no course, and needs none.
     const bool stands = speed_m_s == 0.0;
@@ -74,8 +65,8 @@ void read_velocity(const Json& report, GpsSample& out) {
     out.velocity_N_m_s[1] = stands ? 0.0 : speed_m_s * std::sin(course_rad);
   }
   out.course_rad = course_rad;
-  const double speed_sigma_m_s = of_velocity(number(report, "eps"));
-  out.velocity_sigma_N_m_s = {speed_sigma_m_s, speed_sigma_m_s, of_velocity(number(report, "epc"))};
+  const double speed_sigma_m_s = of_velocity(number_in(report, "eps"));
+  out.velocity_sigma_N_m_s = {speed_sigma_m_s, speed_sigma_m_s, of_velocity(number_in(report, "epc"))};
 }
 
 bool in_range(const GpsSample& s) {
@@ -89,7 +80,7 @@ bool in_range(const GpsSample& s) {
 
 class Gpsd final : public Framer {
  public:
-  Gpsd() : Framer(kMaxFrame, LineEnds::belong_to_frames) {}
+  Gpsd() : Framer(kMostOfReport, LineEnds::belong_to_frames) {}
 
  private:
   [[nodiscard]] Probe probe(Bytes front) const override { return probe_json_object(front); }
@@ -113,9 +104,9 @@ class Gpsd final : public Framer {
   }
 
   Outcome take_sky(const Json& report) {
-    const double used = number(report, "uSat");
+    const double used = number_in(report, "uSat");
     satellites_ = used >= 0.0 && used < 256.0 ? static_cast<std::int32_t>(used) : -1;
-    hdop_ = above_zero(number(report, "hdop"));
+    hdop_ = above_zero(number_in(report, "hdop"));
     return Outcome::ignored();  // on its own it is no sample
   }
 
@@ -123,15 +114,15 @@ class Gpsd final : public Framer {
     const auto time_ns = from_iso8601(text(report, "time"));
     if (!time_ns) return Outcome::ignored();
     gst_ns_ = *time_ns;
-    gst_sigma_N_m_ = {above_zero(number(report, "lat")), above_zero(number(report, "lon")),
-                      above_zero(number(report, "alt"))};
+    gst_sigma_N_m_ = {above_zero(number_in(report, "lat")), above_zero(number_in(report, "lon")),
+                      above_zero(number_in(report, "alt"))};
     return Outcome::ignored();
   }
 
   Outcome take_tpv(const Json& report, std::uint64_t offset, std::uint64_t length, Sink& sink) {
     GpsSample s;
-    const double mode = number(report, "mode");
-    s.fix = fix_of(mode, number(report, "status"));
+    const double mode = number_in(report, "mode");
+    s.fix = fix_of(mode, number_in(report, "status"));
     DeviceTime time;
     if (report.contains("time")) {
       time.utc_ns = from_iso8601(text(report, "time"));
@@ -144,14 +135,14 @@ class Gpsd final : public Framer {
     s.satellites = satellites_;
     s.hdop = hdop_;
     if (s.fix >= GpsFix::dead_reckoning) {
-      s.latitude_rad = number(report, "lat") * kRadPerDeg;
-      s.longitude_rad = number(report, "lon") * kRadPerDeg;
+      s.latitude_rad = number_in(report, "lat") * kRadPerDeg;
+      s.longitude_rad = number_in(report, "lon") * kRadPerDeg;
       if (!known(s.latitude_rad) || !known(s.longitude_rad))
         return Outcome::refused(RejectReason::incomplete);
-      s.altitude_m = number(report, "altHAE");
-      s.altitude_msl_m = number(report, "altMSL");
-      s.position_sigma_N_m = {above_zero(number(report, "epy")), above_zero(number(report, "epx")),
-                              above_zero(number(report, "epv"))};
+      s.altitude_m = number_in(report, "altHAE");
+      s.altitude_msl_m = number_in(report, "altMSL");
+      s.position_sigma_N_m = {above_zero(number_in(report, "epy")), above_zero(number_in(report, "epx")),
+                              above_zero(number_in(report, "epv"))};
       if (gst_ns_ && *time.utc_ns - *gst_ns_ >= 0 && *time.utc_ns - *gst_ns_ <= kGstLasts_ns) {
         for (std::size_t i = 0; i < 3; ++i)
           if (known(gst_sigma_N_m_[i])) s.position_sigma_N_m[i] = gst_sigma_N_m_[i];

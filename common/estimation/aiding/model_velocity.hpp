@@ -1,6 +1,7 @@
 #pragma once
 
 #include "estimation/aiding/model.hpp"
+#include "estimation/hydro/shaft_speed.hpp"
 #include "estimation/hydro/water_velocity.hpp"
 #include "samples/actuator.hpp"
 
@@ -41,7 +42,7 @@ class ModelVelocity {
   [[nodiscard]] static Usable usable(const AidingState& s, const VehicleModelConfig& config,
                                      const hydro::WaterVelocity& water, const PropulsionSample& sample,
                                      double surface_altitude_m) {
-    if (!(std::abs(sample.rpm) < 1e5) || !water.running()) return Usable::out_of_range;
+    if (!believable_rpm(sample.rpm) || !water.running()) return Usable::out_of_range;
     if (water.running_s() < config.settle_s) return Usable::out_of_range;
     const double depth =
         s.value(Group::surface_altitude, 0, surface_altitude_m) - s.state.nav.position.altitude_m;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimation/aiding/model.hpp"
+#include "estimation/hydro/shaft_speed.hpp"
 #include "samples/actuator.hpp"
 
 namespace fathom::estimation {
@@ -48,7 +49,7 @@ class SpeedLog {
   [[nodiscard]] static Usable usable(const AidingState& s, const SensorConfig& sensor,
                                      const PropulsionSample& sample, double surface_altitude_m) {
     if (!may_aid(sensor)) return Usable::not_estimated;
-    if (!(std::abs(sample.rpm) > 1.0 && std::abs(sample.rpm) < 1e5)) return Usable::out_of_range;
+    if (!(std::abs(sample.rpm) > 1.0 && believable_rpm(sample.rpm))) return Usable::out_of_range;
     const double depth =
         s.value(Group::surface_altitude, 0, surface_altitude_m) - s.state.nav.position.altitude_m;
     return sensor.min_depth_m <= 0.0 || depth >= sensor.min_depth_m ? Usable::yes : Usable::out_of_range;

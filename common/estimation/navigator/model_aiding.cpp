@@ -5,6 +5,7 @@
 
 #include "estimation/aiding/model_velocity.hpp"
 #include "estimation/filter/gate.hpp"
+#include "estimation/hydro/shaft_speed.hpp"
 
 namespace fathom::estimation {
 namespace {
@@ -12,7 +13,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kTurn_rad = 6.2831853071795865;
-constexpr double kMostRpm = 1e5;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ ModelAiding::Drive ModelAiding::drive(const Setup& setup, const Estimate& estima
   }
   const auto* propulsion = std::get_if<PropulsionSample>(&measurement.sample);
   if (propulsion == nullptr) return Drive::nothing;
-  if (std::abs(propulsion->rpm) < kMostRpm) water_.set_rpm(propulsion->rpm);
+  if (believable_rpm(propulsion->rpm)) water_.set_rpm(propulsion->rpm);
   if (estimate.navigating && !water_.running()) {
     const NavSolution& nav = estimate.state.nav;
     water_.begin(geo::to_matrix(nav.q_NB).transpose() * (nav.v_N_m_s - estimate.current_N_m_s(setup)));

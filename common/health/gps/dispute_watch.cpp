@@ -12,7 +12,7 @@ namespace {
 constexpr double kSilent_s = 10.0;  // at least, before it says nothing any more: verdicts come late
 constexpr double kDisputeHold_s = 3.0;
 
-bool is_disagreement(VerdictKind kind) {
+bool is_dispute(VerdictKind kind) {
   return kind == VerdictKind::rejected || kind == VerdictKind::disputed;
 }
 
@@ -26,7 +26,7 @@ void DisputeWatch::add(const Verdict& verdict, const Instant& now) {
     found = receivers_.emplace(verdict.header.sensor, Receiver{}).first;
   }
   Receiver& receiver = found->second;
-  if (!is_disagreement(verdict.kind)) {
+  if (!is_dispute(verdict.kind)) {
     if (verdict.kind == VerdictKind::used) receiver = {};
     return;
   }

@@ -9,7 +9,7 @@ namespace fathom::health {
 namespace {
 
 constexpr std::size_t kMaxNames = 64;  // names come from the network: bounded
-constexpr int kFewest = 3;
+constexpr int kFewestInTurn = 3;
 constexpr double kLastingS = 2.0;
 constexpr double kDisbeliefHoldS = 5.0;  // a receiver that just woke does not know the date yet
 
@@ -42,7 +42,7 @@ void StampWatch::count_repeat(Sensor& sensor, const Instant& now) const {
 
 void StampWatch::follow_age(Sensor& sensor, double age_s, const Instant& now) const {
   sensor.age_s = age_s;
-  sensor.ahead = age_s < -config_.clock_jump_s ? std::min(sensor.ahead + 1, kFewest) : 0;
+  sensor.ahead = age_s < -config_.clock_jump_s ? std::min(sensor.ahead + 1, kFewestInTurn) : 0;
   if (!sensor.aged) {
     sensor.aged = true;
     sensor.low_s = sensor.high_s = age_s;
@@ -62,7 +62,8 @@ void StampWatch::follow_age(Sensor& sensor, double age_s, const Instant& now) co
   sensor.beyond_low_s = std::min(sensor.beyond_low_s, age_s);
   sensor.beyond_high_s = std::max(sensor.beyond_high_s, age_s);
   ++sensor.beyond;
-  if (sensor.beyond < kFewest || to_seconds(now.monotonic_ns - sensor.beyond_since_ns) < kLastingS) return;
+  if (sensor.beyond < kFewestInTurn || to_seconds(now.monotonic_ns - sensor.beyond_since_ns) < kLastingS)
+    return;
   const bool together = sensor.beyond_high_s - sensor.beyond_low_s < 0.5 * limit_s;
   const bool one_side = sensor.beyond_low_s > sensor.high_s || sensor.beyond_high_s < sensor.low_s;
   if (together && one_side) {
@@ -128,7 +129,7 @@ void StampWatch::report(AlarmBook& book, const Instant& now) {
       sensor.jumped_s = 0.0;
     }
     const Name ahead_key = alarm_key("clock_ahead", id.second.view());
-    if (sensor.ahead >= kFewest && fresh_.of_sensor(id.first, id.second, sensor.heard_ns, now)) {
+    if (sensor.ahead >= kFewestInTurn && fresh_.of_sensor(id.first, id.second, sensor.heard_ns, now)) {
       book.hold({.key = ahead_key,
                  .severity = Severity::warning,
                  .text = sentence("Sensor %s stamps its samples %s ahead of this host's clock.", name,

@@ -17,4 +17,9 @@ namespace fathom::sim::encode {
   return {text.data(), static_cast<std::size_t>(std::clamp(length, 0, 63))};
 }
 
+/// For fields that cannot be blank.
+[[nodiscard]] inline double zero_if_unknown(double value) {
+  return known(value) ? value : 0.0;
+}
+
 }  // namespace fathom::sim::encode

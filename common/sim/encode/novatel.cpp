@@ -44,7 +44,7 @@ std::uint16_t week_of(TimeNs utc_ns) {
   return static_cast<std::uint16_t>(codec::gps_of_utc(utc_ns) / codec::kGpsWeek_ns);
 }
 
-void put_crc(NovatelBytes& frame) {
+void put_novatel_crc(NovatelBytes& frame) {
   append_le<std::uint32_t>(frame, oem::crc32(frame));
 }
 
@@ -81,7 +81,7 @@ NovatelBytes novatel_log(std::uint16_t message, TimeNs utc_ns, std::span<const s
   append_le<std::uint32_t>(out, codec::time_of_week_ms(utc_ns));
   out.resize(oem::kHeader, 0);  // status of the receiver and its software
   out.insert(out.end(), data.begin(), data.end());
-  put_crc(out);
+  put_novatel_crc(out);
   return out;
 }
 
@@ -92,7 +92,7 @@ NovatelBytes novatel_short_log(std::uint16_t message, TimeNs utc_ns, std::span<c
   append_le<std::uint16_t>(out, week_of(utc_ns));
   append_le<std::uint32_t>(out, codec::time_of_week_ms(utc_ns));
   out.insert(out.end(), data.begin(), data.end());
-  put_crc(out);
+  put_novatel_crc(out);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/units.hpp"
+#include "cli/solve/score_text.hpp"
 #include "runtime/build_info.hpp"
 #include "samples/alignment/help.hpp"
 
@@ -16,29 +17,18 @@ namespace {
 
 using nlohmann::json;
 
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
-json figures(const dataset::ErrorFigures& f, double factor = 1.0) {
-  return {{"rms", number(f.rms * factor)},
-          {"p95", number(f.p95 * factor)},
-          {"max", number(f.max * factor)},
-          {"end", number(f.end * factor)}};
-}
-
 json figures3(const std::array<dataset::ErrorFigures, 3>& f, const std::array<const char*, 3>& names,
               double factor = 1.0) {
   json out = json::object();
-  for (std::size_t i = 0; i < 3; ++i) out[names[i]] = figures(f[i], factor);
+  for (std::size_t i = 0; i < 3; ++i) out[names[i]] = figures<json>(f[i], factor);
   return out;
 }
 
 json nees(const dataset::Nees& n) {
   return {{"degrees_of_freedom", n.dof},
-          {"mean", number(n.mean)},
+          {"mean", number<json>(n.mean)},
           {"band_95", {n.band_95[0], n.band_95[1]}},
-          {"inside_band", number(n.inside)},
+          {"inside_band", number<json>(n.inside)},
           {"count", n.count}};
 }
 
@@ -57,41 +47,41 @@ json innovations(const InnovationTallies& all) {
   json out = json::object();
   for (const auto& [name, one] : all)
     out[text_of(name)] = {{"count", one.measurements()},
-                          {"mean_normalised_squared", number(one.mean_square())},
-                          {"within_95", number(one.share_within_95())}};
+                          {"mean_normalised_squared", number<json>(one.mean_square())},
+                          {"within_95", number<json>(one.share_within_95())}};
   return out;
 }
 
 json placement(const Placement& p) {
-  return {{"reference_late_s", number(p.reference_late_s)},
-          {"offset_B_m", {number(p.offset_B_m[0]), number(p.offset_B_m[1])}},
-          {"horizontal_error_m", {{"rms", number(p.rms_m)}}},
-          {"nees_horizontal", number(p.nees_horizontal)}};
+  return {{"reference_late_s", number<json>(p.reference_late_s)},
+          {"offset_B_m", {number<json>(p.offset_B_m[0]), number<json>(p.offset_B_m[1])}},
+          {"horizontal_error_m", {{"rms", number<json>(p.rms_m)}}},
+          {"nees_horizontal", number<json>(p.nees_horizontal)}};
 }
 
 json outage(const OutageFigures& f) {
   json list = json::array();
   for (const OutageWindow& window : f.windows) {
     json limits = json::object();
-    for (const auto& [name, time_s] : window.time_to_limit_s) limits[name] = number(time_s);
-    list.push_back({{"start_s", number(window.start_s)},
-                    {"end_s", number(window.end_s)},
-                    {"horizontal_error_m", number(window.horizontal_error_m)},
-                    {"inside_rms_m", number(window.inside.rms_m())},
-                    {"smoothed_inside_rms_m", number(window.smoothed_inside.rms_m())},
-                    {"predicted_95_m", number(window.predicted_95_m)},
-                    {"forecast_95_m", number(window.forecast_95_m)},
+    for (const auto& [name, time_s] : window.time_to_limit_s) limits[name] = number<json>(time_s);
+    list.push_back({{"start_s", number<json>(window.start_s)},
+                    {"end_s", number<json>(window.end_s)},
+                    {"horizontal_error_m", number<json>(window.horizontal_error_m)},
+                    {"inside_rms_m", number<json>(window.inside.rms_m())},
+                    {"smoothed_inside_rms_m", number<json>(window.smoothed_inside.rms_m())},
+                    {"predicted_95_m", number<json>(window.predicted_95_m)},
+                    {"forecast_95_m", number<json>(window.forecast_95_m)},
                     {"forecast_time_to_limit_s", limits}});
   }
-  return {
-      {"duration_s", f.duration_s},
-      {"count", f.windows.size()},
-      {"horizontal_error_m", {{"rms", number(f.rms_m)}, {"p95", number(f.p95_m)}, {"max", number(f.max_m)}}},
-      {"inside_horizontal_error_m", {{"rms", number(f.inside_rms_m)}}},
-      {"smoothed_inside_horizontal_error_m", {{"rms", number(f.smoothed_inside_rms_m)}}},
-      {"forecast_coverage", number(f.forecast_coverage)},
-      {"predicted_coverage", number(f.predicted_coverage)},
-      {"windows", list}};
+  return {{"duration_s", f.duration_s},
+          {"count", f.windows.size()},
+          {"horizontal_error_m",
+           {{"rms", number<json>(f.rms_m)}, {"p95", number<json>(f.p95_m)}, {"max", number<json>(f.max_m)}}},
+          {"inside_horizontal_error_m", {{"rms", number<json>(f.inside_rms_m)}}},
+          {"smoothed_inside_horizontal_error_m", {{"rms", number<json>(f.smoothed_inside_rms_m)}}},
+          {"forecast_coverage", number<json>(f.forecast_coverage)},
+          {"predicted_coverage", number<json>(f.predicted_coverage)},
+          {"windows", list}};
 }
 
 double percent(double part, double whole) {
@@ -99,15 +89,15 @@ double percent(double part, double whole) {
 }
 
 json errors(const dataset::Score& score, double distance_m) {
-  return {{"horizontal_error_m", figures(score.horizontal_m)},
+  return {{"horizontal_error_m", figures<json>(score.horizontal_m)},
           {"position_error_m", figures3(score.position_N_m, {"north", "east", "down"})},
-          {"distance_3d_error_m", figures(score.distance_3d_m)},
+          {"distance_3d_error_m", figures<json>(score.distance_3d_m)},
           {"velocity_error_m_s", figures3(score.velocity_N_m_s, {"north", "east", "down"})},
           {"attitude_error_deg", figures3(score.rpy_rad, {"roll", "pitch", "yaw"}, kDegPerRad)},
           {"horizontal_error_percent",
-           {{"end", number(percent(score.horizontal_m.end, distance_m))},
-            {"rms", number(percent(score.horizontal_m.rms, distance_m))},
-            {"max", number(percent(score.horizontal_m.max, distance_m))}}},
+           {{"end", number<json>(percent(score.horizontal_m.end, distance_m))},
+            {"rms", number<json>(percent(score.horizontal_m.rms, distance_m))},
+            {"max", number<json>(percent(score.horizontal_m.max, distance_m))}}},
           {"nees",
            {{"horizontal", nees(score.nees_horizontal)},
             {"position", nees(score.nees_position)},
@@ -116,16 +106,16 @@ json errors(const dataset::Score& score, double distance_m) {
 
 json heading(const HeadingErrors& errors) {
   return {{"count", errors.count()},
-          {"mean_deg", number(errors.mean_rad() * kDegPerRad)},
-          {"rms_deg", number(errors.rms_rad() * kDegPerRad)},
-          {"worst_sigma", number(errors.worst())},
+          {"mean_deg", number<json>(errors.mean_rad() * kDegPerRad)},
+          {"rms_deg", number<json>(errors.rms_rad() * kDegPerRad)},
+          {"worst_sigma", number<json>(errors.worst())},
           {"beyond_3_sigma", errors.beyond()},
-          {"worst_own_sigma", number(errors.worst_own())},
+          {"worst_own_sigma", number<json>(errors.worst_own())},
           {"beyond_3_own_sigma", errors.beyond_own()}};
 }
 
 json heading(const HeadingFigures& figures) {
-  json out = {{"aligned_after_s", number(figures.aligned_after_s)}};
+  json out = {{"aligned_after_s", number<json>(figures.aligned_after_s)}};
   if (figures.course.count() > 0) {
     out["course_made_good"] = heading(figures.course);
     out["course_made_good"]["through"] = figures.through_medium ? "medium" : "ground";
@@ -137,13 +127,6 @@ json heading(const HeadingFigures& figures) {
 
 double us_per_sample(const SolveResult& result) {
   return result.imu_samples > 0 ? 1e6 * result.wall_s / static_cast<double>(result.imu_samples) : kUnknown;
-}
-
-template <class... Arguments>
-std::string line(const char* format, Arguments... arguments) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), format, arguments...);
-  return std::string(text.data()) + "\n";
 }
 
 std::string is(double value) {
@@ -211,7 +194,7 @@ std::string to_json(const SolveReport& report) {
                                          {"kind", one.blame.kind},
                                          {"name", one.name},
                                          {"text", one.text},
-                                         {"value", number(one.value)},
+                                         {"value", number<json>(one.value)},
                                          {"first_s", one.first_s},
                                          {"last_s", one.last_s}});
   }
@@ -221,16 +204,16 @@ std::string to_json(const SolveReport& report) {
     out["noise_factors"] = report.result.noise_factors;
     out["biases"] = json::object();
     for (const auto& [axis, one] : report.result.biases)
-      out["biases"][std::string(axis)] = {{"value", number(one.in_unit(one.value))},
-                                          {"configured_sigma", number(one.in_unit(one.said_sigma))},
+      out["biases"][std::string(axis)] = {{"value", number<json>(one.in_unit(one.value))},
+                                          {"configured_sigma", number<json>(one.in_unit(one.said_sigma))},
                                           {"unit", one.unit()}};
     out["slow_errors"] = json::object();
     for (const auto& [kind, one] : report.result.slow_errors)
-      out["slow_errors"][kind] = {{"sigma_m", number(one.sigma_m)},
-                                  {"configured_sigma_m", number(one.configured_m)}};
+      out["slow_errors"][kind] = {{"sigma_m", number<json>(one.sigma_m)},
+                                  {"configured_sigma_m", number<json>(one.configured_m)}};
   }
   out["wall_time_s"] = report.result.wall_s;
-  out["time_per_imu_sample_us"] = number(us_per_sample(report.result));
+  out["time_per_imu_sample_us"] = number<json>(us_per_sample(report.result));
   out["verdicts"] = verdicts(report.result.verdicts);
   out["innovations"] = innovations(report.result.innovations);
   if (!report.smoothed) out["heading"] = heading(report.heading);
@@ -238,7 +221,7 @@ std::string to_json(const SolveReport& report) {
   out["scored"] = score.count;
   if (score.count > 0) {
     out["scored_s"] = to_seconds(score.last_ns - score.first_ns);
-    out["distance_m"] = number(report.distance_m);
+    out["distance_m"] = number<json>(report.distance_m);
     out.update(errors(score, report.distance_m));
     if (known(report.placement.reference_late_s)) out["reference_placement"] = placement(report.placement);
   }
@@ -246,10 +229,10 @@ std::string to_json(const SolveReport& report) {
   if (report.at_fixes.count > 0) {
     out["at_fixes"] = {{"count", report.at_fixes.count},
                        {"latency_found_s", report.result.gps_latency_s},
-                       {"horizontal_error_m", {{"rms", number(report.at_fixes.rms_m())}}}};
+                       {"horizontal_error_m", {{"rms", number<json>(report.at_fixes.rms_m())}}}};
     if (report.smoothed)
       out["at_fixes"]["filtered"] = {
-          {"horizontal_error_m", {{"rms", number(report.filtered_at_fixes.rms_m())}}}};
+          {"horizontal_error_m", {{"rms", number<json>(report.filtered_at_fixes.rms_m())}}}};
   }
   if (!report.outages.empty()) {
     out["gps_outages"] = json::array();

@@ -51,7 +51,7 @@ Replica::Options replica_options(const Clock& clock, const config::FusionConfig&
   return out;
 }
 
-bus::ReaderOptions nav_state_options(const host::ServiceHost& host, const config::FusionConfig& config) {
+bus::ReaderOptions heard_options(const host::ServiceHost& host, const config::FusionConfig& config) {
   bus::ReaderOptions options;
   options.deadline_ns = host.host_duration(from_seconds(3.0 / config.engine.imu.nominal_rate_hz));
   options.profile_suffix = "deep";  // each state is compared
@@ -75,7 +75,7 @@ struct ReplicaLink::Impl {
         heard(
             host.participant(),
             [this](const NavState& state, const bus::SampleInfo& info) { on_heard(state, info); },
-            nav_state_options(host, config)) {}
+            heard_options(host, config)) {}
 
   ~Impl() { end(); }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <set>
 
 #include "bus/topics.hpp"
 #include "cli/listed.hpp"
+#include "live/number.hpp"
 
 namespace fathom::cli {
 namespace {
@@ -42,12 +42,6 @@ std::string who(const bus::Peer& peer) {
     out += " (process " + std::to_string(peer.pid) + " on " + (peer.host.empty() ? "?" : peer.host) + ")";
   }
   return out;
-}
-
-std::string number(const char* format, double value) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
 }
 
 void examine_presence(const NetworkFacts& network, const HostFacts& host, Report& report) {

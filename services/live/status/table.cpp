@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <string_view>
 #include <tuple>
@@ -13,6 +12,7 @@
 
 #include "base/units.hpp"
 #include "health/text.hpp"
+#include "live/number.hpp"
 #include "samples/alignment/help.hpp"
 #include "samples/uncertainty.hpp"
 #include "status/judgement.hpp"
@@ -29,17 +29,6 @@ using status::VerdictCounts;
 constexpr double kNavFresh_s = 1.0;
 constexpr double kMonitorFresh_s = 3.0;
 constexpr double kServiceFresh_s = 3.0;
-
-/// A number, or "-" when it is unknown.
-std::string number(const char* format, double value) {
-  if (!std::isfinite(value)) return "-";
-  std::array<char, 64> buffer{};
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wformat-nonliteral"
-  std::snprintf(buffer.data(), buffer.size(), format, value);
-#pragma GCC diagnostic pop
-  return buffer.data();
-}
 
 enum class Style { plain, title, good, warn, bad, dim };
 

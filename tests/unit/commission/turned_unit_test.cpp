@@ -43,7 +43,7 @@ dataset::Dataset short_log(std::uint64_t seed) {
   return drive(out, seed);
 }
 
-const dataset::Dataset& healthy() {
+const dataset::Dataset& short_healthy() {
   static const dataset::Dataset kData = short_log(1);
   return kData;
 }
@@ -83,7 +83,7 @@ std::string at_fault(const commission::Findings& findings) {
 TEST(CommissionTurnedUnit, IsNamedWhereCompassAndDvlAndTheWayAgreeAgainstIt) {
   for (const double angle_deg : {180.0, 90.0, -90.0}) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-      dataset::Dataset data = seed == 1 ? healthy() : short_log(seed);
+      dataset::Dataset data = seed == 1 ? short_healthy() : short_log(seed);
       turn_unit(data, angle_deg);
       commission::Assumed assumed = as_built();
       if (seed == 2) {  // the others are built turned, and the configuration says so
@@ -105,7 +105,7 @@ TEST(CommissionTurnedUnit, IsNamedWhereCompassAndDvlAndTheWayAgreeAgainstIt) {
 }
 
 TEST(CommissionTurnedUnit, IsNamedBesideADvlThatIsTurnedAsWell) {
-  dataset::Dataset data = healthy();
+  dataset::Dataset data = short_healthy();
   turn_unit(data, 180.0);
   turn_dvl(data, 90.0);
   const auto found = commission::commission(data, as_built());
@@ -116,7 +116,7 @@ TEST(CommissionTurnedUnit, IsNamedBesideADvlThatIsTurnedAsWell) {
 
 TEST(CommissionTurnedUnit, IsNotWhatIsTurnedWhereTheCompassAloneIs) {
   for (const double angle_deg : {180.0, 90.0}) {
-    dataset::Dataset data = healthy();
+    dataset::Dataset data = short_healthy();
     turn_compass(data, angle_deg);
     const auto found = commission::commission(data, as_built());
     EXPECT_EQ(at_fault(found.findings), "heading ") << angle_deg << "\n" << wrongs(found.findings);
@@ -129,7 +129,7 @@ TEST(CommissionTurnedUnit, IsNotWhatIsTurnedWhereTheCompassAloneIs) {
 
 TEST(CommissionTurnedUnit, IsNotWhatIsTurnedWhereTheDvlAloneIs) {
   for (const double angle_deg : {180.0, 90.0}) {
-    dataset::Dataset data = healthy();
+    dataset::Dataset data = short_healthy();
     turn_dvl(data, angle_deg);
     const auto found = commission::commission(data, as_built());
     EXPECT_EQ(at_fault(found.findings), "dvl ") << angle_deg << "\n" << wrongs(found.findings);
@@ -138,7 +138,7 @@ TEST(CommissionTurnedUnit, IsNotWhatIsTurnedWhereTheDvlAloneIs) {
 }
 
 TEST(CommissionTurnedUnit, IsNotNamedWhereAllSayThatTheVehicleGoesAstern) {
-  dataset::Dataset data = healthy();
+  dataset::Dataset data = short_healthy();
   turn_unit(data, 180.0);
   turn_dvl(data, 180.0);
   turn_compass(data, 180.0);

@@ -13,7 +13,7 @@
 namespace fathom::config {
 namespace {
 
-const std::filesystem::path kConfig = std::filesystem::path(test::source_dir()) / "deploy/config";
+const std::filesystem::path kShipped = std::filesystem::path(test::source_dir()) / "deploy/config";
 
 const ConfigKind* kind_named(std::string_view name) {
   for (const auto& kind : config_kinds()) {
@@ -34,7 +34,7 @@ std::string kind_of(const std::filesystem::path& file) {
 TEST(ShippedFiles, EveryOneLoads) {
   int files = 0;
   std::set<std::string> kinds;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(kConfig)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kShipped)) {
     if (entry.path().extension() != ".json" || entry.path().parent_path().filename() == "schema") continue;
     SCOPED_TRACE(entry.path().string());
     const std::string name = kind_of(entry.path());
@@ -48,7 +48,7 @@ TEST(ShippedFiles, EveryOneLoads) {
 }
 
 TEST(ShippedFiles, UnknownKeyIsRefusedInEveryKind) {
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(kConfig)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kShipped)) {
     if (entry.path().extension() != ".json" || entry.path().parent_path().filename() == "schema") continue;
     const ConfigKind* kind = kind_named(kind_of(entry.path()));
     ASSERT_NE(kind, nullptr);

@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "estimation/alignment/stability_gate.hpp"
+#include "geo/so3.hpp"
 #include "support/orders.hpp"
 #include "support/vehicles/drop_run.hpp"
 

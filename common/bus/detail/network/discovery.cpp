@@ -32,7 +32,7 @@ rtps::Locator_t locator_of(const ServerAddress& server) {
 
 /// A client has to know the server's GUID prefix beforehand, so both derive it from where the server listens.
 /// The domain is in it: a client of another vehicle's domain does not get an answer.
-rtps::GuidPrefix_t prefix_of(const ServerAddress& server, std::uint32_t domain) {
+rtps::GuidPrefix_t server_prefix(const ServerAddress& server, std::uint32_t domain) {
   const rtps::Locator_t locator = locator_of(server);
   const rtps::octet* const ip = rtps::IPLocator::getIPv4(locator);
   rtps::GuidPrefix_t prefix;
@@ -106,14 +106,14 @@ void discover_through_servers(dds::DomainParticipantQos& qos, const ParticipantO
     }
     check_free(own);
     discovery.discoveryProtocol = kDiscoveryServer;
-    qos.wire_protocol().prefix = prefix_of(own, options.domain);
+    qos.wire_protocol().prefix = server_prefix(own, options.domain);
     builtin.metatrafficUnicastLocatorList.clear();
     builtin.metatrafficUnicastLocatorList.push_back(locator_of(own));
   }
   for (const std::string& text : options.discovery_servers) {
     if (text == options.discovery_listen) continue;  // one file may list the servers for all, itself included
     const ServerAddress server = parse_server_address("discovery server", text);
-    add_server(discovery, locator_of(server), prefix_of(server, options.domain));
+    add_server(discovery, locator_of(server), server_prefix(server, options.domain));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "estimation/hydro/shaft_speed.hpp"
 #include "geo/wgs84.hpp"
 
 namespace fathom::estimation {
@@ -16,7 +17,6 @@ using Eigen::Vector3d;
 constexpr double kHeadingLeft_rad = 0.79;
 // What an instrument may say at all.
 constexpr double kDeepest_m = 12000.0;
-constexpr double kMostRpm = 1e5;
 
 }  // namespace
 
@@ -169,7 +169,7 @@ std::optional<Judgement> Descent::feed(const Setup& setup, const Measurement& me
     const double lever_m = (geo::to_matrix(drop_.q_NB()) * geo::vec(config.lever_B_m)).z();
     turn(drop_.add_depth(depth->depth_m - lever_m), estimate);
   } else if (const auto* propulsion = std::get_if<PropulsionSample>(&measurement.sample)) {
-    if (!(std::abs(propulsion->rpm) < kMostRpm)) {
+    if (!believable_rpm(propulsion->rpm)) {
       out.kind = VerdictKind::out_of_range;
       return out;
     }

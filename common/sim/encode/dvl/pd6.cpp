@@ -7,6 +7,7 @@
 
 #include "base/units.hpp"
 #include "codec/dvl/pd0_geometry.hpp"
+#include "sim/encode/decimal.hpp"
 
 namespace fathom::sim::encode {
 namespace {
@@ -18,10 +19,6 @@ void print_pd6(std::string& out, const char* format, Values... values) {
   std::array<char, 160> text{};
   const int length = std::snprintf(text.data(), text.size(), format, values...);
   out.append(text.data(), static_cast<std::size_t>(std::clamp(length, 0, 159)));
-}
-
-double zero_if_unknown(double value) {
-  return known(value) ? value : 0.0;
 }
 
 /// Three components and, where given, the error velocity, in mm/s, and the status.

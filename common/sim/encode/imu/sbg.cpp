@@ -9,11 +9,11 @@
 
 #include "base/bytes/little_endian.hpp"
 #include "base/units.hpp"
-#include "base/unknown.hpp"
 #include "codec/gps_time.hpp"
 #include "codec/imu/sbg.hpp"
 #include "codec/imu/sbg_gnss.hpp"
 #include "geo/wgs84.hpp"
+#include "sim/encode/decimal.hpp"
 #include "sim/encode/true_heading.hpp"
 
 namespace fathom::sim::encode {
@@ -42,10 +42,6 @@ unsigned status_of(const ImuSample& s) {
   return ecom::link | ecom::self_test | ecom::accelerometers_in_range | ecom::gyros_in_range |
          known_axes(s.specific_force_B_m_s2, ecom::accelerometer_x) |
          known_axes(s.angular_rate_B_rad_s, ecom::gyro_x);
-}
-
-double or_zero(double value) {
-  return known(value) ? value : 0.0;
 }
 
 ecom::PositionType position_type(GpsFix fix) {
@@ -80,7 +76,7 @@ template <class Count>
 void put_counts(Frame& data, double counts) {
   constexpr double kLow = std::numeric_limits<Count>::min();
   constexpr double kHigh = std::numeric_limits<Count>::max();
-  append_le<Count>(data, static_cast<Count>(std::clamp(std::round(or_zero(counts)), kLow, kHigh)));
+  append_le<Count>(data, static_cast<Count>(std::clamp(std::round(zero_if_unknown(counts)), kLow, kHigh)));
 }
 
 }  // namespace
@@ -117,11 +113,11 @@ Frame sbg_imu_data(const ImuSample& s, DurationNs since_startup_ns) {
   put_stamp(data, since_startup_ns);
   append_le<std::uint16_t>(data, static_cast<std::uint16_t>(status_of(s)));
   const auto put3 = [&](const std::array<double, 3>& values) {
-    for (const double value : values) append_le<float>(data, static_cast<float>(or_zero(value)));
+    for (const double value : values) append_le<float>(data, static_cast<float>(zero_if_unknown(value)));
   };
   put3(s.specific_force_B_m_s2);
   put3(s.angular_rate_B_rad_s);
-  append_le<float>(data, static_cast<float>(or_zero(s.temperature_degC)));
+  append_le<float>(data, static_cast<float>(zero_if_unknown(s.temperature_degC)));
   put3(s.specific_force_B_m_s2);
   put3(s.angular_rate_B_rad_s);
   return sbg_frame(ecom::imu_data, kLogs, data);
@@ -146,12 +142,12 @@ Frame sbg_gps_position(const GpsSample& s, TimeNs utc_ns, DurationNs since_start
   const ecom::PositionType type = position_type(s.fix);
   Frame data;
   put_gps_head(data, type != ecom::PositionType::none, static_cast<unsigned>(type), utc_ns, since_startup_ns);
-  append_le<double>(data, or_zero(s.latitude_rad * kDegPerRad));
-  append_le<double>(data, or_zero(s.longitude_rad * kDegPerRad));
-  append_le<double>(data, or_zero(s.altitude_msl_m));
-  append_le<float>(data, static_cast<float>(or_zero(s.altitude_m - s.altitude_msl_m)));
+  append_le<double>(data, zero_if_unknown(s.latitude_rad * kDegPerRad));
+  append_le<double>(data, zero_if_unknown(s.longitude_rad * kDegPerRad));
+  append_le<double>(data, zero_if_unknown(s.altitude_msl_m));
+  append_le<float>(data, static_cast<float>(zero_if_unknown(s.altitude_m - s.altitude_msl_m)));
   for (const double sigma_m : s.position_sigma_N_m)
-    append_le<float>(data, static_cast<float>(or_zero(sigma_m)));
+    append_le<float>(data, static_cast<float>(zero_if_unknown(sigma_m)));
   data.push_back(s.satellites < 0 ? 0xFF : static_cast<std::uint8_t>(std::min(s.satellites, 254)));
   append_le<std::uint16_t>(data, 0xFFFF);  // no base station
   append_le<std::uint16_t>(data, 0xFFFF);  // no age of its corrections
@@ -166,9 +162,10 @@ Frame sbg_gps_velocity(const GpsSample& s, TimeNs utc_ns, DurationNs since_start
   Frame data;
   put_gps_head(data, known(s.velocity_N_m_s[0]), static_cast<unsigned>(ecom::VelocityType::doppler), utc_ns,
                since_startup_ns);
-  for (const double v_m_s : s.velocity_N_m_s) append_le<float>(data, static_cast<float>(or_zero(v_m_s)));
+  for (const double v_m_s : s.velocity_N_m_s)
+    append_le<float>(data, static_cast<float>(zero_if_unknown(v_m_s)));
   for (const double sigma_m_s : s.velocity_sigma_N_m_s)
-    append_le<float>(data, static_cast<float>(or_zero(sigma_m_s)));
+    append_le<float>(data, static_cast<float>(zero_if_unknown(sigma_m_s)));
   append_le<float>(data, static_cast<float>(s.course_rad * kDegPerRad));
   append_le<float>(data, 0.0F);
   return sbg_frame(receiver == 2 ? ecom::gps2_velocity : ecom::gps1_velocity, kLogs, data);
@@ -177,14 +174,14 @@ Frame sbg_gps_velocity(const GpsSample& s, TimeNs utc_ns, DurationNs since_start
 Frame sbg_gps_heading(const HeadingSample& s, TimeNs utc_ns, DurationNs since_startup_ns, int receiver) {
   constexpr float kNoPitch_deg = 90.0F;
   const double heading_deg = true_heading_rad(s) * kDegPerRad;
-  const double sigma_deg = or_zero(s.sigma_rad) * kDegPerRad;
+  const double sigma_deg = zero_if_unknown(s.sigma_rad) * kDegPerRad;
   const bool solved = known(heading_deg);
   Frame data;
   put_stamp(data, since_startup_ns);
   const unsigned status = solved ? ecom::kSolutionComputed : ecom::kInsufficientObservations;
   append_le<std::uint16_t>(data, static_cast<std::uint16_t>(status));
   append_le<std::uint32_t>(data, codec::time_of_week_ms(utc_ns));
-  append_le<float>(data, static_cast<float>(or_zero(heading_deg)));
+  append_le<float>(data, static_cast<float>(zero_if_unknown(heading_deg)));
   append_le<float>(data, static_cast<float>(solved ? sigma_deg : ecom::kNoHeading_deg));
   append_le<float>(data, 0.0F);
   append_le<float>(data, kNoPitch_deg);

@@ -11,6 +11,7 @@
 #include "codec/imu/known3.hpp"
 #include "codec/imu/vectornav.hpp"
 #include "codec/imu/vectornav_layout.hpp"
+#include "sim/encode/decimal.hpp"
 
 namespace fathom::sim::encode {
 namespace {
@@ -46,10 +47,6 @@ std::uint8_t fix_code(GpsFix fix) {
       return 8;
   }
   return 0;
-}
-
-double zero_if_unknown(double value) {
-  return known(value) ? value : 0.0;
 }
 
 constexpr std::uint16_t kGnssMask = 1U << vn::gnss_field::tow | 1U << vn::gnss_field::week |

@@ -7,6 +7,7 @@
 
 #include "base/units.hpp"
 #include "cli/solve/compare/compare.hpp"
+#include "cli/solve/score_text.hpp"
 #include "dataset/csv_writer.hpp"
 
 namespace fathom::cli {
@@ -19,48 +20,31 @@ using report::Comparison;
 constexpr std::size_t kMostRuns = 15;          // on the terminal
 constexpr std::size_t kMostChanges = 100'000;  // in JSON
 
-template <class... Arguments>
-std::string line(const char* format, Arguments... arguments) {
-  std::array<char, 300> text{};
-  std::snprintf(text.data(), text.size(), format, arguments...);
-  return std::string(text.data()) + "\n";
-}
-
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json figures(const dataset::ErrorFigures& f, double factor = 1.0) {
-  return {{"rms", number(f.rms * factor)},
-          {"p95", number(f.p95 * factor)},
-          {"max", number(f.max * factor)},
-          {"end", number(f.end * factor)}};
-}
-
 Json score(const dataset::Score& s) {
   return {{"count", s.count},
-          {"horizontal_m", figures(s.horizontal_m)},
-          {"north_m", figures(s.position_N_m[0])},
-          {"east_m", figures(s.position_N_m[1])},
-          {"down_m", figures(s.position_N_m[2])},
-          {"velocity_north_m_s", figures(s.velocity_N_m_s[0])},
-          {"velocity_east_m_s", figures(s.velocity_N_m_s[1])},
-          {"velocity_down_m_s", figures(s.velocity_N_m_s[2])},
-          {"roll_deg", figures(s.rpy_rad[0], kDegPerRad)},
-          {"pitch_deg", figures(s.rpy_rad[1], kDegPerRad)},
-          {"yaw_deg", figures(s.rpy_rad[2], kDegPerRad)}};
+          {"horizontal_m", figures<Json>(s.horizontal_m)},
+          {"north_m", figures<Json>(s.position_N_m[0])},
+          {"east_m", figures<Json>(s.position_N_m[1])},
+          {"down_m", figures<Json>(s.position_N_m[2])},
+          {"velocity_north_m_s", figures<Json>(s.velocity_N_m_s[0])},
+          {"velocity_east_m_s", figures<Json>(s.velocity_N_m_s[1])},
+          {"velocity_down_m_s", figures<Json>(s.velocity_N_m_s[2])},
+          {"roll_deg", figures<Json>(s.rpy_rad[0], kDegPerRad)},
+          {"pitch_deg", figures<Json>(s.rpy_rad[1], kDegPerRad)},
+          {"yaw_deg", figures<Json>(s.rpy_rad[2], kDegPerRad)}};
 }
 
 Json solution(const ComparedSolution& s) {
-  Json out = {{"settings", s.settings},
-              {"config_hash", s.config_hash},
-              {"positions", s.positions},
-              {"alignment", std::string(to_string(s.alignment))},
-              {"aligned_after_s", number(s.aligned_after_s)},
-              {"horizontal_sigma_m",
-               {{"rms", number(s.horizontal_sigma_rms_m)}, {"end", number(s.horizontal_sigma_end_m)}}}};
+  Json out = {
+      {"settings", s.settings},
+      {"config_hash", s.config_hash},
+      {"positions", s.positions},
+      {"alignment", std::string(to_string(s.alignment))},
+      {"aligned_after_s", number<Json>(s.aligned_after_s)},
+      {"horizontal_sigma_m",
+       {{"rms", number<Json>(s.horizontal_sigma_rms_m)}, {"end", number<Json>(s.horizontal_sigma_end_m)}}}};
   out["error"] = score(s.score);
-  out["error"]["nees_horizontal"] = number(s.score.nees_horizontal.mean);
+  out["error"]["nees_horizontal"] = number<Json>(s.score.nees_horizontal.mean);
   return out;
 }
 
@@ -169,7 +153,7 @@ std::string to_json(const Comparison& c) {
   out["compared"] = c.compared;
   out["equal"] = report::equal(c);
   out["difference"] = score(c.difference);
-  out["farthest_s"] = number(c.farthest_s);
+  out["farthest_s"] = number<Json>(c.farthest_s);
   out["measurements"] = c.measurements;
   out["changed"] = c.changes.size();
   out["runs"] = Json::array();
@@ -184,13 +168,14 @@ std::string to_json(const Comparison& c) {
   out["changes"] = Json::array();
   for (std::size_t i = 0; i < std::min(kMostChanges, c.changes.size()); ++i) {
     const report::VerdictChange& one = c.changes[i];
-    out["changes"].push_back({{"t_s", one.t_s},
-                              {"sensor", one.sensor},
-                              {"sequence", one.sequence},
-                              {"model", one.model},
-                              {"first", word(one.first)},
-                              {"second", word(one.second)},
-                              {"test_ratio", {number(one.test_ratio[0]), number(one.test_ratio[1])}}});
+    out["changes"].push_back(
+        {{"t_s", one.t_s},
+         {"sensor", one.sensor},
+         {"sequence", one.sequence},
+         {"model", one.model},
+         {"first", word(one.first)},
+         {"second", word(one.second)},
+         {"test_ratio", {number<Json>(one.test_ratio[0]), number<Json>(one.test_ratio[1])}}});
   }
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
