@@ -25,7 +25,9 @@ double time_of(const SampleHeader& header) {
 }
 
 struct Drop {
-  explicit Drop(EngineConfig config = test::drop_config()) : engine(config) { engine.start_from(release()); }
+  explicit Drop(const EngineConfig& config = test::drop_config()) : engine(config) {
+    engine.start_from(release());
+  }
   AlignmentStatus status() const {
     AlignmentStatus out;
     engine.fill(out);
